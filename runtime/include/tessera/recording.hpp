@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tessera/time.hpp"
+
+namespace tessera {
+
+/// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
+/// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
+///  "transitions": [[name, instance]...]}, padding to a multiple of 8, then events of 24 bytes. A truncated tail loses
+/// only itself. Nothing in it depends on the wall clock when the run's clock is simulated.
+struct Event {
+  enum class Kind : std::uint8_t {
+    firing = 1,  ///< subject: transition; version: of the channel it touched (0: none)
+    log = 2,     ///< subject: bytes of text, which follow in whole events' worth of space; version: level
+    stop = 3     ///< like log: why the run ended
+  };
+  std::int64_t time_ns = 0;
+  std::uint32_t subject = 0;
+  std::uint32_t version = 0;
+  std::uint32_t sequence = 0;  ///< per instance, from 0; gaps are events lost
+  std::uint32_t origin = 0;    ///< instance * 256 + kind; instance 0xffffff: the system itself
+
+  [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
+  [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
+};
+static_assert(sizeof(Event) == 24);
+
+/// A recording read back.
+struct Recording {
+  struct TransitionName {
+    std::string name;        ///< full path
+    std::uint32_t instance;  ///< 0xffffff: of the upper layers
+  };
+  struct Entry {
+    Event event;
+    std::string text;  ///< of log and stop
+  };
+  std::string header;  ///< the JSON
+  std::string system, net_hash, verification_hash, clock;
+  std::uint64_t seed = 0;
+  std::vector<std::string> instances;
+  std::vector<TransitionName> transitions;
+  std::vector<Entry> entries;
+  bool truncated = false;  ///< the tail was cut; what came before is here
+};
+
+/// nullopt and `error` when it is no recording.
+[[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
+
+}  // namespace tessera

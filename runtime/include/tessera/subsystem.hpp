@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "tessera/buffer.hpp"
+#include "tessera/context.hpp"
+
+namespace tessera {
+
+/// How an iteration ended: which of t4, t5, t6 of the behaviour is to fire.
+enum class Outcome : std::uint8_t { go_on, terminal, error };
+
+enum class ValueKind : std::uint8_t {
+  boolean, int8, int16, int32, int64, uint8, uint16, uint32, uint64, float32, float64, string, other
+};
+
+template <class T>
+[[nodiscard]] constexpr ValueKind value_kind() {
+  if constexpr (std::is_same_v<T, bool>) return ValueKind::boolean;
+  if constexpr (std::is_same_v<T, std::int8_t>) return ValueKind::int8;
+  if constexpr (std::is_same_v<T, std::int16_t>) return ValueKind::int16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return ValueKind::int32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return ValueKind::int64;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return ValueKind::uint8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return ValueKind::uint16;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return ValueKind::uint32;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return ValueKind::uint64;
+  if constexpr (std::is_same_v<T, float>) return ValueKind::float32;
+  if constexpr (std::is_same_v<T, double>) return ValueKind::float64;
+  return ValueKind::other;
+}
+
+/// Where the buffers and parameters of one subsystem live; filled by Subsystem::bind, used by the executor.
+/// Values are trivially copyable, so a channel moves bytes.
+struct Bindings {
+  struct Incoming {
+    std::string_view name;
+    void* value;
+    std::size_t size;
+    Arrival* arrival;
+  };
+  struct Outgoing {
+    std::string_view name;
+    const void* value;
+    std::size_t size;
+    Departure* departure;
+  };
+  struct RealOutgoing : Outgoing {
+    std::vector<std::byte> safe;  ///< the safe command
+  };
+  struct Parameter {
+    std::string_view name;
+    ValueKind kind;
+    void* value;
+    std::size_t size;
+    double minimum, maximum;
+  };
+  std::vector<Incoming> inputs, real_inputs;
+  std::vector<Outgoing> outputs;
+  std::vector<RealOutgoing> real_outputs;
+  std::vector<Parameter> parameters;
+
+  template <class T>
+  void input(std::string_view name, Input<T>& buffer) { inputs.push_back(incoming(name, buffer)); }
+  template <class T>
+  void real_input(std::string_view name, Input<T>& buffer) { real_inputs.push_back(incoming(name, buffer)); }
+  template <class T>
+  void output(std::string_view name, Output<T>& buffer) { outputs.push_back(outgoing(name, buffer)); }
+  template <class T>
+  void real_output(std::string_view name, Output<T>& buffer, const T& safe) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(&safe);
+    real_outputs.push_back({outgoing(name, buffer), {bytes, bytes + sizeof(T)}});
+  }
+  template <class T>
+  void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),
+                 double maximum = std::numeric_limits<double>::infinity()) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    constexpr ValueKind kind = std::is_class_v<T> ? ValueKind::string : value_kind<T>();
+    parameters.push_back({name, kind, &value, sizeof(T), minimum, maximum});
+  }
+
+ private:
+  template <class T>
+  static Incoming incoming(std::string_view name, Input<T>& buffer) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {name, &payload(buffer), sizeof(T), &buffer};
+  }
+  template <class T>
+  static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {name, &payload(buffer), sizeof(T), &buffer};
+  }
+};
+
+/// One subsystem as its executor sees it: user functions and conditions by number, data by bindings. Generated code
+/// derives from SubsystemOf.
+///
+/// Threads: one at a time (the subsystem's thread).
+class Subsystem {
+ public:
+  virtual ~Subsystem() = default;
+  virtual void bind(Bindings& bindings) = 0;
+  /// The transition function of a behaviour, eq. (1) of the paper. May throw whatever the user's code throws.
+  virtual void call(std::uint16_t behaviour) = 0;
+  /// Evaluates error and terminal condition, in this order. failed: the transition function has thrown.
+  [[nodiscard]] virtual Outcome decide(std::uint16_t behaviour, bool failed) = 0;
+  /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed: it ended by error.
+  [[nodiscard]] virtual int route(std::uint16_t behaviour, bool failed) = 0;
+  virtual void keep_outputs() = 0;     ///< remembers the outputs as sent
+  virtual void restore_outputs() = 0;  ///< brings them back after a failed iteration
+  [[nodiscard]] virtual Context& context() = 0;
+};
+
+/// The typed part: what a user's transition functions are given.
+template <class InputsT, class MemoryT, class OutputsT, class ParametersT, class ContextT>
+class SubsystemOf : public Subsystem {
+ public:
+  void keep_outputs() final { kept_ = out; }
+  void restore_outputs() final { out = kept_; }
+  [[nodiscard]] Context& context() final { return context_; }
+
+ protected:
+  InputsT in{};
+  MemoryT memory{};
+  OutputsT out{};
+  ParametersT parameters{};
+  ContextT context_{parameters};
+
+ private:
+  OutputsT kept_{};
+};
+
+}  // namespace tessera

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "tessera/device.hpp"
+#include "tessera/subsystem.hpp"
+#include "tessera/time.hpp"
+
+/// The net as generated controllers carry it: constant tables, read once at start. Generated code includes this and
+/// states which version it was made for.
+namespace tessera {
+
+inline constexpr int tables_version = 1;
+
+/// What a token in a place starts. The last two are no operations of the net: they latch, when the token arrives, which
+/// of the conditional transitions behind the place may fire.
+struct Does {
+  enum class Kind : std::uint8_t { nothing, call, count, write, read, decide, route } kind = Kind::nothing;
+  std::string_view subject;  ///< behaviour (call, decide, route) or port (write, read)
+};
+[[nodiscard]] constexpr Does calls(std::string_view behaviour) { return {Does::Kind::call, behaviour}; }
+[[nodiscard]] constexpr Does counts() { return {Does::Kind::count, {}}; }
+[[nodiscard]] constexpr Does writes(std::string_view port) { return {Does::Kind::write, port}; }
+[[nodiscard]] constexpr Does reads(std::string_view port) { return {Does::Kind::read, port}; }
+[[nodiscard]] constexpr Does decides(std::string_view behaviour) { return {Does::Kind::decide, behaviour}; }
+[[nodiscard]] constexpr Does routes(std::string_view behaviour) { return {Does::Kind::route, behaviour}; }
+
+/// When an enabled transition may fire.
+struct Guard {
+  enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
+  std::uint16_t entry = 0;  ///< of `next`, from 0
+};
+inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal}, if_error{Guard::Kind::error},
+    if_elapsed{Guard::Kind::elapsed};
+[[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
+
+/// A place of a subsystem; its name lacks the subsystem's path ("follow.snd.motion.2").
+struct Place {
+  std::string_view name;
+  Does does{};
+};
+
+/// inputs and outputs name places of the subsystem, or fused places of a channel as "port/place" ("motion/full").
+struct Transition {
+  std::string_view name;
+  std::initializer_list<std::string_view> inputs, outputs;
+  Guard guard{};
+};
+
+enum class Side : std::uint8_t { send, receive };
+
+/// One end of a channel inside a subsystem: the block "motion" or "motion#2" and the buffer it carries.
+struct Port {
+  std::string_view name;
+  Side side;
+  std::string_view buffer;
+};
+
+struct Behaviour {
+  std::string_view name;
+  Duration takes{0};  ///< simulated time of its transition function
+};
+
+/// The part of the net that one subsystem executes. The token enters at place "in" and leaves at "out".
+struct SubsystemNet {
+  std::span<const Behaviour> behaviours;
+  std::span<const Port> ports;
+  std::span<const Place> places;
+  std::span<const Transition> transitions;
+};
+
+enum class Kind : std::uint8_t { control, receptor, effector };
+
+/// One subsystem of one agent.
+struct Instance {
+  std::string_view agent;  ///< "robot[3]"
+  std::string_view name;   ///< "control"; the path is agent.name
+  Kind kind;
+  const SubsystemNet* net;
+  std::unique_ptr<Subsystem> (*make)();
+  Duration period{0};  ///< zero: no rate
+  Duration stale{0};   ///< zero: inputs never get stale
+};
+
+struct FusedPlace {
+  std::string_view name;
+  std::uint32_t tokens;
+};
+inline constexpr FusedPlace asynchronous[] = {{"channel", 1}};
+inline constexpr FusedPlace buffered[] = {{"empty", 1}, {"full", 0}};
+inline constexpr FusedPlace acknowledged[] = {{"empty", 1}, {"full", 0}, {"ack", 0}};
+
+struct End {
+  std::uint32_t instance;  ///< into System::instances
+  std::string_view port;   ///< empty: no behaviour of that instance uses the channel
+};
+
+struct Channel {
+  std::string_view name;  ///< "robot.control.motion->robot.motor.velocity"
+  End from, to;
+  std::span<const FusedPlace> places;
+  Duration send_timeout{0}, receive_timeout{0};  ///< zero: waits for ever
+};
+
+/// A real buffer served by the user's C++; exactly one of the two is set.
+struct CppDriver {
+  std::string_view path;  ///< "robot.sensor.left"
+  std::unique_ptr<RealReceptor> (*receptor)() = nullptr;
+  std::unique_ptr<RealEffector> (*effector)() = nullptr;
+};
+
+struct VerifiedProperty {
+  std::string_view name, verdict, method;
+};
+
+/// A whole controller.
+struct System {
+  int tables_version;
+  std::string_view name;
+  std::string_view net_hash;           ///< of the net that was verified; the controller refuses to start on another
+  std::string_view verification_hash;
+  std::span<const VerifiedProperty> verdicts;
+  std::span<const Instance> instances;  ///< agent by agent
+  std::span<const Channel> channels;
+  std::span<const CppDriver> drivers;
+};
+
+}  // namespace tessera

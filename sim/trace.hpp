@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tessera::sim {
+
+/// Where a simulated robot was, and what its light sensors saw.
+struct TracePoint {
+  double t_s = 0;
+  double x_m = 0, y_m = 0, heading_rad = 0;  ///< of the body that carries the sensors; x right, y up in the floor picture
+  double eye_x_m = 0, eye_y_m = 0;           ///< of the middle light sensor
+  bool on_line = false;                      ///< any light sensor over the line
+};
+
+/// The path of one robot: a file of comma-separated values, one line a point, after a line of column names
+/// "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line". The same run writes the same bytes.
+struct Trace {
+  std::string robot;  ///< name of the body in the world
+  std::vector<TracePoint> points;
+};
+
+/// nullopt and `error` when the file cannot be read or is no trace.
+[[nodiscard]] std::optional<Trace> read_trace(const std::string& path, std::string& error);
+
+}  // namespace tessera::sim

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spec/model.hpp"
+#include "verify/verify.hpp"
+
+namespace tessera::codegen {
+
+/// A file of the project, in memory.
+struct File {
+  std::string path;  ///< relative to the folder of its kind
+  std::string text;
+};
+
+/// The controller that executes exactly `net`: headers, tables and bindings to the user's functions, plus the
+/// CMakeLists.txt that builds them. Paths are relative to `.tessera/generated`.
+///
+/// spec_path: how the compiler shall name the specification in messages about conditions (#line).
+/// Threads:   pure; same input, same bytes. Linear in the net.
+/// Source:    paper, sec. V: places, transitions, arcs and pages to C++.
+[[nodiscard]] std::vector<File> generate(const verify::VerifiedNet& net, const spec::Model& model,
+                                         const std::string& spec_path);
+
+/// A transition function the user has to write.
+struct Stub {
+  std::string file;       ///< relative to the project: "src/control.cpp"
+  std::string function;   ///< "follow"
+  std::string signature;  ///< "void follow(Context& context, const Inputs& in, Memory& memory, Outputs& out)"
+  std::string preamble;   ///< what a new file starts with: includes and the opening namespace
+  std::string body;       ///< the whole definition, ready to paste into that namespace
+  std::string closing;    ///< what a new file ends with
+};
+
+/// One per behaviour of each definition: void NAME(Context&, const Inputs&, Memory&, Outputs&).
+[[nodiscard]] std::vector<Stub> stubs(const spec::Model& model);
+
+}  // namespace tessera::codegen

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "diagnostics/diagnostics.hpp"
+
+namespace tessera::diagnostics {
+namespace {
+
+constexpr std::size_t longest_word = 80;
+
+std::string lower(std::string_view word) {
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last(b.size() + 1);
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+/// How many mistakes a word of this length may hold and still be recognised.
+std::size_t tolerance(std::size_t length) { return length <= 2 ? 1 : (length + 2) / 3; }
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.empty() || word.size() > longest_word) return {};
+  const std::string wanted = lower(word);
+  // The first number ignores case, so that a difference of case alone hardly counts.
+  std::pair best{std::numeric_limits<std::size_t>::max(), std::size_t{0}};
+  const std::string* found = nullptr;
+  for (const std::string& candidate : candidates) {
+    const std::size_t limit = tolerance(std::min(word.size(), candidate.size()));
+    const std::size_t gap = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (candidate.empty() || candidate == word || gap > limit) continue;
+    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    const bool all_replaced = distance >= std::max(word.size(), candidate.size());
+    const std::pair score{distance, edit_distance(word, candidate)};
+    if (distance > limit || all_replaced || score >= best) continue;
+    best = score;
+    found = &candidate;
+  }
+  return found == nullptr ? std::string() : *found;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string found = nearest(word, candidates);
+  return found.empty() ? std::string() : "did you mean '" + found + "'?";
+}
+
+}  // namespace tessera::diagnostics

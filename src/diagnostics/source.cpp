@@ -1,0 +1,60 @@
+#include "diagnostics/source.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+namespace tessera::diagnostics {
+namespace {
+
+namespace fs = std::filesystem;
+
+Diagnostics failed(const fs::path& path, std::string message, std::string hint = {}) {
+  Diagnostics result(path.string(), {});
+  result.error("E001", {}, std::move(message), std::move(hint));
+  return result;
+}
+
+/// The files beside `path`, to guess which one was meant.
+std::vector<std::string> neighbours(const fs::path& path) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end; it.increment(ignored)) {
+    names.push_back(it->path().filename().string());
+  }
+  return names;
+}
+
+}  // namespace
+
+Diagnostics load(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status) && error == std::errc::permission_denied) return failed(path, "permission denied");
+  if (!fs::exists(status)) {
+    return failed(path, "no such file", did_you_mean(path.filename().string(), neighbours(path)));
+  }
+  if (fs::is_directory(status)) {
+    return failed(path, "this is a directory, not a file", "name the specification in it, e.g. spec.yaml");
+  }
+  if (!fs::is_regular_file(status) && !fs::is_fifo(status) && !fs::is_character_file(status)) {
+    return failed(path, "this is not a file that can be read");
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return failed(path, "the file cannot be opened (" + std::generic_category().message(errno) + ")");
+  // Read up to the limit, not to the size on disk: pipes and devices have none.
+  std::string text;
+  constexpr std::size_t block = 1U << 16U;
+  while (in && text.size() <= largest_source) {
+    const std::size_t used = text.size();
+    text.resize(used + block);
+    in.read(text.data() + used, block);
+    text.resize(used + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) return failed(path, "the file cannot be read");
+  if (text.size() > largest_source) return failed(path, "the file is larger than 64 MB");
+  return {path.string(), std::move(text)};
+}
+
+}  // namespace tessera::diagnostics

@@ -1,0 +1,95 @@
+#include "layers/sheet.hpp"
+
+namespace tessera::layers {
+namespace {
+
+using net::Condition;
+using Truth = Condition::Truth;
+
+Truth truth_of(const spec::Condition& condition) {
+  switch (condition.kind) {
+    case spec::Condition::Kind::never: return Truth::never;
+    case spec::Condition::Kind::always: return Truth::always;
+    case spec::Condition::Kind::expressions: return Truth::free;
+  }
+  return Truth::free;
+}
+
+Truth negation(Truth truth) {
+  switch (truth) {
+    case Truth::free: return Truth::free;
+    case Truth::always: return Truth::never;
+    case Truth::never: return Truth::always;
+  }
+  return Truth::free;
+}
+
+Truth conjunction(Truth a, Truth b) {
+  if (a == Truth::never || b == Truth::never) return Truth::never;
+  return a == Truth::always ? b : a;
+}
+
+std::string alternatives(const spec::Condition& condition) {
+  std::string text;
+  for (const spec::Expression& expression : condition.expressions) {
+    if (!text.empty()) text += " or ";
+    text += expression.name.empty() ? expression.text : expression.name;
+  }
+  return text;
+}
+
+/// Constants are not drawn, except that what never holds says so.
+Condition condition(Condition::Kind kind, Truth truth, std::string free_text) {
+  std::string text;
+  if (truth == Truth::free) text = std::move(free_text);
+  if (truth == Truth::never) text = "never";
+  return {kind, truth, UINT32_MAX, std::move(text)};
+}
+
+/// The conditions of t4, t5 and t6, which exclude each other and of which one always holds.
+struct Ending {
+  Condition go_on, terminal, error;
+};
+
+Ending ending(const spec::Behaviour& behaviour) {
+  const Truth terminal = truth_of(behaviour.terminal);
+  const Truth error = truth_of(behaviour.error);
+  const Truth no_error = negation(error);
+  std::string go_on_text = error == Truth::free ? "no error" : "";
+  if (terminal == Truth::free) go_on_text += go_on_text.empty() ? "not terminal" : ", not terminal";
+  std::string terminal_text = terminal == Truth::free ? "terminal: " + alternatives(behaviour.terminal) : "";
+  if (error == Truth::free) terminal_text += terminal_text.empty() ? "no error" : "; no error";
+  return {
+      condition(Condition::Kind::go_on, conjunction(no_error, negation(terminal)), std::move(go_on_text)),
+      condition(Condition::Kind::terminal, conjunction(no_error, terminal), std::move(terminal_text)),
+      condition(Condition::Kind::error, error, "error: " + alternatives(behaviour.error)),
+  };
+}
+
+}  // namespace
+
+/// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
+net::PageId draw_behaviour(Drawing& drawing, net::PageId parent, spec::Index instance, spec::Index index) {
+  const spec::Behaviour& behaviour = drawing.model.subsystem(instance).behaviours[index];
+  Sheet sheet(drawing, parent, net::Layer::behaviour, behaviour.name, instance, behaviour.span);
+  const std::uint32_t in = sheet.place("in", {net::Operation::Kind::transition_function, index});
+  const std::uint32_t snd = sheet.page(draw_communication(drawing, sheet.id(), instance, behaviour, Direction::send));
+  const std::uint32_t step = sheet.place("2", {net::Operation::Kind::next_iteration, UINT32_MAX});
+  const std::uint32_t rcv =
+      sheet.page(draw_communication(drawing, sheet.id(), instance, behaviour, Direction::receive));
+  const std::uint32_t out = sheet.place("out");
+
+  auto [go_on, terminal, error] = ending(behaviour);
+  const auto where = [&](const spec::Condition& given) {
+    return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
+  };
+  sheet.transition("t1", {in}, {snd});
+  sheet.transition("t2", {snd}, {step});
+  sheet.transition("t3", {step}, {rcv});
+  sheet.transition("t4", {rcv}, {in}, std::move(go_on));
+  sheet.transition("t5", {rcv}, {out}, std::move(terminal), where(behaviour.terminal));
+  sheet.transition("t6", {rcv}, {out}, std::move(error), where(behaviour.error));
+  return sheet.finish(in, out);
+}
+
+}  // namespace tessera::layers

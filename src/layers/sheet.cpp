@@ -1,0 +1,76 @@
+#include "layers/sheet.hpp"
+
+#include <utility>
+
+namespace tessera::layers {
+
+Drawing::Drawing(const spec::Model& specification)
+    : model(specification), wiring(specification), memory(specification.channels.size()) {
+  const std::vector<bool> used = wiring.used_channels();
+  for (spec::Index index = 0; index < model.channels.size(); ++index) {
+    if (!used[index]) continue;
+    const spec::Channel& channel = model.channels[index];
+    const std::string name = model.channel_name(channel);
+    const auto set = [&](const char* part, std::uint32_t tokens) {
+      net.fusions.push_back({name + part, tokens, index, channel.span});
+      return net::FusionId{static_cast<std::uint32_t>(net.fusions.size() - 1)};
+    };
+    const bool producer_blocks = channel.send == spec::Mode::blocking;
+    if (!producer_blocks && channel.receive == spec::Mode::non_blocking) {
+      memory[index].channel = set(".channel", 1);
+    } else {
+      memory[index].empty = set(".empty", 1);
+      memory[index].full = set(".full", 0);
+      if (producer_blocks) memory[index].ack = set(".ack", 0);
+    }
+  }
+}
+
+Sheet::Sheet(Drawing& drawing, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
+             net::Span span)
+    : drawing_(drawing), id_{static_cast<std::uint32_t>(drawing.net.pages.size())} {
+  drawing_.net.pages.emplace_back();
+  page_.name = std::move(name);
+  page_.layer = layer;
+  page_.parent = parent;
+  page_.subsystem = subsystem;
+  page_.span = span;
+}
+
+std::uint32_t Sheet::place(std::string name, net::Operation operation, std::uint32_t tokens) {
+  page_.nodes.push_back(
+      {.name = std::move(name), .page = {}, .fusion = {}, .tokens = tokens, .operation = operation});
+  return static_cast<std::uint32_t>(page_.nodes.size() - 1);
+}
+
+std::uint32_t Sheet::page(net::PageId page) {
+  const std::uint32_t node = place(drawing_.net.pages[page.value].name);
+  page_.nodes[node].page = page;
+  return node;
+}
+
+std::uint32_t Sheet::fused(std::string name, net::FusionId set) {
+  const std::uint32_t node = place(std::move(name), {}, drawing_.net.fusions[set.value].tokens);
+  page_.nodes[node].fusion = set;
+  return node;
+}
+
+void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
+                       net::Condition condition) {
+  transition(std::move(name), std::move(inputs), std::move(outputs), std::move(condition), page_.span);
+}
+
+void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
+                       net::Condition condition, net::Span span) {
+  page_.transitions.push_back(
+      {std::move(name), std::move(inputs), std::move(outputs), std::move(condition), span});
+}
+
+net::PageId Sheet::finish(std::uint32_t input, std::uint32_t output) {
+  page_.input = input;
+  page_.output = output;
+  drawing_.net.pages[id_.value] = std::move(page_);
+  return id_;
+}
+
+}  // namespace tessera::layers

@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+
+/// Petri nets: the hierarchical net of the five layers, and the flat net it stands for.
+namespace tessera::net {
+
+using diagnostics::Span;
+
+template <class Tag>
+struct Id {
+  std::uint32_t value = UINT32_MAX;
+  auto operator<=>(const Id&) const = default;
+  [[nodiscard]] bool valid() const { return value != UINT32_MAX; }
+};
+using PlaceId = Id<struct PlaceTag>;            ///< a place of a flat net
+using TransitionId = Id<struct TransitionTag>;  ///< a transition of a flat net
+using PageId = Id<struct PageTag>;              ///< a page (one net) of a hierarchical net
+using FusionId = Id<struct FusionTag>;          ///< a fusion set of a hierarchical net
+
+/// The five layers of the paper (sec. IV).
+enum class Layer : std::uint8_t { system, agent, subsystem, behaviour, communication };
+inline constexpr std::size_t layer_count = 5;
+
+/// What a token put into a place starts (paper, sec. II).
+struct Operation {
+  enum class Kind : std::uint8_t {
+    none,
+    transition_function,  ///< eq. (1) of behaviour `subject` of the place's subsystem
+    next_iteration,       ///< i := i + 1
+    write,                ///< output buffer into the memory of channel `subject`
+    read                  ///< memory of channel `subject` into the input buffer
+  } kind = Kind::none;
+  std::uint32_t subject = UINT32_MAX;
+  bool operator==(const Operation&) const = default;
+};
+
+/// The condition of a transition.
+struct Condition {
+  enum class Kind : std::uint8_t {
+    none,
+    go_on,     ///< t4: no error, not terminal
+    terminal,  ///< t5: terminal, no error
+    error,     ///< t6: error
+    next,      ///< entry `subject` of `next` of the behaviour that is left is the first whose condition holds
+    elapsed    ///< the timeout of channel `subject` has passed since the token's arrival
+  } kind = Kind::none;
+  /// What is known before run time: `always` and `never` for constants, `free` for the rest.
+  enum class Truth : std::uint8_t { free, always, never } truth = Truth::always;
+  std::uint32_t subject = UINT32_MAX;
+  std::string text;  ///< as drawn, without the brackets; empty: nothing to draw
+  bool operator==(const Condition&) const = default;
+};
+
+inline constexpr std::uint32_t no_subsystem = UINT32_MAX;
+
+// ---------------------------------------------------------------------------------------------- hierarchical
+
+/// A place or a page drawn in a net.
+struct Node {
+  std::string name;                ///< local: "in", "snd", "motion.2"
+  PageId page;                     ///< valid: this is a page, standing for that net
+  FusionId fusion;                 ///< valid: member of that fusion set
+  std::uint32_t tokens = 0;        ///< initial marking
+  Operation operation;
+};
+
+struct PageTransition {
+  std::string name;                   ///< local: "t1", "motion.t1o"
+  std::vector<std::uint32_t> inputs;  ///< indices into Page::nodes
+  std::vector<std::uint32_t> outputs;
+  Condition condition;
+  Span span;  ///< of the specification
+};
+
+/// One net of the hierarchy: what one sheet of the drawing shows.
+struct Page {
+  std::string name;   ///< last part of the path: "follow"; empty for the root
+  Layer layer = Layer::system;
+  PageId parent;      ///< invalid for the root
+  std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
+  std::uint32_t input = 0, output = 0;     ///< indices into nodes
+  std::vector<Node> nodes;
+  std::vector<PageTransition> transitions;
+  Span span;
+};
+
+/// A place seen in several nets (global fusion). Members agree on marking; at most one has an operation.
+struct FusionSet {
+  std::string name;  ///< "robot.control.motion->robot.motor.velocity.full"
+  std::uint32_t tokens = 0;
+  std::uint32_t channel = UINT32_MAX;  ///< of the model
+  Span span;
+};
+
+/// Pages in an order in which parents come before children; pages[0] is the multi-agent system.
+struct HierarchicalNet {
+  std::vector<Page> pages;
+  std::vector<FusionSet> fusions;
+
+  /// "robot.control.follow.snd"; "" for the root.
+  [[nodiscard]] std::string path(PageId page) const;
+  /// The page with that path, or an invalid id.
+  [[nodiscard]] PageId find(std::string_view path) const;
+};
+
+// ---------------------------------------------------------------------------------------------- flat
+
+struct Place {
+  std::string name;  ///< path: "robot.control.follow.snd.motion.2"
+  std::uint32_t tokens = 0;
+  Operation operation;
+  Layer layer = Layer::system;  ///< of the page that drew it (communication for fused places)
+  PageId page;                  ///< invalid for fused places
+  std::uint32_t subsystem = no_subsystem;
+  std::uint32_t channel = UINT32_MAX;  ///< of a fused place
+  Span span;
+
+  [[nodiscard]] bool fused() const { return channel != UINT32_MAX; }
+};
+
+struct Transition {
+  std::string name;
+  Condition condition;
+  Layer layer = Layer::system;
+  PageId page;
+  std::uint32_t subsystem = no_subsystem;
+  Span span;
+};
+
+/// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have more.
+struct Arc {
+  PlaceId place;
+  std::uint32_t weight = 1;
+  auto operator<=>(const Arc&) const = default;
+};
+
+/// A place/transition net with the origin of every element. Immutable once built; arcs are stored per transition.
+///
+/// Threads: const members from any thread.
+class Net {
+ public:
+  PlaceId add(Place place);
+  /// inputs and outputs: at most one arc per place each.
+  TransitionId add(Transition transition, std::span<const Arc> inputs, std::span<const Arc> outputs);
+
+  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
+  [[nodiscard]] const std::vector<Transition>& transitions() const { return transitions_; }
+  [[nodiscard]] const Place& operator[](PlaceId id) const { return places_[id.value]; }
+  [[nodiscard]] const Transition& operator[](TransitionId id) const { return transitions_[id.value]; }
+  [[nodiscard]] std::span<const Arc> preset(TransitionId id) const;
+  [[nodiscard]] std::span<const Arc> postset(TransitionId id) const;
+  [[nodiscard]] std::size_t arc_count() const { return arcs_.size(); }
+
+ private:
+  std::vector<Place> places_;
+  std::vector<Transition> transitions_;
+  std::vector<Arc> arcs_;               // inputs then outputs of each transition
+  std::vector<std::uint32_t> starts_;   // two per transition: begin of inputs, begin of outputs
+};
+
+/// A weighted sum of places that no firing changes: sum(weight * tokens) = total in every reachable marking.
+struct Invariant {
+  struct Term {
+    PlaceId place;
+    std::int32_t weight = 1;
+  };
+  std::string name;  ///< what it says: "one token in robot.control"
+  std::vector<Term> terms;
+  std::int64_t total = 0;
+};
+
+}  // namespace tessera::net

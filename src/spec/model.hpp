@@ -1,0 +1,226 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+
+/// The specification as data: what section "The specification file" of docs/specification.md describes, with every
+/// default filled in and every name resolved to an index. Nothing here knows about nets.
+namespace tessera::spec {
+
+using diagnostics::Span;
+using Duration = std::chrono::nanoseconds;
+using Index = std::uint32_t;
+inline constexpr Index none = UINT32_MAX;
+
+// ---------------------------------------------------------------------------------------------- types
+
+enum class Scalar : std::uint8_t {
+  boolean, int8, int16, int32, int64, uint8, uint16, uint32, uint64, float32, float64
+};
+
+/// The type of a buffer, field or parameter.
+struct Type {
+  enum class Kind : std::uint8_t { scalar, string, structure } kind = Kind::scalar;
+  Scalar scalar = Scalar::float64;
+  std::uint32_t capacity = 256;  ///< of a string, in bytes
+  Index structure = none;        ///< of a structure: index into Model::structures
+  std::uint64_t extent = 0;      ///< elements of a fixed array; 0: not an array
+  std::string unit;              ///< "m/s"; empty: none given
+
+  bool operator==(const Type&) const = default;
+};
+
+/// A named, typed place for data: field of a structure, buffer, memory cell.
+struct Field {
+  std::string name;
+  Type type;
+  std::string initial;  ///< C++ initialiser without braces; empty: zero. Only memory cells have one.
+  Span span;
+};
+
+struct Structure {
+  std::string name;
+  std::vector<Field> fields;
+  Span span;
+};
+
+/// A constant that can be changed without recompiling. Scalars and strings only.
+struct Parameter {
+  std::string name;
+  Type type;
+  std::string initial;  ///< C++ literal
+  std::optional<double> minimum, maximum;
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- behaviours
+
+/// A C++ expression over in, out, memory and parameters; span is that of its text in the file.
+struct Expression {
+  std::string name;  ///< of an indexed condition; empty: unnamed
+  std::string text;
+  Span span;
+};
+
+/// A terminal or error condition (paper, sec. IV-D): any one of its expressions suffices.
+struct Condition {
+  enum class Kind : std::uint8_t { never, always, expressions } kind = Kind::never;
+  std::vector<Expression> expressions;
+  Span span;
+};
+
+/// When an entry of `next` is taken (the paper's initial condition of the next behaviour).
+struct When {
+  enum class Kind : std::uint8_t {
+    always,      ///< no `when`
+    error,       ///< the behaviour ended by its error condition
+    terminal,    ///< the terminal expression `expression` of the behaviour held
+    named_error, ///< the error expression `expression` of the behaviour held
+    expression   ///< `text` holds
+  } kind = Kind::always;
+  Index expression = none;  ///< into Behaviour::terminal or ::error
+  Expression text;
+};
+
+struct Next {
+  Index behaviour = none;  ///< none: `end`
+  When when;
+  Span span;
+};
+
+enum class Transfer : std::uint8_t { sequential, parallel };
+
+struct Behaviour {
+  std::string name;
+  Condition terminal;
+  Condition error;
+  std::vector<Next> next;          ///< never empty: a behaviour without `next` has one unconditional `end`
+  bool next_given = false;         ///< false: that `end` is the default
+  std::optional<std::vector<Index>> send;     ///< output buffers in the order listed; nullopt: all, in channel order
+  std::optional<std::vector<Index>> receive;  ///< input buffers in the order listed; nullopt: all, in channel order
+  Transfer transfer = Transfer::sequential;
+  Duration takes{0};               ///< simulated time of its transition function
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- subsystems, agents
+
+enum class SubsystemKind : std::uint8_t { control, receptor, effector };
+
+struct Subsystem {
+  SubsystemKind kind = SubsystemKind::control;
+  std::string name;  ///< "control" for the control subsystem
+  std::optional<Duration> period;
+  Index start = 0;   ///< behaviour
+  std::vector<Field> inputs, outputs, memory;
+  std::vector<Parameter> parameters;
+  std::vector<Field> real;           ///< read before (receptor) or written after (effector) the transition function
+  std::vector<std::string> safe;     ///< effector: C++ initialiser per real buffer; empty string: zero
+  std::optional<Duration> stale;     ///< effector: inputs older than this mean the safe command
+  std::vector<Behaviour> behaviours;
+  Span span;
+};
+
+/// What an agent is made of: an entry of `templates`, or an agent written out under `agents`.
+struct Definition {
+  std::string name;
+  std::vector<Subsystem> subsystems;  ///< control first, then receptors, then effectors, as in the file
+  bool is_template = false;
+  Span span;
+};
+
+/// One agent of the running system.
+struct Agent {
+  std::string path;  ///< "robot", or "robot[3]" in a fleet
+  Index definition = 0;
+  Index fleet = none;      ///< agents of one `count` share a number
+  Index number = 0;        ///< within the fleet
+  Index first_instance = 0;  ///< into Model::instances; its subsystems follow one another
+  Span span;
+};
+
+/// One subsystem of one agent.
+struct Instance {
+  Index agent = 0;
+  Index subsystem = 0;  ///< into Definition::subsystems
+};
+
+// ---------------------------------------------------------------------------------------------- channels
+
+enum class Mode : std::uint8_t { non_blocking, blocking };
+
+struct ChannelEnd {
+  Index instance = 0;
+  Index buffer = 0;  ///< into Subsystem::outputs (from) or ::inputs (to)
+};
+
+struct Channel {
+  ChannelEnd from, to;
+  Mode send = Mode::non_blocking;
+  Mode receive = Mode::non_blocking;
+  std::optional<Duration> send_timeout, receive_timeout;
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- the rest
+
+/// Kept for the verifier; the text is not interpreted here.
+struct Property {
+  std::string name;
+  std::string kind;  ///< never, always, reachable, always_reachable, leads_to
+  std::string text;
+  Span span;
+};
+
+/// Which device stands behind a real buffer.
+struct Driver {
+  Index instance = 0;
+  Index real = 0;       ///< into Subsystem::real
+  std::string kind;     ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
+  std::string target;   ///< C++ class, or the name of an element of the world
+  std::map<std::string, double> options;  ///< e.g. noise
+  Span span;
+};
+
+struct Track {
+  std::string image;
+  double metres_per_pixel = 0.005;
+  std::optional<double> start_x_m, start_y_m, start_heading_rad;
+  double footprint_m = 0.008;
+};
+
+struct Simulation {
+  std::string world;
+  std::optional<Track> track;
+  std::vector<Driver> drivers;
+  Span span;
+};
+
+/// A whole specification. Invariant: every index is valid, every path was resolved.
+struct Model {
+  std::string system;
+  std::vector<Structure> structures;  ///< in an order in which each uses only earlier ones
+  std::vector<Parameter> parameters;  ///< of the system, visible in every subsystem
+  std::vector<Definition> definitions;
+  std::vector<Agent> agents;
+  std::vector<Instance> instances;    ///< every subsystem of every agent, agent by agent
+  std::vector<Channel> channels;      ///< in the order of the file, fleets expanded agent by agent
+  std::vector<Driver> drivers;        ///< of the real robot (`drivers:`)
+  std::vector<Property> properties;
+  std::optional<Simulation> simulation;
+
+  [[nodiscard]] const Definition& definition_of(const Agent& agent) const { return definitions[agent.definition]; }
+  [[nodiscard]] const Subsystem& subsystem(Index instance) const;
+  /// "robot[3].control"
+  [[nodiscard]] std::string instance_path(Index instance) const;
+  /// "robot.control.motion->robot.motor.velocity": the name of the channel's fused places.
+  [[nodiscard]] std::string channel_name(const Channel& channel) const;
+};
+
+}  // namespace tessera::spec

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "diagnostics/diagnostics.hpp"
+#include "spec/model.hpp"
+
+namespace tessera::spec {
+
+/// Reads a specification (YAML) into a Model. Reports every mistake of the text to `out`, then nullopt if any was an
+/// error.
+///
+/// Errors:  E0xx the text is not YAML that we read; E1xx names and structure; E2xx types and units; E3xx wiring.
+///          docs/diagnostics.md is the catalogue.
+/// Threads: pure.
+[[nodiscard]] std::optional<Model> parse(diagnostics::Diagnostics& out);
+
+}  // namespace tessera::spec

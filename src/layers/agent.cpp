@@ -3,14 +3,14 @@
 namespace tessera::layers {
 
 /// Layer 2, an agent (paper, sec. IV-B): its subsystems run side by side.
-net::PageId draw_agent(Drawing& drawing, net::PageId parent, spec::Index index) {
-  const spec::Agent& agent = drawing.model.agents[index];
-  const auto count = static_cast<spec::Index>(drawing.model.definition_of(agent).subsystems.size());
-  Sheet sheet(drawing, parent, net::Layer::agent, agent.path, net::no_subsystem, agent.span);
+net::PageId draw_agent(Draft& draft, net::PageId parent, spec::Index index) {
+  const spec::Agent& agent = draft.model.agents[index];
+  const auto count = static_cast<spec::Index>(draft.model.definition_of(agent).subsystems.size());
+  Sheet sheet(draft, parent, net::Layer::agent, agent.path, net::no_subsystem, agent.span);
   const std::uint32_t in = sheet.place("in");
   std::vector<std::uint32_t> subsystems;
   for (spec::Index subsystem = 0; subsystem < count; ++subsystem)
-    subsystems.push_back(sheet.page(draw_subsystem(drawing, sheet.id(), agent.first_instance + subsystem)));
+    subsystems.push_back(sheet.page(draw_subsystem(draft, sheet.id(), agent.first_instance + subsystem)));
   const std::uint32_t out = sheet.place("out");
   sheet.transition("t_in", {in}, subsystems);
   sheet.transition("t_out", subsystems, {out});

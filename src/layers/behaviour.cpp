@@ -8,18 +8,24 @@ using Truth = Condition::Truth;
 
 Truth truth_of(const spec::Condition& condition) {
   switch (condition.kind) {
-    case spec::Condition::Kind::never: return Truth::never;
-    case spec::Condition::Kind::always: return Truth::always;
-    case spec::Condition::Kind::expressions: return Truth::free;
+    case spec::Condition::Kind::never:
+      return Truth::never;
+    case spec::Condition::Kind::always:
+      return Truth::always;
+    case spec::Condition::Kind::expressions:
+      return Truth::free;
   }
   return Truth::free;
 }
 
 Truth negation(Truth truth) {
   switch (truth) {
-    case Truth::free: return Truth::free;
-    case Truth::always: return Truth::never;
-    case Truth::never: return Truth::always;
+    case Truth::free:
+      return Truth::free;
+    case Truth::always:
+      return Truth::never;
+    case Truth::never:
+      return Truth::always;
   }
   return Truth::free;
 }
@@ -69,14 +75,15 @@ Ending ending(const spec::Behaviour& behaviour) {
 }  // namespace
 
 /// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
-net::PageId draw_behaviour(Drawing& drawing, net::PageId parent, spec::Index instance, spec::Index index) {
-  const spec::Behaviour& behaviour = drawing.model.subsystem(instance).behaviours[index];
-  Sheet sheet(drawing, parent, net::Layer::behaviour, behaviour.name, instance, behaviour.span);
+net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index) {
+  const spec::Behaviour& behaviour = draft.model.subsystem(instance).behaviours[index];
+  Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, instance, behaviour.span);
   const std::uint32_t in = sheet.place("in", {net::Operation::Kind::transition_function, index});
-  const std::uint32_t snd = sheet.page(draw_communication(drawing, sheet.id(), instance, behaviour, Direction::send));
+  const std::uint32_t snd =
+      sheet.page(draw_communication(draft, sheet.id(), instance, behaviour, Direction::send));
   const std::uint32_t step = sheet.place("2", {net::Operation::Kind::next_iteration, UINT32_MAX});
   const std::uint32_t rcv =
-      sheet.page(draw_communication(drawing, sheet.id(), instance, behaviour, Direction::receive));
+      sheet.page(draw_communication(draft, sheet.id(), instance, behaviour, Direction::receive));
   const std::uint32_t out = sheet.place("out");
 
   auto [go_on, terminal, error] = ending(behaviour);

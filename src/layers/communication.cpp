@@ -17,7 +17,9 @@ struct Block {
 std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::Index>& channels,
                              const std::vector<spec::Field>& buffers, Direction direction) {
   std::vector<std::uint32_t> count(buffers.size(), 0), number(buffers.size(), 0);
-  const auto buffer_of = [&](spec::Index channel) { return end_of(model.channels[channel], direction).buffer; };
+  const auto buffer_of = [&](spec::Index channel) {
+    return end_of(model.channels[channel], direction).buffer;
+  };
   for (const spec::Index channel : channels) ++count[buffer_of(channel)];
   std::vector<Block> blocks;
   for (const spec::Index channel : channels) {
@@ -40,20 +42,20 @@ std::string in_words(spec::Duration duration) {
 /// Draws the blocks of one page.
 class BlockPen {
  public:
-  BlockPen(const Drawing& drawing, Sheet& sheet, Direction direction)
-      : drawing_(drawing), sheet_(sheet), direction_(direction) {}
+  BlockPen(const Draft& draft, Sheet& sheet, Direction direction)
+      : draft_(draft), sheet_(sheet), direction_(direction) {}
 
   /// Returns the output place, which is the last to be drawn of those that are the page's own.
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string out_name) {
     block_ = &block;
     in_ = in;
-    const spec::Channel& channel = drawing_.model.channels[block.channel];
+    const spec::Channel& channel = draft_.model.channels[block.channel];
     const bool sends = direction_ == Direction::send;
-    work_ = sheet_.place(
-        local("2"), {sends ? net::Operation::Kind::write : net::Operation::Kind::read, block.channel});
+    work_ = sheet_.place(local("2"),
+                         {sends ? net::Operation::Kind::write : net::Operation::Kind::read, block.channel});
     if (sends && channel.send == Mode::blocking) wait_ = sheet_.place(local("wait"));
     out_ = sheet_.place(std::move(out_name));
-    const ChannelPlaces& memory = drawing_.memory[block.channel];
+    const ChannelPlaces& memory = draft_.memory[block.channel];
     if (memory.channel.valid())
       exchange(memory);
     else
@@ -112,7 +114,7 @@ class BlockPen {
 
   [[nodiscard]] std::string local(const char* part) const { return block_->name + "." + part; }
 
-  const Drawing& drawing_;
+  const Draft& draft_;
   Sheet& sheet_;
   Direction direction_;
   // Of the block at hand:
@@ -125,7 +127,8 @@ class BlockPen {
 net::PageId draw_chain(Sheet& sheet, BlockPen& pen, const std::vector<Block>& blocks) {
   const std::uint32_t in = sheet.place("in");
   std::uint32_t at = in;
-  for (const Block& block : blocks) at = pen.draw(block, at, &block == &blocks.back() ? "out" : block.name + ".out");
+  for (const Block& block : blocks)
+    at = pen.draw(block, at, &block == &blocks.back() ? "out" : block.name + ".out");
   return sheet.finish(in, at);
 }
 
@@ -151,17 +154,17 @@ net::PageId draw_nothing(Sheet& sheet) {
 
 }  // namespace
 
-/// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per channel it uses.
-net::PageId draw_communication(Drawing& drawing, net::PageId parent, spec::Index instance,
+/// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per channel it
+/// uses.
+net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance,
                                const spec::Behaviour& behaviour, Direction direction) {
   const bool sends = direction == Direction::send;
-  Sheet sheet(drawing, parent, net::Layer::communication, sends ? "snd" : "rcv", instance, behaviour.span);
-  const spec::Subsystem& subsystem = drawing.model.subsystem(instance);
-  const std::vector<Block> blocks =
-      blocks_of(drawing.model, drawing.wiring.used(instance, behaviour, direction),
-                sends ? subsystem.outputs : subsystem.inputs, direction);
+  Sheet sheet(draft, parent, net::Layer::communication, sends ? "snd" : "rcv", instance, behaviour.span);
+  const spec::Subsystem& subsystem = draft.model.subsystem(instance);
+  const std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(instance, behaviour, direction),
+                                              sends ? subsystem.outputs : subsystem.inputs, direction);
   if (blocks.empty()) return draw_nothing(sheet);
-  BlockPen pen(drawing, sheet, direction);
+  BlockPen pen(draft, sheet, direction);
   if (behaviour.transfer == spec::Transfer::parallel && blocks.size() > 1)
     return draw_side_by_side(sheet, pen, blocks);
   return draw_chain(sheet, pen, blocks);

@@ -25,9 +25,9 @@ bool examine(const spec::Model& model, diagnostics::Diagnostics& out) {
 
 std::optional<net::HierarchicalNet> build(const spec::Model& model, diagnostics::Diagnostics& out) {
   if (!examine(model, out)) return std::nullopt;
-  Drawing drawing(model);
-  draw_system(drawing);
-  return std::move(drawing.net);
+  Draft draft(model);
+  draw_system(draft);
+  return std::move(draft.net);
 }
 
 }  // namespace tessera::layers

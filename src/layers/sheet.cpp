@@ -4,7 +4,7 @@
 
 namespace tessera::layers {
 
-Drawing::Drawing(const spec::Model& specification)
+Draft::Draft(const spec::Model& specification)
     : model(specification), wiring(specification), memory(specification.channels.size()) {
   const std::vector<bool> used = wiring.used_channels();
   for (spec::Index index = 0; index < model.channels.size(); ++index) {
@@ -26,10 +26,10 @@ Drawing::Drawing(const spec::Model& specification)
   }
 }
 
-Sheet::Sheet(Drawing& drawing, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
+Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
              net::Span span)
-    : drawing_(drawing), id_{static_cast<std::uint32_t>(drawing.net.pages.size())} {
-  drawing_.net.pages.emplace_back();
+    : draft_(draft), id_{static_cast<std::uint32_t>(draft.net.pages.size())} {
+  draft_.net.pages.emplace_back();
   page_.name = std::move(name);
   page_.layer = layer;
   page_.parent = parent;
@@ -44,24 +44,24 @@ std::uint32_t Sheet::place(std::string name, net::Operation operation, std::uint
 }
 
 std::uint32_t Sheet::page(net::PageId page) {
-  const std::uint32_t node = place(drawing_.net.pages[page.value].name);
+  const std::uint32_t node = place(draft_.net.pages[page.value].name);
   page_.nodes[node].page = page;
   return node;
 }
 
 std::uint32_t Sheet::fused(std::string name, net::FusionId set) {
-  const std::uint32_t node = place(std::move(name), {}, drawing_.net.fusions[set.value].tokens);
+  const std::uint32_t node = place(std::move(name), {}, draft_.net.fusions[set.value].tokens);
   page_.nodes[node].fusion = set;
   return node;
 }
 
-void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
-                       net::Condition condition) {
+void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs,
+                       std::vector<std::uint32_t> outputs, net::Condition condition) {
   transition(std::move(name), std::move(inputs), std::move(outputs), std::move(condition), page_.span);
 }
 
-void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
-                       net::Condition condition, net::Span span) {
+void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs,
+                       std::vector<std::uint32_t> outputs, net::Condition condition, net::Span span) {
   page_.transitions.push_back(
       {std::move(name), std::move(inputs), std::move(outputs), std::move(condition), span});
 }
@@ -69,7 +69,7 @@ void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs, std:
 net::PageId Sheet::finish(std::uint32_t input, std::uint32_t output) {
   page_.input = input;
   page_.output = output;
-  drawing_.net.pages[id_.value] = std::move(page_);
+  draft_.net.pages[id_.value] = std::move(page_);
   return id_;
 }
 

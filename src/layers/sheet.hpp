@@ -9,15 +9,15 @@
 
 namespace tessera::layers {
 
-/// The fusion sets of a channel's memory: `channel` alone if both sides are non-blocking, else `empty` and `full`, and
-/// `ack` if the producer blocks.
+/// The fusion sets of a channel's memory: `channel` alone if both sides are non-blocking, else `empty` and
+/// `full`, and `ack` if the producer blocks.
 struct ChannelPlaces {
   net::FusionId channel, empty, full, ack;
 };
 
 /// What the five layers draw into, together.
-struct Drawing {
-  explicit Drawing(const spec::Model& specification);
+struct Draft {
+  explicit Draft(const spec::Model& specification);
 
   const spec::Model& model;
   Wiring wiring;
@@ -25,10 +25,12 @@ struct Drawing {
   std::vector<ChannelPlaces> memory;  ///< per channel; invalid ids for channels that no behaviour uses
 };
 
-/// One page while it is drawn. Its id exists from the start, so that pages below it can name it as their parent.
+/// One page while it is drawn. Its id exists from the start, so that pages below it can name it as their
+/// parent.
 class Sheet {
  public:
-  Sheet(Drawing& drawing, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem, net::Span span);
+  Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
+        net::Span span);
 
   /// Each returns the index of the new node.
   std::uint32_t place(std::string name, net::Operation operation = {}, std::uint32_t tokens = 0);
@@ -45,17 +47,17 @@ class Sheet {
   net::PageId finish(std::uint32_t input, std::uint32_t output);
 
  private:
-  Drawing& drawing_;
+  Draft& draft_;
   net::PageId id_;
   net::Page page_;
 };
 
 /// One function per layer of the paper: draws the page and all pages below it.
-net::PageId draw_system(Drawing& drawing);
-net::PageId draw_agent(Drawing& drawing, net::PageId parent, spec::Index agent);
-net::PageId draw_subsystem(Drawing& drawing, net::PageId parent, spec::Index instance);
-net::PageId draw_behaviour(Drawing& drawing, net::PageId parent, spec::Index instance, spec::Index behaviour);
-net::PageId draw_communication(Drawing& drawing, net::PageId parent, spec::Index instance,
+net::PageId draw_system(Draft& draft);
+net::PageId draw_agent(Draft& draft, net::PageId parent, spec::Index agent);
+net::PageId draw_subsystem(Draft& draft, net::PageId parent, spec::Index instance);
+net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index behaviour);
+net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance,
                                const spec::Behaviour& behaviour, Direction direction);
 
 }  // namespace tessera::layers

@@ -18,7 +18,8 @@ class Examination {
     operations_.assign(net_.fusions.size(), 0);
     for (std::uint32_t page = 0; page < net_.pages.size(); ++page) examine(PageId{page});
     for (std::uint32_t page = 1; page < net_.pages.size(); ++page)
-      if (reached_[page] == 0) out_.error("E404", net_.pages[page].span, "no net draws page '" + name(page) + "'");
+      if (reached_[page] == 0)
+        out_.error("E404", net_.pages[page].span, "no net draws page '" + name(page) + "'");
     return out_.error_count() == before;
   }
 
@@ -26,7 +27,8 @@ class Examination {
   void examine(PageId id) {
     const Page& page = net_.pages[id.value];
     if (page.input >= page.nodes.size() || page.output >= page.nodes.size())
-      out_.error("E401", page.span, "page '" + name(id.value) + "' has no net with an input and an output place");
+      out_.error("E401", page.span,
+                 "page '" + name(id.value) + "' has no net with an input and an output place");
     for (const Node& node : page.nodes) {
       if (node.page.valid()) examine_page(id, node);
       if (node.fusion.valid()) examine_member(id, node);
@@ -45,9 +47,11 @@ class Examination {
       return;
     }
     if (node.fusion.valid() || node.tokens > 0 || node.operation.kind != Operation::Kind::none)
-      out_.error("E405", span, "page '" + node.name + "' is fused, marked or has an operation, which only places may");
+      out_.error("E405", span,
+                 "page '" + node.name + "' is fused, marked or has an operation, which only places may");
     // Children follow their parents, so this also excludes pages that contain themselves.
-    if (node.page <= drawn_in || net_.pages[node.page.value].parent != drawn_in || reached_[node.page.value]++ > 0)
+    if (node.page <= drawn_in || net_.pages[node.page.value].parent != drawn_in ||
+        reached_[node.page.value]++ > 0)
       out_.error("E404", span, "page '" + node.name + "' is reached twice");
   }
 
@@ -60,8 +64,8 @@ class Examination {
     const FusionSet& set = net_.fusions[node.fusion.value];
     if (node.tokens != set.tokens)
       out_.error("E402", span,
-                 "place '" + node.name + "' starts with " + std::to_string(node.tokens) + " tokens, its fusion set '" +
-                     set.name + "' with " + std::to_string(set.tokens));
+                 "place '" + node.name + "' starts with " + std::to_string(node.tokens) +
+                     " tokens, its fusion set '" + set.name + "' with " + std::to_string(set.tokens));
     if (node.operation.kind != Operation::Kind::none && operations_[node.fusion.value]++ > 0)
       out_.error("E403", span, "two members of fusion set '" + set.name + "' have an operation");
   }
@@ -172,7 +176,8 @@ class Flattening {
     }
   }
 
-  /// The place behind a node: of a page, the place at its port, whose net may be entered through a page again.
+  /// The place behind a node: of a page, the place at its port, whose net may be entered through a page
+  /// again.
   [[nodiscard]] PlaceId resolve(PageId page, std::uint32_t node, std::uint32_t Page::*port) const {
     while (net_.pages[page.value].nodes[node].page.valid()) {
       page = net_.pages[page.value].nodes[node].page;

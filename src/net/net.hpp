@@ -63,10 +63,10 @@ inline constexpr std::uint32_t no_subsystem = UINT32_MAX;
 
 /// A place or a page drawn in a net.
 struct Node {
-  std::string name;                ///< local: "in", "snd", "motion.2"
-  PageId page;                     ///< valid: this is a page, standing for that net
-  FusionId fusion;                 ///< valid: member of that fusion set
-  std::uint32_t tokens = 0;        ///< initial marking
+  std::string name;          ///< local: "in", "snd", "motion.2"
+  PageId page;               ///< valid: this is a page, standing for that net
+  FusionId fusion;           ///< valid: member of that fusion set
+  std::uint32_t tokens = 0;  ///< initial marking
   Operation operation;
 };
 
@@ -80,9 +80,9 @@ struct PageTransition {
 
 /// One net of the hierarchy: what one sheet of the drawing shows.
 struct Page {
-  std::string name;   ///< last part of the path: "follow"; empty for the root
+  std::string name;  ///< last part of the path: "follow"; empty for the root
   Layer layer = Layer::system;
-  PageId parent;      ///< invalid for the root
+  PageId parent;                           ///< invalid for the root
   std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
   std::uint32_t input = 0, output = 0;     ///< indices into nodes
   std::vector<Node> nodes;
@@ -133,14 +133,16 @@ struct Transition {
   Span span;
 };
 
-/// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have more.
+/// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have
+/// more.
 struct Arc {
   PlaceId place;
   std::uint32_t weight = 1;
   auto operator<=>(const Arc&) const = default;
 };
 
-/// A place/transition net with the origin of every element. Immutable once built; arcs are stored per transition.
+/// A place/transition net with the origin of every element. Immutable once built; arcs are stored per
+/// transition.
 ///
 /// Threads: const members from any thread.
 class Net {
@@ -160,8 +162,8 @@ class Net {
  private:
   std::vector<Place> places_;
   std::vector<Transition> transitions_;
-  std::vector<Arc> arcs_;               // inputs then outputs of each transition
-  std::vector<std::uint32_t> starts_;   // two per transition: begin of inputs, begin of outputs
+  std::vector<Arc> arcs_;              // inputs then outputs of each transition
+  std::vector<std::uint32_t> starts_;  // two per transition: begin of inputs, begin of outputs
 };
 
 /// A weighted sum of places that no firing changes: sum(weight * tokens) = total in every reachable marking.

@@ -15,7 +15,7 @@ inline constexpr std::string_view checker_version = "1";
 enum class Verdict : std::uint8_t { holds, violated, unknown };
 
 struct PropertyResult {
-  std::string name;    ///< "safe"
+  std::string name;  ///< "safe"
   Verdict verdict = Verdict::unknown;
   std::string method;  ///< "place invariants"
   std::string why;     ///< for violated and unknown: in one line
@@ -29,8 +29,8 @@ struct Report {
   [[nodiscard]] bool all_hold() const;
 };
 
-/// A net together with what is known about it. Only verify makes one, so that a generator that asks for a VerifiedNet
-/// cannot be given an unchecked net.
+/// A net together with what is known about it. Only verify makes one, so that a generator that asks for a
+/// VerifiedNet cannot be given an unchecked net.
 class VerifiedNet {
  public:
   [[nodiscard]] const net::Net& net() const { return net_; }
@@ -43,8 +43,8 @@ class VerifiedNet {
   Report report_;
 };
 
-/// Checks that each emitted invariant is one (y^T C = 0 and y m0 = total; every mistake is named) and that together
-/// they bound every place by one token: property "safe".
+/// Checks that each emitted invariant is one (y^T C = 0 and y m0 = total; every mistake is named) and that
+/// together they bound every place by one token: property "safe".
 ///
 /// Threads: pure. Linear in the net and the invariants.
 [[nodiscard]] Report check(const net::Net& net, const std::vector<net::Invariant>& invariants);

@@ -1,0 +1,31 @@
+#include <CLI/CLI.hpp>
+
+#include <exception>
+
+#include "cli/commands.hpp"
+#include "cli/terminal.hpp"
+
+int main(int argc, char** argv) {
+  namespace cli = tessera::cli;
+  CLI::App app("Tessera: robot controllers from hierarchical Petri nets.\n"
+               "From one file to a proved net, a C++ controller and a simulated robot.");
+  app.name("tessera");
+  app.set_version_flag("--version", TESSERA_VERSION);
+  app.require_subcommand(1);
+  app.footer("First steps:\n"
+             "  tessera new rover && cd rover   a project with a simulated robot\n"
+             "  tessera simulate --for 60s      build it and watch it drive\n"
+             "`tessera COMMAND --help` shows the options of a command, with examples.");
+  int exit_code = cli::ok;
+  for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export, cli::add_generate,
+                    cli::add_test, cli::add_simulate, cli::add_run, cli::add_completion})
+    add(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? cli::ok : cli::usage;
+  } catch (const std::exception& error) {
+    return cli::complain(error.what());
+  }
+  return exit_code;
+}

@@ -1,0 +1,44 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/process.hpp"
+#include "cli/project.hpp"
+#include "cli/terminal.hpp"
+
+namespace tessera::cli {
+
+namespace {
+
+struct Options {
+  std::string spec = ".", filter;
+  bool debug = false;
+};
+
+int test_command(const Options& options) {
+  std::error_code ignored;
+  const std::filesystem::path given(options.spec);
+  const std::filesystem::path project = std::filesystem::is_directory(given) ? given : given.parent_path();
+  if (!std::filesystem::exists(project / "test", ignored))
+    return complain(fmt::format("{} has no test/ folder: put GoogleTest files there", std::filesystem::absolute(project).string()));
+  const std::optional<Controller> tests = make_controller(options.spec, {options.debug, "tests"});
+  if (!tests) return failed;
+  Command command{tests->program.string()};
+  if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
+  return run(command).code == 0 ? ok : failed;
+}
+
+}  // namespace
+
+void add_test(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("test", "Build and run the project's own GoogleTests of its functions");
+  auto options = std::make_shared<Options>();
+  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")->capture_default_str();
+  command->add_option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
+  command->add_flag("--debug", options->debug, "Build the tests for gdb");
+  command->footer("Example: tessera test --filter 'Follow.*'");
+  command->callback([options, &exit_code] { exit_code = test_command(*options); });
+}
+
+}  // namespace tessera::cli

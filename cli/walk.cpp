@@ -1,0 +1,66 @@
+#include "cli/walk.hpp"
+
+#include <fmt/core.h>
+
+#include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
+#include "layers/layers.hpp"
+#include "net/flatten.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::cli {
+
+namespace fs = std::filesystem;
+
+std::optional<Specification> read(const fs::path& given) {
+  const fs::path inside = given / "spec.yaml";
+  const fs::path file = fs::exists(inside) ? inside : given;
+  diagnostics::Diagnostics diagnostics = diagnostics::load(file);
+  std::optional<spec::Model> model;
+  if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
+  print(diagnostics);
+  if (!model) return std::nullopt;
+  const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+  return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
+}
+
+std::optional<Nets> build(Specification& specification) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  std::optional<net::HierarchicalNet> pages = layers::build(specification.model, found);
+  std::optional<net::Net> flat;
+  if (pages) flat = net::flatten(*pages, found);
+  print(found);
+  if (!flat) return std::nullopt;
+  return Nets{std::move(*pages), std::move(*flat)};
+}
+
+verify::Report check(const Specification& specification, const Nets& nets) {
+  return verify::check(nets.flat, layers::invariants(specification.model, nets.pages, nets.flat));
+}
+
+void print(const verify::Report& report) {
+  for (const verify::PropertyResult& property : report.properties) {
+    const char* verdict = property.verdict == verify::Verdict::holds      ? "holds"
+                          : property.verdict == verify::Verdict::violated ? "violated"
+                                                                          : "unknown";
+    fmt::print("{}: {} ({})\n", property.name, verdict,
+               property.verdict == verify::Verdict::holds ? property.method : property.why);
+  }
+}
+
+std::optional<Verified> walk(const fs::path& given) {
+  std::optional<Specification> specification = read(given);
+  if (!specification) return std::nullopt;
+  std::optional<Nets> nets = build(*specification);
+  if (!nets) return std::nullopt;
+  verify::Report report = check(*specification, *nets);
+  std::optional<verify::VerifiedNet> verified = verify::accept(std::move(nets->flat), report);
+  if (!verified) {
+    print(report);
+    complain("the net did not pass verification, so no controller is generated from it");
+    return std::nullopt;
+  }
+  return Verified{std::move(*specification), std::move(*verified)};
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "diagnostics/diagnostics.hpp"
+#include "net/net.hpp"
+#include "spec/model.hpp"
+#include "verify/verify.hpp"
+
+/// The walk of the data, as far as a command needs it: specification -> Model -> hierarchical net -> flat net ->
+/// verified net. Every stage prints what it has to say to standard error.
+namespace tessera::cli {
+
+/// A specification that was read without error.
+struct Specification {
+  std::filesystem::path file;     ///< absolute
+  std::filesystem::path project;  ///< its folder
+  diagnostics::Diagnostics diagnostics;
+  spec::Model model;
+};
+
+/// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been printed.
+[[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given);
+
+struct Nets {
+  net::HierarchicalNet pages;
+  net::Net flat;
+};
+[[nodiscard]] std::optional<Nets> build(Specification& specification);
+
+/// The verdicts on a net made by build.
+[[nodiscard]] verify::Report check(const Specification& specification, const Nets& nets);
+
+/// Verdicts as lines of text, a tick or a cross each.
+void print(const verify::Report& report);
+
+/// read, build, check; only a net that passed gets through. Uses up the nets.
+struct Verified {
+  Specification specification;
+  verify::VerifiedNet net;
+};
+[[nodiscard]] std::optional<Verified> walk(const std::filesystem::path& given);
+
+}  // namespace tessera::cli

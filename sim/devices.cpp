@@ -1,0 +1,106 @@
+#include "sim/devices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "sim/names.hpp"
+
+namespace tessera::sim {
+namespace {
+
+void check_float64(const std::string& path, std::size_t bytes) {
+  if (bytes == sizeof(double)) return;
+  throw std::invalid_argument(path + ": the device has a float64 (8 bytes), the buffer has " + std::to_string(bytes) + " bytes");
+}
+
+/// FNV-1a: the same on every machine, unlike std::hash.
+std::uint64_t hash_of(std::string_view text, std::uint64_t hash) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash;
+}
+
+class LightSensor final : public RealReceptor {
+ public:
+  LightSensor(std::shared_ptr<Simulation> simulation, std::string path, int eye, double noise, std::uint64_t seed)
+      : simulation_(std::move(simulation)), path_(std::move(path)), eye_(eye), noise_(noise), random_(seed) {}
+
+  [[nodiscard]] bool read(std::span<std::byte> value) override {
+    check_float64(path_, value.size());
+    const double light = std::clamp(simulation_->light_at(eye_) + noise_ * normal_(random_), 0.0, 1.0);
+    std::memcpy(value.data(), &light, sizeof light);
+    return true;
+  }
+
+ private:
+  std::shared_ptr<Simulation> simulation_;
+  std::string path_;
+  int eye_;
+  double noise_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+class Wheel final : public RealEffector {
+ public:
+  Wheel(std::shared_ptr<Simulation> simulation, std::string path, int actuator)
+      : simulation_(std::move(simulation)), path_(std::move(path)), actuator_(actuator) {}
+
+  [[nodiscard]] bool write(std::span<const std::byte> value) override {
+    check_float64(path_, value.size());
+    double velocity = 0;
+    std::memcpy(&velocity, value.data(), sizeof velocity);
+    if (!std::isfinite(velocity)) return false;
+    simulation_->command(actuator_, velocity);
+    return true;
+  }
+
+ private:
+  std::shared_ptr<Simulation> simulation_;
+  std::string path_;
+  int actuator_;
+};
+
+/// Options must be among `known`, finite and not negative.
+bool options_fit(const DriverRequest& request, const std::vector<std::string>& known, std::string& error) {
+  for (const auto& [name, value] : request.options) {
+    if (std::ranges::find(known, name) == known.end()) {
+      error = unknown_name("option", name, known);
+    } else if (!std::isfinite(value) || value < 0) {
+      error = "option '" + name + "' must be a number from 0 up";
+    } else {
+      continue;
+    }
+    return false;
+  }
+  return true;
+}
+
+double option(const DriverRequest& request, const std::string& name, double otherwise) {
+  const auto found = request.options.find(name);
+  return found == request.options.end() ? otherwise : found->second;
+}
+
+}  // namespace
+
+std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulation, const DriverRequest& request, double footprint_m,
+                                           std::uint64_t seed, std::string& error) {
+  if (!options_fit(request, {"noise", "footprint"}, error)) return nullptr;
+  const auto eye = simulation->add_eye(request.target, option(request, "footprint", footprint_m), error);
+  if (!eye) return nullptr;
+  const std::uint64_t own_seed = hash_of(request.path, seed * 0x9e3779b97f4a7c15ULL + 14695981039346656037ULL);
+  return std::make_unique<LightSensor>(std::move(simulation), request.path, *eye, option(request, "noise", 0.01), own_seed);
+}
+
+std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation, const DriverRequest& request, std::string& error) {
+  if (!options_fit(request, {}, error)) return nullptr;
+  const auto actuator = simulation->find_actuator(request.target, error);
+  if (!actuator) return nullptr;
+  return std::make_unique<Wheel>(std::move(simulation), request.path, *actuator);
+}
+
+}  // namespace tessera::sim

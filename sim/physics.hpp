@@ -1,0 +1,67 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/track.hpp"
+#include "tessera/time.hpp"
+
+namespace tessera::sim {
+
+/// Where a body is, seen from above.
+struct Pose {
+  double x_m = 0, y_m = 0, heading_rad = 0;
+};
+
+/// A MuJoCo model with its state. What the engine complains of, errors and warnings alike (an unstable simulation is a
+/// warning to it), stops this physics for good and is in failure(); it never ends the process.
+///
+/// Threads: one at a time.
+class Physics {
+ public:
+  /// nullptr and `error` when the file is missing, no valid MJCF, or slower than one step in 100 ms.
+  [[nodiscard]] static std::unique_ptr<Physics> load(const std::string& mjcf, std::string& error);
+
+  /// One time step. Does nothing after a failure.
+  void step();
+  [[nodiscard]] Duration time() const { return steps_ * step_; }
+  [[nodiscard]] Duration next_time() const { return (steps_ + 1) * step_; }
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+
+  /// The body on the first free joint: the robot. nullopt when nothing in the world is free to move.
+  [[nodiscard]] std::optional<Pose> robot();
+  /// Puts the robot there, at rest, as high as the world file says. Needs robot().
+  void place_robot(const Pose& pose);
+
+  [[nodiscard]] std::optional<int> site(const std::string& name) const;
+  [[nodiscard]] Point site_position(int site);
+  [[nodiscard]] std::optional<int> actuator(const std::string& name) const;
+  void command(int actuator, double value);
+  [[nodiscard]] std::vector<std::string> sites() const { return names(mjOBJ_SITE, model_->nsite); }
+  [[nodiscard]] std::vector<std::string> actuators() const { return names(mjOBJ_ACTUATOR, model_->nu); }
+
+ private:
+  struct Release {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+    void operator()(mjData* data) const { mj_deleteData(data); }
+  };
+  Physics(mjModel* model, mjData* data, std::string&& failure);
+  /// Brings the positions of bodies and sites up to the state.
+  void locate();
+  [[nodiscard]] std::vector<std::string> names(mjtObj type, int count) const;
+
+  std::unique_ptr<mjModel, Release> model_;
+  std::unique_ptr<mjData, Release> data_;
+  std::string failure_;
+  Duration step_{0};
+  std::int64_t steps_ = 0;
+  int robot_joint_ = -1;
+  bool located_ = false;
+};
+
+}  // namespace tessera::sim

@@ -1,0 +1,105 @@
+#include "sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/names.hpp"
+
+namespace tessera::sim {
+namespace {
+
+constexpr Duration sampling_period = std::chrono::milliseconds(10);
+constexpr double line_threshold = 0.5;
+
+/// The point nearest to the mean of all: of three sensors in a row the middle one.
+Point middle_of(const std::vector<Point>& points) {
+  Point mean;
+  for (const Point& p : points) {
+    mean.x_m += p.x_m / static_cast<double>(points.size());
+    mean.y_m += p.y_m / static_cast<double>(points.size());
+  }
+  return *std::ranges::min_element(points, {}, [&](const Point& p) { return std::hypot(p.x_m - mean.x_m, p.y_m - mean.y_m); });
+}
+
+}  // namespace
+
+Simulation::Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace)
+    : physics_(std::move(physics)), floor_(std::move(floor)), trace_(std::move(trace)) {}
+
+void Simulation::advance_to(Time time) {
+  const std::scoped_lock lock(mutex_);
+  while (physics_->failure().empty()) {
+    if (physics_->time() >= next_sample_) sample();
+    if (physics_->next_time() > time.time_since_epoch()) break;
+    physics_->step();
+  }
+}
+
+void Simulation::sample() {
+  next_sample_ += sampling_period;
+  if (!trace_.wanted()) return;
+  const Pose robot = physics_->robot().value_or(Pose{});
+  TracePoint point{.t_s = seconds(physics_->time()), .x_m = robot.x_m, .y_m = robot.y_m, .heading_rad = robot.heading_rad};
+  std::vector<Point> places;
+  for (const Eye& eye : eyes_) {
+    places.push_back(physics_->site_position(eye.site));
+    point.on_line = point.on_line || light_under(eye) < line_threshold;
+  }
+  const Point middle = places.empty() ? Point{robot.x_m, robot.y_m} : middle_of(places);
+  point.eye_x_m = middle.x_m;
+  point.eye_y_m = middle.y_m;
+  trace_.add(point);
+}
+
+bool Simulation::finish(std::string& error) {
+  const std::scoped_lock lock(mutex_);
+  const bool written = trace_.finish(error);
+  if (!physics_->failure().empty()) {
+    error = physics_->failure();
+    return false;
+  }
+  return written;
+}
+
+std::optional<int> Simulation::add_eye(const std::string& site, double footprint_m, std::string& error) {
+  const std::scoped_lock lock(mutex_);
+  const auto id = physics_->site(site);
+  if (!id) {
+    error = unknown_name("site", site, physics_->sites());
+    return std::nullopt;
+  }
+  eyes_.push_back({*id, footprint_m});
+  return static_cast<int>(eyes_.size()) - 1;
+}
+
+std::optional<int> Simulation::find_actuator(const std::string& name, std::string& error) const {
+  const std::scoped_lock lock(mutex_);
+  const auto id = physics_->actuator(name);
+  if (!id) error = unknown_name("actuator", name, physics_->actuators());
+  return id;
+}
+
+double Simulation::light_at(int eye) {
+  const std::scoped_lock lock(mutex_);
+  const double light = light_under(eyes_[static_cast<std::size_t>(eye)]);
+  throw_failure();
+  return light;
+}
+
+double Simulation::light_under(const Eye& eye) {
+  return floor_ ? floor_->reflectance(physics_->site_position(eye.site), eye.footprint_m) : 1;
+}
+
+void Simulation::command(int actuator, double value) {
+  const std::scoped_lock lock(mutex_);
+  throw_failure();
+  physics_->command(actuator, value);
+}
+
+void Simulation::throw_failure() const {
+  if (!physics_->failure().empty()) throw std::runtime_error(physics_->failure());
+}
+
+}  // namespace tessera::sim

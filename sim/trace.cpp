@@ -1,0 +1,61 @@
+#include "sim/trace.hpp"
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace tessera::sim {
+namespace {
+
+constexpr std::string_view column_names = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line";
+
+/// Takes the number up to the next comma off `line`.
+bool take(std::string_view& line, double& value) {
+  const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), value);
+  if (status != std::errc{}) return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+  if (line.empty()) return true;
+  if (line.front() != ',') return false;
+  line.remove_prefix(1);
+  return true;
+}
+
+std::optional<TracePoint> parse_point(std::string_view line) {
+  TracePoint p;
+  double on_line = 0;
+  for (double* value : {&p.t_s, &p.x_m, &p.y_m, &p.heading_rad, &p.eye_x_m, &p.eye_y_m, &on_line}) {
+    if (!take(line, *value)) return std::nullopt;
+  }
+  if (!line.empty()) return std::nullopt;
+  p.on_line = on_line != 0;
+  return p;
+}
+
+}  // namespace
+
+std::optional<Trace> read_trace(const std::string& path, std::string& error) {
+  std::ifstream file(path);
+  std::string line;
+  if (!file) {
+    error = path + ": cannot be read";
+    return std::nullopt;
+  }
+  if (!std::getline(file, line) || line != column_names) {
+    error = path + ": no trace (its first line is not \"" + std::string(column_names) + "\")";
+    return std::nullopt;
+  }
+  Trace trace;
+  trace.robot = std::filesystem::path(path).stem().string();
+  for (std::size_t number = 2; std::getline(file, line); ++number) {
+    const auto point = parse_point(line);
+    if (!point) {
+      error = path + ":" + std::to_string(number) + ": not seven numbers";
+      return std::nullopt;
+    }
+    trace.points.push_back(*point);
+  }
+  return trace;
+}
+
+}  // namespace tessera::sim

@@ -1,0 +1,47 @@
+#include "sim/trace_writer.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <utility>
+
+namespace tessera::sim {
+namespace {
+
+void append(std::string& line, double value, int decimals) {
+  std::array<char, 400> digits;  // the largest double has 309 digits before the point
+  const auto end = std::to_chars(digits.begin(), digits.end(), value, std::chars_format::fixed, decimals).ptr;
+  line.append(digits.begin(), end);
+  line += ',';
+}
+
+}  // namespace
+
+TraceWriter::TraceWriter(std::string path) : path_(std::move(path)) {
+  if (!wanted()) return;
+  file_.open(path_, std::ios::binary);
+  if (!file_) reason_ = std::string(": ") + std::strerror(errno);
+  file_ << "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line\n";
+}
+
+void TraceWriter::add(const TracePoint& point) {
+  if (!wanted()) return;
+  std::string line;
+  append(line, point.t_s, 3);
+  for (const double value : {point.x_m, point.y_m, point.heading_rad, point.eye_x_m, point.eye_y_m}) {
+    append(line, value, 6);
+  }
+  line += point.on_line ? "1\n" : "0\n";
+  file_ << line;
+}
+
+bool TraceWriter::finish(std::string& error) {
+  if (!wanted()) return true;
+  file_.flush();
+  if (file_) return true;
+  error = path_ + ": the trace could not be written" + reason_;
+  return false;
+}
+
+}  // namespace tessera::sim

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "sim/trace.hpp"
+
+namespace tessera::sim {
+
+/// Writes a trace file point by point. The same points give the same bytes: numbers have a fixed number of decimals.
+class TraceWriter {
+ public:
+  /// An empty path: writes nothing. Whether the file can be written, finish() says.
+  explicit TraceWriter(std::string path);
+  [[nodiscard]] bool wanted() const { return !path_.empty(); }
+  void add(const TracePoint& point);
+  /// Flushes. false and `error` when any of it could not be written.
+  [[nodiscard]] bool finish(std::string& error);
+
+ private:
+  std::string path_;
+  std::string reason_;  ///< why it could not be opened
+  std::ofstream file_;
+};
+
+}  // namespace tessera::sim

@@ -1,0 +1,148 @@
+#include "codegen/cpp_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace tessera::codegen {
+namespace {
+
+constexpr std::string_view off = "// clang-format off\n";
+constexpr std::string_view on = "// clang-format on\n";
+
+constexpr std::array scalar_names{"bool",          "std::int8_t",   "std::int16_t",  "std::int32_t",
+                                  "std::int64_t",  "std::uint8_t",  "std::uint16_t", "std::uint32_t",
+                                  "std::uint64_t", "float",         "double"};
+
+std::string element_name(const spec::Model& model, const spec::Type& type, const std::set<std::string_view>& hidden) {
+  switch (type.kind) {
+    case spec::Type::Kind::scalar:
+      return scalar_names[static_cast<std::size_t>(type.scalar)];
+    case spec::Type::Kind::string:
+      return fmt::format("tessera::BoundedString<{}>", type.capacity);
+    case spec::Type::Kind::structure:
+      break;
+  }
+  const std::string& name = model.structures[type.structure].name;
+  return hidden.contains(name) ? fmt::format("::{}::{}", model.system, name) : name;
+}
+
+/// The end of the run of commented lines that starts at `begin`.
+std::size_t end_of_run(const std::vector<Declaration>& lines, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < lines.size() && !lines[end].comment.empty()) ++end;
+  return end;
+}
+
+/// Comments behind the code, aligned; above it where the column limit leaves no room.
+void add_run(const std::vector<Declaration>& lines, std::size_t begin, std::size_t end, std::string& out) {
+  std::size_t code = 0, comment = 0;
+  for (std::size_t line = begin; line < end; ++line) {
+    code = std::max(code, lines[line].code.size());
+    comment = std::max(comment, lines[line].comment.size());
+  }
+  const bool fits = 2 + code + 5 + comment <= column_limit;
+  for (std::size_t line = begin; line < end; ++line) {
+    if (fits)
+      out += fmt::format("  {:<{}}  // {}\n", lines[line].code, code, lines[line].comment);
+    else
+      out += fmt::format("  // {}\n  {}\n", lines[line].comment, lines[line].code);
+  }
+}
+
+}  // namespace
+
+std::string type_name(const spec::Model& model, const spec::Type& type, const std::set<std::string_view>& hidden) {
+  const std::string element = element_name(model, type, hidden);
+  return type.extent == 0 ? element : fmt::format("std::array<{}, {}>", element, type.extent);
+}
+
+void add_headers(const spec::Type& type, std::set<std::string>& headers) {
+  if (type.extent != 0) headers.insert("<array>");
+  if (type.kind == spec::Type::Kind::string) headers.insert("<tessera/bounded_string.hpp>");
+  if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 && type.scalar <= spec::Scalar::uint64)
+    headers.insert("<cstdint>");
+}
+
+std::string include_block(const std::set<std::string>& headers) {
+  std::string out;
+  for (const std::string& header : headers) out += fmt::format("#include {}\n", header);
+  if (!out.empty()) out += '\n';
+  return out;
+}
+
+std::string duration(spec::Duration value) {
+  using Unit = std::pair<std::int64_t, const char*>;
+  constexpr std::array units{Unit{1'000'000'000, "s"}, Unit{1'000'000, "ms"}, Unit{1000, "us"}};
+  for (const auto& [nanoseconds, suffix] : units)
+    if (value.count() % nanoseconds == 0) return fmt::format("{}{}", value.count() / nanoseconds, suffix);
+  return fmt::format("{}ns", value.count());
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (character == '"' || character == '\\')
+      (out += '\\') += character;
+    else if (byte < 0x20 || byte == 0x7f)
+      out += fmt::format("\\{:03o}", byte);
+    else
+      out += character;
+  }
+  return out += '"';
+}
+
+std::string comment_text(std::string_view text) {
+  std::string out(text);
+  for (char& character : out) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x20 || byte == 0x7f || character == '\\') character = '?';  // no line ends, no continuations
+  }
+  return out;
+}
+
+std::string declarations(const std::vector<Declaration>& lines) {
+  std::string out;
+  for (std::size_t line = 0; line < lines.size();) {
+    const std::size_t end = end_of_run(lines, line);
+    add_run(lines, line, end, out);
+    if (end < lines.size()) out += fmt::format("  {}\n", lines[end].code);
+    line = end + 1;
+  }
+  return out;
+}
+
+std::string structure(std::string_view name, const std::vector<Declaration>& members, std::string_view tail) {
+  if (members.empty() && tail.empty()) return fmt::format("struct {} {{}};\n", name);
+  return fmt::format("struct {} {{\n{}{}}};\n", name, declarations(members), tail);
+}
+
+std::string enumeration(std::string_view prefix, const std::vector<std::string_view>& names) {
+  std::string out = fmt::format("{} {{ {} }};\n", prefix, fmt::join(names, ", "));
+  if (out.size() - 1 <= column_limit) return out;
+  out = fmt::format("{} {{\n", prefix);
+  for (const std::string_view name : names) out += fmt::format("  {},\n", name);
+  return out += "};\n";
+}
+
+std::string fence_long_lines(const std::string& text) {
+  std::string out;
+  out.reserve(text.size());
+  bool fenced = false;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin) + 1;
+    const std::string_view line(text.data() + begin, end - begin);
+    if (line == off) fenced = true;
+    if (line == on) fenced = false;
+    if (!fenced && line.size() - 1 > column_limit)
+      ((out += off) += line) += on;
+    else
+      out += line;
+    begin = end;
+  }
+  return out;
+}
+
+}  // namespace tessera::codegen

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/model.hpp"
+
+/// C++ as text, laid out as .clang-format of the generated folder asks for, so that no formatter has to run.
+namespace tessera::codegen {
+
+/// Columns of a generated line.
+inline constexpr std::size_t column_limit = 110;
+
+/// "std::array<Velocity, 3>". Structures in `hidden` are qualified by the namespace `system`, because something nearer
+/// has the same name.
+[[nodiscard]] std::string type_name(const spec::Model& model, const spec::Type& type,
+                                    const std::set<std::string_view>& hidden = {});
+
+/// Adds what `type` needs: "<array>", "<cstdint>", "<tessera/bounded_string.hpp>".
+void add_headers(const spec::Type& type, std::set<std::string>& headers);
+
+/// #include lines of one block, sorted, and the empty line behind them; nothing for an empty set.
+[[nodiscard]] std::string include_block(const std::set<std::string>& headers);
+
+/// "200ms": the largest unit that keeps the value whole.
+[[nodiscard]] std::string duration(spec::Duration value);
+
+/// "\"text\"", escaped.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// `text` as it may stand in a one-line comment.
+[[nodiscard]] std::string comment_text(std::string_view text);
+
+/// A declaration with an optional comment behind it.
+struct Declaration {
+  std::string code;
+  std::string comment;
+};
+
+/// One declaration per line, indented by two; the comments of neighbours are aligned.
+[[nodiscard]] std::string declarations(const std::vector<Declaration>& lines);
+
+/// "struct NAME {...};" with the declarations, "struct NAME {};" without.
+[[nodiscard]] std::string structure(std::string_view name, const std::vector<Declaration>& members,
+                                    std::string_view tail = {});
+
+/// "PREFIX { a, b };", or one name per line where that is too long for one.
+[[nodiscard]] std::string enumeration(std::string_view prefix, const std::vector<std::string_view>& names);
+
+/// `text` with every line over the column limit kept from the formatter.
+[[nodiscard]] std::string fence_long_lines(const std::string& text);
+
+}  // namespace tessera::codegen

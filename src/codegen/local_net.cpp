@@ -1,0 +1,216 @@
+#include "codegen/local_net.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+
+#include "codegen/cpp_text.hpp"
+#include "codegen/project.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+using net::PlaceId;
+using net::TransitionId;
+
+/// The elements of the flat net that each instance executes.
+struct Parts {
+  explicit Parts(const net::Net& net, std::size_t instances) : places(instances), transitions(instances) {
+    for (std::uint32_t id = 0; id < net.places().size(); ++id)
+      if (const std::uint32_t owner = net.places()[id].subsystem; owner != net::no_subsystem)
+        places[owner].push_back({id});
+    for (std::uint32_t id = 0; id < net.transitions().size(); ++id)
+      if (const std::uint32_t owner = net.transitions()[id].subsystem; owner != net::no_subsystem)
+        transitions[owner].push_back({id});
+  }
+  std::vector<std::vector<PlaceId>> places;
+  std::vector<std::vector<TransitionId>> transitions;
+};
+
+/// Names of the form behaviour.snd.block.element belong to a block; shorter ones to none.
+struct BlockName {
+  std::string_view block;
+  bool sends = false;
+
+  explicit BlockName(std::string_view local) {
+    const std::size_t page = local.find('.') + 1;
+    const std::size_t begin = local.find('.', page) + 1;
+    const std::size_t end = local.rfind('.');
+    if (page == 0 || begin == 0 || end < begin) return;
+    block = local.substr(begin, end - begin);
+    sends = local.substr(page).starts_with("snd.");
+  }
+};
+
+std::string_view first_part(std::string_view name) { return name.substr(0, name.find('.')); }
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+/// Extracts the net of one instance.
+class Extraction {
+ public:
+  Extraction(const net::Net& net, const spec::Model& model, const Parts& parts, spec::Index instance)
+      : net_(net),
+        model_(model),
+        places_(parts.places[instance]),
+        transitions_(parts.transitions[instance]),
+        prefix_(model.instance_path(instance).size() + 1),
+        subsystem_(model.subsystem(instance)) {}
+
+  LocalNet result() {
+    find_ports();
+    for (const PlaceId id : places_) local_.places.push_back({std::string(local(net_[id].name)), operation(id)});
+    for (const TransitionId id : transitions_) add_transition(id);
+    return std::move(local_);
+  }
+
+ private:
+  [[nodiscard]] std::string_view local(std::string_view name) const { return name.substr(prefix_); }
+
+  /// A block touches the fused places of its channel. An input and an output of one name get told apart.
+  void find_ports() {
+    for (const TransitionId id : transitions_) {
+      const BlockName name(local(net_[id].name));
+      const spec::Index channel = channel_of(id);
+      if (channel == spec::none || name.block.empty()) continue;
+      const std::string_view buffer = name.block.substr(0, name.block.find('#'));
+      const LocalNet::Port port{std::string(name.block), std::string(buffer), name.sends, channel};
+      if (std::ranges::find(local_.ports, port) == local_.ports.end()) local_.ports.push_back(port);
+    }
+    for (LocalNet::Port& port : local_.ports)
+      if (is_input(port.buffer) && is_output(port.buffer)) port.name.insert(0, port.sends ? "snd." : "rcv.");
+  }
+
+  [[nodiscard]] spec::Index channel_of(TransitionId id) const {
+    for (const auto& arcs : {net_.preset(id), net_.postset(id)})
+      for (const net::Arc& arc : arcs)
+        if (net_[arc.place].fused()) return net_[arc.place].channel;
+    return spec::none;
+  }
+  [[nodiscard]] bool is_input(const std::string& name) const {
+    return std::ranges::find(subsystem_.inputs, name, &spec::Field::name) != subsystem_.inputs.end();
+  }
+  [[nodiscard]] bool is_output(const std::string& name) const {
+    return std::ranges::find(subsystem_.outputs, name, &spec::Field::name) != subsystem_.outputs.end();
+  }
+
+  [[nodiscard]] const std::string& port(spec::Index channel, bool sends) const {
+    return std::ranges::find_if(local_.ports, [&](const LocalNet::Port& candidate) {
+             return candidate.channel == channel && candidate.sends == sends;
+           })->name;
+  }
+
+  [[nodiscard]] std::string operation(PlaceId id) const {
+    const net::Place& place = net_[id];
+    switch (place.operation.kind) {
+      case net::Operation::Kind::none:
+        return {};
+      case net::Operation::Kind::transition_function:
+        return fmt::format("tessera::calls({})", quoted(subsystem_.behaviours[place.operation.subject].name));
+      case net::Operation::Kind::next_iteration:
+        return "tessera::counts()";
+      case net::Operation::Kind::write:
+        return fmt::format("tessera::writes({})", quoted(port(place.operation.subject, true)));
+      case net::Operation::Kind::read:
+        return fmt::format("tessera::reads({})", quoted(port(place.operation.subject, false)));
+    }
+    return {};
+  }
+
+  void add_transition(TransitionId id) {
+    const net::Transition& transition = net_[id];
+    LocalNet::Transition row{std::string(local(transition.name)), {}, {}, guard(transition.condition)};
+    const bool sends = BlockName(row.name).sends;
+    for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
+    for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
+    latch(id, transition.condition);
+    local_.transitions.push_back(std::move(row));
+  }
+
+  [[nodiscard]] std::string arc_end(PlaceId id, bool sends) const {
+    const net::Place& place = net_[id];
+    if (!place.fused()) return std::string(local(place.name));
+    return fmt::format("{}/{}", port(place.channel, sends), last_part(place.name));
+  }
+
+  static std::string guard(const net::Condition& condition) {
+    switch (condition.kind) {
+      case net::Condition::Kind::none:
+        return {};
+      case net::Condition::Kind::go_on:
+        return "tessera::if_go_on";
+      case net::Condition::Kind::terminal:
+        return "tessera::if_terminal";
+      case net::Condition::Kind::error:
+        return "tessera::if_error";
+      case net::Condition::Kind::next:
+        return fmt::format("tessera::if_next({})", condition.subject);
+      case net::Condition::Kind::elapsed:
+        return "tessera::if_elapsed";
+    }
+    return {};
+  }
+
+  /// The place before a conditional transition latches which way its token may go.
+  void latch(TransitionId id, const net::Condition& condition) {
+    using Kind = net::Condition::Kind;
+    const bool decides =
+        condition.kind == Kind::go_on || condition.kind == Kind::terminal || condition.kind == Kind::error;
+    if (!decides && condition.kind != Kind::next) return;
+    for (const net::Arc& arc : net_.preset(id)) {
+      if (net_[arc.place].fused()) continue;
+      // Places of one instance keep the order of the flat net, so their ids are sorted.
+      const auto found = std::ranges::lower_bound(places_, arc.place);
+      LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
+      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", quoted(first_part(place.name)));
+    }
+  }
+
+  const net::Net& net_;
+  const spec::Model& model_;
+  const std::vector<PlaceId>& places_;
+  const std::vector<TransitionId>& transitions_;
+  std::size_t prefix_;
+  const spec::Subsystem& subsystem_;
+  LocalNet local_;
+};
+
+/// The same text for equal nets, whatever the numbers of their channels.
+std::string identity(const LocalNet& net) {
+  std::string text;
+  for (const LocalNet::Port& port : net.ports) ((text += port.name) += port.sends ? '>' : '<') += '\n';
+  for (const LocalNet::Place& place : net.places) (((text += place.name) += ' ') += place.does) += '\n';
+  for (const LocalNet::Transition& transition : net.transitions) {
+    ((text += transition.name) += ' ') += transition.guard;
+    for (const std::string& place : transition.inputs) (text += ' ') += place;
+    text += " ->";
+    for (const std::string& place : transition.outputs) (text += ' ') += place;
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model, const std::vector<Unit>& units) {
+  LocalNets all;
+  all.of_channel.resize(model.channels.size());
+  const Parts parts(net.net(), model.instances.size());
+  for (const Unit& unit : units) {
+    NetVariants& variants = all.of_unit.emplace_back();
+    std::unordered_map<std::string, std::uint32_t> known;
+    for (const spec::Index instance : unit.instances) {
+      LocalNet local = Extraction(net.net(), model, parts, instance).result();
+      for (const LocalNet::Port& port : local.ports)
+        (port.sends ? all.of_channel[port.channel].from : all.of_channel[port.channel].to) = port.name;
+      const auto [variant, is_new] =
+          known.emplace(identity(local), static_cast<std::uint32_t>(variants.nets.size()));
+      if (is_new) variants.nets.push_back(std::move(local));
+      variants.of_instance.push_back(variant->second);
+    }
+  }
+  return all;
+}
+
+}  // namespace tessera::codegen

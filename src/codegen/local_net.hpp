@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spec/model.hpp"
+#include "verify/verify.hpp"
+
+namespace tessera::codegen {
+
+/// The part of the flat net that one subsystem executes, with names that lack its path, as tessera::SubsystemNet has it.
+struct LocalNet {
+  struct Port {
+    std::string name, buffer;
+    bool sends = false;
+    spec::Index channel = spec::none;
+    bool operator==(const Port&) const = default;
+  };
+  struct Place {
+    std::string name;
+    std::string does;  ///< C++: "tessera::calls(\"follow\")"; empty: nothing
+  };
+  struct Transition {
+    std::string name;
+    std::vector<std::string> inputs, outputs;
+    std::string guard;  ///< C++: "tessera::if_next(1)"; empty: none
+  };
+  std::vector<Port> ports;
+  std::vector<Place> places;
+  std::vector<Transition> transitions;
+};
+
+/// What the instances of one unit execute. Most share a net; those at the end of a fleet may have fewer channels.
+struct NetVariants {
+  std::vector<LocalNet> nets;
+  std::vector<std::uint32_t> of_instance;  ///< per instance of the unit, into nets
+};
+
+/// One end of a channel: where its block is, "" where no behaviour uses it.
+struct ChannelPorts {
+  std::string from, to;
+};
+
+struct LocalNets {
+  std::vector<NetVariants> of_unit;
+  std::vector<ChannelPorts> of_channel;
+};
+
+struct Unit;
+
+/// Takes the flat net apart, subsystem by subsystem. Linear in the net.
+[[nodiscard]] LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model, const std::vector<Unit>& units);
+
+}  // namespace tessera::codegen

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "codegen/local_net.hpp"
+#include "spec/model.hpp"
+#include "verify/verify.hpp"
+
+namespace tessera::codegen {
+
+/// A subsystem of a definition that some agent runs: the unit that gets a header, a source and the user's functions.
+struct Unit {
+  const spec::Definition* definition = nullptr;
+  const spec::Subsystem* subsystem = nullptr;
+  std::vector<spec::Index> instances;  ///< that run it, in the order of the model
+};
+
+/// Every unit, definition by definition; what no agent uses is left out. Linear in the instances.
+[[nodiscard]] std::vector<Unit> units_of(const spec::Model& model);
+
+/// "robot.control"
+[[nodiscard]] std::string unit_path(const Unit& unit);
+/// "line_follower::robot::control"
+[[nodiscard]] std::string unit_namespace(const spec::Model& model, const Unit& unit);
+/// "robot/control.hpp"
+[[nodiscard]] std::string unit_header(const Unit& unit);
+/// The parameters a unit sees: those of the system that it does not shadow, then its own.
+[[nodiscard]] std::vector<const spec::Parameter*> parameters_of(const spec::Model& model, const Unit& unit);
+/// "src/control.cpp", or "src/robot/control.cpp" when there are several definitions.
+[[nodiscard]] std::string user_file(const std::vector<Unit>& units, const Unit& unit);
+
+/// What all generated files of one system are made from.
+struct Project {
+  const spec::Model& model;
+  const verify::VerifiedNet& net;
+  std::string spec_path;  ///< in #line
+  std::string spec_name;  ///< in comments: "spec.yaml"
+  std::vector<Unit> units;
+  std::vector<NetVariants> nets;  ///< one per unit
+
+  /// "spec.yaml:12"
+  [[nodiscard]] std::string at(const spec::Span& span) const;
+  /// The first lines of every file; `marker` starts a comment.
+  [[nodiscard]] std::string banner(std::string_view marker = "//") const;
+};
+
+}  // namespace tessera::codegen

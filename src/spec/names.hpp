@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string_view>
+
+#include "diagnostics/diagnostics.hpp"
+
+namespace tessera::spec {
+
+/// Whether `name` may name a thing in a specification. Names become names of C++.
+///
+/// what: the thing, e.g. "buffer".
+/// Errors: E105 no C++ identifier, too long, leading or double underscore; E106 a word of C++.
+bool check_name(std::string_view name, diagnostics::Span span, std::string_view what, diagnostics::Diagnostics& out);
+
+/// A letter or underscore, then letters, digits and underscores.
+[[nodiscard]] bool is_identifier(std::string_view text);
+
+}  // namespace tessera::spec

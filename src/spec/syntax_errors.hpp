@@ -1,0 +1,14 @@
+#pragma once
+
+#include "diagnostics/diagnostics.hpp"
+
+namespace YAML {
+class Exception;
+}
+
+namespace tessera::spec {
+
+/// Says what yaml-cpp found in words that help: E007 for nesting, else E005.
+void report_syntax_error(const YAML::Exception& problem, diagnostics::Diagnostics& out);
+
+}  // namespace tessera::spec

@@ -1,0 +1,81 @@
+#include <unistd.h>
+
+#include "command.hpp"
+
+namespace tessera::cli_test {
+
+using Project = Command;
+using testing::HasSubstr;
+
+TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  const nlohmann::json run = json("simulate rover --for 20s --report rover/report");
+  EXPECT_NEAR(run.at("simulated_s"), 20, 0.1);
+  EXPECT_GT(run.at("firings"), 1000);
+  EXPECT_GT(run.at("laps"), 0.2);
+  EXPECT_TRUE(fs::exists(run.at("recording").get<std::string>()));
+  EXPECT_TRUE(fs::exists(folder_ / "rover/report/index.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "rover/compile_commands.json"));
+  const cli::Exit tests = tessera("test rover");
+  EXPECT_EQ(tests.code, 0) << tests.text;
+  EXPECT_NE(tests.text.find("[  PASSED  ]"), std::string::npos) << tests.text;
+}
+
+TEST_F(Project, NewRefusesAFolderThatExistsAndANameThatIsNone) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  EXPECT_EQ(tessera("new rover").code, 1);
+  EXPECT_EQ(tessera("new 'Not A Name'").code, 2);
+}
+
+TEST_F(Project, ChangedFunctionChangesTheRun) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  EXPECT_GT(json("simulate rover --for 10s").at("laps"), 0.1);
+  write(folder_ / "rover/src/control.cpp",
+        "#include \"robot/control.hpp\"\n"
+        "namespace rover::robot::control {\n"
+        "void init(Context&, const Inputs&, Memory&, Outputs&) {}\n"
+        "void follow(Context& context, const Inputs&, Memory&, Outputs&) {\n"
+        "  if (context.iteration > 20) context.stop(\"seen enough\");\n"
+        "}\n"
+        "}\n");
+  const nlohmann::json stopped = json("simulate rover --for 10s");
+  EXPECT_LT(stopped.at("simulated_s"), 2);
+  EXPECT_EQ(stopped.at("ended"), "stopped: seen enough");
+  EXPECT_LT(stopped.at("laps"), 0.01);
+}
+
+TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: {}\n        rest: {}");
+  const cli::Exit missing = tessera("generate rover");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.text.find("no function 'rest'"), std::string::npos) << missing.text;
+  EXPECT_NE(missing.text.find("void rest(Context&"), std::string::npos) << missing.text;
+  EXPECT_EQ(tessera("generate rover --stubs").code, 0);
+  EXPECT_EQ(tessera("generate rover").code, 0);
+  EXPECT_EQ(tessera("simulate rover --for 1s").code, 0);
+}
+
+TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft, next: end }");
+  const std::string spec = content_of(folder_ / "rover/spec.yaml");
+  const auto line = 1 + std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft")), '\n');
+  const cli::Exit done = tessera("simulate rover --for 1s");
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.text.find("spec.yaml:" + std::to_string(line) + ":"), std::string::npos) << done.text;
+  EXPECT_NE(done.text.find("lft"), std::string::npos) << done.text;
+}
+
+TEST_F(Project, DebugPrintsTheCommandThatDebugsTheRun) {
+  ASSERT_EQ(tessera("new rover").code, 0);
+  const cli::Exit done = tessera("simulate rover --for 1s --debug");
+  EXPECT_EQ(done.code, 0) << done.text;
+  EXPECT_NE(done.text.find("gdb --args "), std::string::npos) << done.text;
+  const std::string line = done.text.substr(done.text.find("gdb --args "));
+  const cli::Exit debugged =
+      shell("gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run -ex bt " + line.substr(4));
+  EXPECT_NE(debugged.text.find("control.cpp"), std::string::npos) << debugged.text;
+}
+
+}  // namespace tessera::cli_test

@@ -1,0 +1,87 @@
+#include <unistd.h>
+
+#include "command.hpp"
+
+namespace tessera::cli_test {
+
+using Simulate = Command;
+
+TEST_F(Simulate, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
+  const fs::path project = example("01_line_follower");
+  const auto run = [&](const std::string& seed, const std::string& name) {
+    EXPECT_EQ(tessera("simulate 01_line_follower --for 10s --seed " + seed + " --record " + name).code, 0);
+    return content_of(folder_ / name) + content_of(project / ".tessera/last/path.csv");
+  };
+  const std::string first = run("1", "first.tsr");
+  EXPECT_GT(first.size(), 100'000U);
+  EXPECT_EQ(first, run("1", "second.tsr"));
+  EXPECT_NE(first, run("2", "third.tsr"));
+}
+
+TEST_F(Simulate, TheRobotKeepsToEveryShippedTrack) {
+  example("01_line_follower");
+  struct Case {
+    const char* options;
+    double laps;
+  };
+  for (const Case& track : {Case{"", 3}, Case{TESSERA_CURVES_OPTIONS, 1}}) {
+    for (const char* seed : {"1", "2"}) {
+      const nlohmann::json run =
+          json(std::string("simulate 01_line_follower --for 120s --seed ") + seed + " " + track.options);
+      EXPECT_GE(run.at("laps"), track.laps) << track.options;
+      EXPECT_LE(run.at("longest_loss_s"), 1) << track.options;
+    }
+  }
+}
+
+TEST_F(Simulate, TheSecondExampleCrossesGapsThatTheTableAloneDoesNot) {
+  example("02_gap");
+  const nlohmann::json run = json("simulate 02_gap --for 120s");
+  EXPECT_GE(run.at("laps"), 1);
+}
+
+TEST_F(Simulate, ParametersChangeTheRunWithoutCompiling) {
+  const fs::path project = example("01_line_follower");
+  const double normal = json("simulate 01_line_follower --for 10s").at("laps");
+  const auto built = fs::last_write_time(project / ".tessera/build/release/controller");
+  EXPECT_LT(json("simulate 01_line_follower --for 10s --set v=0.05").at("laps"), normal * 0.6);
+  write(project / "params.yaml", "v: 0.05\n");
+  EXPECT_LT(json("simulate 01_line_follower --for 10s").at("laps"), normal * 0.6);
+  EXPECT_EQ(fs::last_write_time(project / ".tessera/build/release/controller"), built);
+}
+
+TEST_F(Simulate, WrongParametersAndTracksAreNamed) {
+  example("01_line_follower");
+  const cli::Exit unknown = tessera("simulate 01_line_follower --for 1s --set vv=1");
+  EXPECT_EQ(unknown.code, 1) << unknown.text;
+  EXPECT_NE(unknown.text.find("did you mean"), std::string::npos) << unknown.text;
+  EXPECT_EQ(tessera("simulate 01_line_follower --for 1s --set v=fast").code, 1);
+  const cli::Exit nowhere = tessera("simulate 01_line_follower --for 1s --track nowhere.png");
+  EXPECT_EQ(nowhere.code, 1);
+  EXPECT_NE(nowhere.text.find("nowhere.png"), std::string::npos) << nowhere.text;
+}
+
+TEST_F(Simulate, RunWithoutDriversNamesTheRealBuffer) {
+  example("01_line_follower");
+  const cli::Exit done = tessera("run 01_line_follower --for 1s");
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.text.find("robot.sensor.left"), std::string::npos) << done.text;
+}
+
+TEST_F(Simulate, RunInTheWorldTakesRealTime) {
+  example("01_line_follower");
+  const nlohmann::json run = json("run 01_line_follower --world --for 2s");
+  EXPECT_GE(run.at("wall_s"), 1.9);
+  EXPECT_GT(run.at("firings"), 500);
+}
+
+TEST_F(Simulate, InterruptEndsARunSafelyWithItsOwnExitCode) {
+  example("01_line_follower");
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
+  const cli::Exit done = shell("timeout --preserve-status -s INT 3 " TESSERA_BINARY_DIR
+                               "/tessera run 01_line_follower --world --for 600s");
+  EXPECT_EQ(done.code, 130) << done.text;
+  EXPECT_NE(done.text.find("SIGINT"), std::string::npos) << done.text;
+}
+
+}  // namespace tessera::cli_test

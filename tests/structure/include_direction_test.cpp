@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Rooms = std::set<std::string>;
+
+// The table of docs/architecture.md; a room may always include itself.
+const std::map<std::string, Rooms> allowed{
+    {"diagnostics", {}},
+    {"spec", {"diagnostics"}},
+    {"net", {"diagnostics"}},
+    {"layers", {"spec", "net", "diagnostics"}},
+    {"verify", {"net", "tessera"}},
+    {"drawing", {"net", "spec", "layers", "diagnostics"}},
+    {"codegen", {"spec", "verify", "net"}},
+    {"runtime", {"tessera"}},
+    {"sim", {"tessera"}},
+    {"report", {"sim", "tessera"}},
+    {"cli", {"diagnostics", "spec", "net", "layers", "verify", "drawing", "codegen", "sim", "report", "tessera"}},
+};
+
+// "tessera/..." are the runtime's public headers. The one that the checker shares with the runtime:
+bool only_shared_definition(const std::string& room, const std::string& include) {
+  return room != "verify" || include == "tessera/net_hash.hpp";
+}
+
+std::string room_of(const fs::path& relative) {
+  auto part = relative.begin();
+  if (*part == "src") ++part;
+  return part->string();
+}
+
+TEST(Structure, RoomsIncludeOnlyRoomsBeforeThem) {
+  const fs::path root = TESSERA_SOURCE_DIR;
+  const std::regex include_line("^\\s*#include \"([^\"]+)\"");
+  std::size_t files = 0;
+  for (const char* folder : {"src", "runtime", "sim", "report", "cli"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const fs::path extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp") continue;
+      ++files;
+      const fs::path relative = fs::relative(entry.path(), root);
+      const std::string room = room_of(relative);
+      ASSERT_TRUE(allowed.contains(room)) << "a room that docs/architecture.md does not know: " << room;
+      std::ifstream stream(entry.path());
+      std::smatch match;
+      for (std::string line; std::getline(stream, line);) {
+        if (!std::regex_search(line, match, include_line)) continue;
+        const std::string include = match[1];
+        const std::string target = include.substr(0, include.find('/'));
+        EXPECT_TRUE(target == room || (room == "runtime" && target == "tessera") || allowed.at(room).contains(target))
+            << relative << " includes " << include;
+        if (target == "tessera") EXPECT_TRUE(only_shared_definition(room, include)) << relative << " includes " << include;
+      }
+    }
+  EXPECT_GT(files, 50U);
+}
+
+}  // namespace

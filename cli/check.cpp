@@ -17,8 +17,7 @@ struct Options {
 };
 
 int check_json(const Options& options) {
-  const std::filesystem::path inside = std::filesystem::path(options.spec) / "spec.yaml";
-  diagnostics::Diagnostics found = diagnostics::load(std::filesystem::exists(inside) ? inside : options.spec);
+  diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors()) static_cast<void>(spec::parse(found));
   write_output(options.json, diagnostics::render_json(found) + "\n");
   return found.has_errors() ? failed : ok;
@@ -31,8 +30,9 @@ int check_command(const Options& options) {
   const std::optional<Nets> nets = build(*specification);
   if (!nets) return failed;
   const spec::Model& model = specification->model;
-  fmt::print("{}: {} agents, {} subsystems, {} channels; {} places, {} transitions\n", model.system, model.agents.size(),
-             model.instances.size(), model.channels.size(), nets->flat.places().size(), nets->flat.transitions().size());
+  fmt::print("{}: {} agents, {} subsystems, {} channels; {} places, {} transitions\n", model.system,
+             model.agents.size(), model.instances.size(), model.channels.size(), nets->flat.places().size(),
+             nets->flat.transitions().size());
   return ok;
 }
 
@@ -51,7 +51,8 @@ int verify_command(const Options& options) {
 void add_check(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("check", "Read a specification and report every mistake in it");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")->capture_default_str();
+  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
   command->footer("Example: tessera check robot/spec.yaml");
   command->callback([options, &exit_code] { exit_code = check_command(*options); });
@@ -60,7 +61,8 @@ void add_check(CLI::App& app, int& exit_code) {
 void add_verify(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("verify", "Prove that no place of the net ever holds two tokens");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")->capture_default_str();
+  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
+      ->capture_default_str();
   command->footer("Example: tessera verify robot/spec.yaml");
   command->callback([options, &exit_code] { exit_code = verify_command(*options); });
 }

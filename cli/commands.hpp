@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-/// The subcommands. Each declares its options on `app` and sets the function that runs it; that function stores the
-/// command's exit code in `exit_code`.
+/// The subcommands. Each declares its options on `app` and sets the function that runs it; that function
+/// stores the command's exit code in `exit_code`.
 namespace tessera::cli {
 
 void add_new(CLI::App& app, int& exit_code);

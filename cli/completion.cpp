@@ -41,7 +41,8 @@ complete -o filenames -F _tessera tessera
 }  // namespace
 
 void add_completion(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands and options in bash");
+  CLI::App* command =
+      app.add_subcommand("completion", "Print a script that completes commands and options in bash");
   command->footer("Example: tessera completion > /etc/bash_completion.d/tessera");
   command->callback([&app, &exit_code] {
     fmt::print("{}", bash_completion(app));

@@ -22,13 +22,16 @@ int generate_command(const Options& options) {
   if (!verified) return failed;
   const Generated generated = generate(*verified, {options.stubs, options.output});
   if (!options.json.empty()) {
-    const nlohmann::json result{{"folder", generated.folder.string()},  {"files", generated.files},
-                                {"written", generated.written},         {"lines", generated.lines},
-                                {"net_hash", verified->net.report().net_hash}, {"seconds", step.seconds()}};
+    const nlohmann::json result{{"folder", generated.folder.string()},
+                                {"files", generated.files},
+                                {"written", generated.written},
+                                {"lines", generated.lines},
+                                {"net_hash", verified->net.report().net_hash},
+                                {"seconds", step.seconds()}};
     write_output(options.json, result.dump(2) + "\n");
   } else {
-    fmt::print("{} files, {} lines in {} ({} changed)\n", generated.files, generated.lines, generated.folder.string(),
-               generated.written);
+    fmt::print("{} files, {} lines in {} ({} changed)\n", generated.files, generated.lines,
+               generated.folder.string(), generated.written);
   }
   return report_missing(generated) ? ok : failed;
 }
@@ -36,10 +39,13 @@ int generate_command(const Options& options) {
 }  // namespace
 
 void add_generate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("generate", "Write the C++ controller that executes the verified net");
+  CLI::App* command =
+      app.add_subcommand("generate", "Write the C++ controller that executes the verified net");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")->capture_default_str();
-  command->add_option("-o,--output", options->output, "Folder for the generated files (default: .tessera/generated)");
+  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "Folder for the generated files (default: .tessera/generated)");
   command->add_flag("--stubs", options->stubs, "Append stubs of missing transition functions to your files");
   command->add_option("--json", options->json, "Write what was done as JSON (- is standard output)");
   command->footer("Example: tessera generate --stubs");

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-
 #include <exception>
 
 #include "cli/commands.hpp"
@@ -7,18 +6,20 @@
 
 int main(int argc, char** argv) {
   namespace cli = tessera::cli;
-  CLI::App app("Tessera: robot controllers from hierarchical Petri nets.\n"
-               "From one file to a proved net, a C++ controller and a simulated robot.");
+  CLI::App app(
+      "Tessera: robot controllers from hierarchical Petri nets.\n"
+      "From one file to a proved net, a C++ controller and a simulated robot.");
   app.name("tessera");
   app.set_version_flag("--version", TESSERA_VERSION);
   app.require_subcommand(1);
-  app.footer("First steps:\n"
-             "  tessera new rover && cd rover   a project with a simulated robot\n"
-             "  tessera simulate --for 60s      build it and watch it drive\n"
-             "`tessera COMMAND --help` shows the options of a command, with examples.");
+  app.footer(
+      "First steps:\n"
+      "  tessera new rover && cd rover   a project with a simulated robot\n"
+      "  tessera simulate --for 60s      build it and watch it drive\n"
+      "`tessera COMMAND --help` shows the options of a command, with examples.");
   int exit_code = cli::ok;
-  for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export, cli::add_generate,
-                    cli::add_test, cli::add_simulate, cli::add_run, cli::add_completion})
+  for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export,
+                    cli::add_generate, cli::add_test, cli::add_simulate, cli::add_run, cli::add_completion})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -56,7 +56,8 @@ int new_command(const std::string& given) {
   const fs::path folder(given);
   const std::string name = folder.filename().string();
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_]*")))
-    return complain(fmt::format("'{}' cannot name a system: use lower-case letters, digits and _", name)), usage;
+    return complain(fmt::format("'{}' cannot name a system: use lower-case letters, digits and _", name)),
+           usage;
   if (fs::exists(folder)) return complain(fmt::format("{} exists already", folder.string()));
 
   const Installation installation = Installation::find();
@@ -70,13 +71,14 @@ int new_command(const std::string& given) {
   fs::copy_file(installation.share / "worlds/line_world.xml", folder / "line_world.xml");
   fs::copy_file(installation.share / "tracks/oval.png", folder / "oval.png");
   guard.done = true;
-  fmt::print("{0} is ready: a robot that follows a line.\n\n"
-             "  cd {0}\n"
-             "  tessera simulate --for 60s --report report   build it, let it drive, see report/index.html\n"
-             "  tessera show --svg net.svg                    its Petri net\n"
-             "  tessera test                                  the tests of its transition functions\n\n"
-             "Then change src/control.cpp and simulate again.\n",
-             folder.string());
+  fmt::print(
+      "{0} is ready: a robot that follows a line.\n\n"
+      "  cd {0}\n"
+      "  tessera simulate --for 60s --report report   build it, let it drive, see report/index.html\n"
+      "  tessera show --svg net.svg                    its Petri net\n"
+      "  tessera test                                  the tests of its transition functions\n\n"
+      "Then change src/control.cpp and simulate again.\n",
+      folder.string());
   return ok;
 }
 

@@ -6,70 +6,109 @@
 #include <stdexcept>
 
 #include "cli/path_plot.hpp"
+#include "cli/terminal.hpp"
 
 namespace tessera::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
 using nlohmann::json;
 
-json read_summary(const std::filesystem::path& file) {
+json read_summary(const fs::path& file) {
   std::ifstream stream(file);
   json summary = json::parse(stream, nullptr, false);
-  if (summary.is_discarded()) throw std::runtime_error("the controller left no readable summary in " + file.string());
+  if (summary.is_discarded())
+    throw std::runtime_error("the controller left no readable summary in " + file.string());
   return summary;
 }
 
-void follow_line(RunOutcome& outcome, const std::filesystem::path& trace_file) {
+template <class T>
+T value_or_throw(std::optional<T> value, const std::string& error) {
+  if (!value) throw std::runtime_error(error);
+  return std::move(*value);
+}
+
+report::Drive read_drive(const Floor& floor, const fs::path& trace_file) {
   std::string error;
-  outcome.trace = sim::read_trace(trace_file.string(), error);
-  if (!outcome.trace) throw std::runtime_error(error);
-  const std::optional<sim::Track> track =
-      sim::Track::load(outcome.floor->image.string(), outcome.floor->metres_per_pixel, error);
-  if (!track) throw std::runtime_error(error);
-  const sim::Skeleton line = sim::skeleton(*track);
-  if (!line.points.empty()) outcome.line = sim::measure(line, *outcome.trace);
+  std::optional<sim::Track> track = sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
+  report::Drive drive;
+  drive.floor = value_or_throw(std::move(track), error);
+  std::optional<sim::Trace> trace = sim::read_trace(trace_file.string(), error);
+  drive.trace = value_or_throw(std::move(trace), error);
+  drive.line = sim::skeleton(drive.floor);
+  if (!drive.line.points.empty()) drive.metrics = sim::measure(drive.line, drive.trace);
+  return drive;
+}
+
+report::ReportInput report_input(RunOutcome outcome, const verify::Report& verification) {
+  std::string error;
+  report::ReportInput input;
+  input.recording = value_or_throw(read_recording(outcome.recording.string(), error), error);
+  input.drive = std::move(outcome.drive);
+  input.simulated_s = outcome.summary.value("simulated_s", 0.0);
+  input.wall_s = outcome.summary.value("wall_s", 0.0);
+  input.firings = outcome.summary.value("firings", 0ULL);
+  input.ended = outcome.summary.value("ended", "");
+  for (const json& subsystem : outcome.summary.value("subsystems", json::array()))
+    input.subsystems.push_back({subsystem.value("path", ""), subsystem.value("iterations", 0ULL),
+                                subsystem.value("overruns", 0ULL), subsystem.value("errors", 0ULL)});
+  for (const verify::PropertyResult& property : verification.properties)
+    input.verdicts.push_back({property.name, name_of(property.verdict),
+                              property.verdict == verify::Verdict::holds ? property.method : property.why});
+  return input;
 }
 
 }  // namespace
 
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
-  const RunFiles files = run_files(controller.specification, options);
-  RunOutcome outcome;
-  outcome.summary = read_summary(files.summary);
-  outcome.recording = files.recording;
-  const double wall = outcome.summary.value("wall_s", 0.0);
-  outcome.summary["real_time_factor"] = wall > 0 ? outcome.summary.value("simulated_s", 0.0) / wall : 0.0;
-  if (controller.specification.model.simulation) outcome.floor = floor_of(controller.specification, options);
-  if (outcome.floor && std::filesystem::exists(files.trace)) follow_line(outcome, files.trace);
+  const Specification& specification = controller.specification;
+  const RunFiles files = run_files(specification, options);
+  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt};
+  if (!specification.model.simulation || !fs::exists(files.trace)) return outcome;
+  if (const std::optional<Floor> floor = floor_of(specification, options))
+    outcome.drive = read_drive(*floor, files.trace);
   return outcome;
 }
 
 std::string to_json(const RunOutcome& outcome) {
   json result = outcome.summary;
-  result["recording"] = outcome.recording.string();
-  if (outcome.line) {
-    result["laps"] = outcome.line->laps;
-    result["line_lost_s"] = outcome.line->line_lost_s;
-    result["longest_loss_s"] = outcome.line->longest_loss_s;
-    result["lateral_error_m"] = {{"mean", outcome.line->mean_error_m}, {"max", outcome.line->max_error_m}};
+  if (outcome.drive && !outcome.drive->line.points.empty()) {
+    const sim::LineMetrics& line = outcome.drive->metrics;
+    result["laps"] = line.laps;
+    result["line_lost_s"] = line.line_lost_s;
+    result["longest_loss_s"] = line.longest_loss_s;
+    result["lateral_error_m"] = {{"mean", line.mean_error_m}, {"max", line.max_error_m}};
   }
   return result.dump(2) + "\n";
 }
 
 void print(const RunOutcome& outcome) {
   const json& summary = outcome.summary;
-  if (outcome.line) fmt::print("{}", path_plot(*outcome.floor, *outcome.trace));
-  fmt::print("{:.1f} s in {:.2f} s ({:.0f} x real time), {} firings, ended by: {}\n", summary.value("simulated_s", 0.0),
-             summary.value("wall_s", 0.0), summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
+  if (outcome.drive) fmt::print("{}", path_plot(outcome.drive->floor, outcome.drive->trace));
+  fmt::print("{:.1f} s in {:.2f} s ({:.0f} x real time), {} firings, ended by: {}\n",
+             summary.value("simulated_s", 0.0), summary.value("wall_s", 0.0),
+             summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
              summary.value("ended", ""));
   for (const json& subsystem : summary.value("subsystems", json::array()))
     fmt::print("  {:<24} {:>8} iterations  {:>4} overruns  {:>4} errors\n", subsystem.value("path", ""),
-               subsystem.value("iterations", 0ULL), subsystem.value("overruns", 0ULL), subsystem.value("errors", 0ULL));
-  if (outcome.line)
-    fmt::print("{:.2f} laps; line lost {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n", outcome.line->laps,
-               outcome.line->line_lost_s, outcome.line->mean_error_m * 1000, outcome.line->max_error_m * 1000);
+               subsystem.value("iterations", 0ULL), subsystem.value("overruns", 0ULL),
+               subsystem.value("errors", 0ULL));
+  if (outcome.drive && !outcome.drive->line.points.empty()) {
+    const sim::LineMetrics& line = outcome.drive->metrics;
+    fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",
+               line.laps, line.line_lost_s, line.mean_error_m * 1000, line.max_error_m * 1000);
+  }
   fmt::print("recording: {}\n", outcome.recording.string());
+}
+
+void write_report(RunOutcome outcome, const verify::Report& verification, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const report::File& file : report::render(report_input(std::move(outcome), verification))) {
+    write_output((folder / file.name).string(), file.bytes);
+    fmt::print(stderr, "report: {}\n", (folder / file.name).string());
+  }
 }
 
 }  // namespace tessera::cli

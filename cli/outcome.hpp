@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/launch.hpp"
-#include "sim/track.hpp"
+#include "report/report.hpp"
 
 namespace tessera::cli {
 
@@ -14,23 +14,22 @@ namespace tessera::cli {
 struct RunOutcome {
   nlohmann::json summary;  ///< simulated_s, wall_s, real_time_factor, firings, ended, failed, subsystems
   std::filesystem::path recording;
-  std::optional<sim::Trace> trace;
-  std::optional<Floor> floor;
-  std::optional<sim::LineMetrics> line;
+  std::optional<report::Drive> drive;
 };
 
 /// Reads what the run left. Throws std::runtime_error when something cannot be read.
 [[nodiscard]] RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options);
 
-/// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}; on a track
-/// also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}.
+/// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}; on
+/// a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}.
 [[nodiscard]] std::string to_json(const RunOutcome& outcome);
 
 /// The same for people, on standard output.
 void print(const RunOutcome& outcome);
 
-/// index.html and path.png in `folder`, which is made if need be; prints where they are to standard error.
-void write_report(const RunOutcome& outcome, const Controller& controller, const LaunchOptions& options,
+/// index.html and, with a drive, path.png in `folder`, which is made if need be; says on standard error where
+/// they are. Throws std::runtime_error when one cannot be written.
+void write_report(RunOutcome outcome, const verify::Report& verification,
                   const std::filesystem::path& folder);
 
 }  // namespace tessera::cli

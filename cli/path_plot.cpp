@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/track.hpp"
-
 namespace tessera::cli {
 
 namespace {
@@ -15,7 +13,8 @@ constexpr int columns = 60, most_rows = 24;
 /// A canvas of dots, two by four in each character.
 class Dots {
  public:
-  Dots(int width, int height) : width_(width), height_(height), cells_(static_cast<std::size_t>(width) * height) {}
+  Dots(int width, int height)
+      : width_(width), height_(height), cells_(static_cast<std::size_t>(width) * height) {}
 
   /// x to the right, y down, in dots.
   void set(int x, int y) {
@@ -27,7 +26,8 @@ class Dots {
   [[nodiscard]] std::string text() const {
     std::string text;
     for (int row = 0; row < height_; ++row) {
-      for (int column = 0; column < width_; ++column) text += braille(cells_[static_cast<std::size_t>(row) * width_ + column]);
+      for (int column = 0; column < width_; ++column)
+        text += braille(cells_[static_cast<std::size_t>(row) * width_ + column]);
       text += '\n';
     }
     return text;
@@ -36,7 +36,8 @@ class Dots {
  private:
   // UTF-8 of U+2800 + dots.
   static std::string braille(unsigned char dots) {
-    return {static_cast<char>(0xe2), static_cast<char>(0xa0 | (dots >> 6)), static_cast<char>(0x80 | (dots & 0x3f))};
+    return {static_cast<char>(0xe2), static_cast<char>(0xa0 | (dots >> 6)),
+            static_cast<char>(0x80 | (dots & 0x3f))};
   }
   int width_, height_;
   std::vector<unsigned char> cells_;
@@ -44,15 +45,13 @@ class Dots {
 
 }  // namespace
 
-std::string path_plot(const Floor& floor, const sim::Trace& trace) {
-  std::string error;
-  const std::optional<sim::Track> track = sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  if (!track) return {};
-  const double scale = std::min(columns * 2 / track->width_m(), most_rows * 4 / track->height_m());  // dots a metre
-  Dots dots(static_cast<int>(std::ceil(track->width_m() * scale / 2)),
-            static_cast<int>(std::ceil(track->height_m() * scale / 4)));
+std::string path_plot(const sim::Track& floor, const sim::Trace& trace) {
+  const double scale =
+      std::min(columns * 2 / floor.width_m(), most_rows * 4 / floor.height_m());  // dots a metre
+  Dots dots(static_cast<int>(std::ceil(floor.width_m() * scale / 2)),
+            static_cast<int>(std::ceil(floor.height_m() * scale / 4)));
   for (const sim::TracePoint& point : trace.points)
-    dots.set(static_cast<int>(point.x_m * scale), static_cast<int>((track->height_m() - point.y_m) * scale));
+    dots.set(static_cast<int>(point.x_m * scale), static_cast<int>((floor.height_m() - point.y_m) * scale));
   return dots.text();
 }
 

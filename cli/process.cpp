@@ -1,7 +1,7 @@
 #include "cli/process.hpp"
 
-#include <fmt/core.h>
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -43,7 +43,8 @@ class SignalsToChild {
   SignalsToChild& operator=(const SignalsToChild&) = delete;
 
  private:
-  struct sigaction interrupt_ {}, terminate_ {};
+  struct sigaction interrupt_ {
+  }, terminate_{};
 };
 
 pid_t start(const Command& command, posix_spawn_file_actions_t* actions) {
@@ -52,7 +53,8 @@ pid_t start(const Command& command, posix_spawn_file_actions_t* actions) {
   arguments.push_back(nullptr);
   pid_t child = 0;
   const int problem = posix_spawnp(&child, arguments[0], actions, nullptr, arguments.data(), environ);
-  if (problem != 0) throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(problem)));
+  if (problem != 0)
+    throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(problem)));
   return child;
 }
 
@@ -112,13 +114,15 @@ std::string shell_line(const Command& command) {
   std::string line;
   for (const std::string& word : command) {
     if (!line.empty()) line += ' ';
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[](){}<>|&;#~!") == std::string::npos;
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[](){}<>|&;#~!") == std::string::npos;
     if (plain) {
       line += word;
       continue;
     }
     line += '\'';
-    for (const char character : word) line += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    for (const char character : word)
+      line += character == '\'' ? std::string("'\\''") : std::string(1, character);
     line += '\'';
   }
   return line;

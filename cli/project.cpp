@@ -116,15 +116,15 @@ std::string compiler_output(const std::string& text) {
   return kept;
 }
 
-bool configure(const Specification& specification, const Generated& generated, const fs::path& build, bool debug) {
+bool configure(const Specification& specification, const Generated& generated, const fs::path& build,
+               bool debug) {
   if (fs::exists(build / "build.ninja")) return true;
   Step step("configuring");
-  const Exit done = capture(
-      {"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
-       fmt::format("-DCMAKE_BUILD_TYPE={}", debug ? "Debug" : "Release"),
-       fmt::format("-Dtessera_DIR={}", Installation::find().cmake_package.string()),
-       fmt::format("-DTESSERA_PROJECT_DIR={}", specification.project.string())},
-      [&](std::string_view line) { step.progress(line); });
+  const Exit done = capture({"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
+                             fmt::format("-DCMAKE_BUILD_TYPE={}", debug ? "Debug" : "Release"),
+                             fmt::format("-Dtessera_DIR={}", Installation::find().cmake_package.string()),
+                             fmt::format("-DTESSERA_PROJECT_DIR={}", specification.project.string())},
+                            [&](std::string_view line) { step.progress(line); });
   if (done.code != 0) fmt::print(stderr, "{}", done.text);
   if (done.code != 0) fs::remove(build / "build.ninja");
   return done.code == 0;
@@ -145,9 +145,11 @@ void link_compile_commands(const fs::path& project, const fs::path& build) {
 Generated generate(const Verified& verified, const GenerateOptions& options) {
   const Specification& specification = verified.specification;
   Generated result;
-  result.folder = options.output.empty() ? specification.project / ".tessera/generated" : fs::absolute(options.output);
+  result.folder =
+      options.output.empty() ? specification.project / ".tessera/generated" : fs::absolute(options.output);
   std::set<fs::path> kept;
-  for (const codegen::File& file : codegen::generate(verified.net, specification.model, specification.file.string())) {
+  for (const codegen::File& file :
+       codegen::generate(verified.net, specification.model, specification.file.string())) {
     const fs::path path = result.folder / file.path;
     kept.insert(path);
     ++result.files;
@@ -162,20 +164,21 @@ Generated generate(const Verified& verified, const GenerateOptions& options) {
 bool report_missing(const Generated& generated) {
   for (const fs::path& file : generated.created) fmt::print(stderr, "wrote {}\n", file.string());
   for (const codegen::Stub& stub : generated.missing)
-    fmt::print(stderr, "{}: error: no function '{}'\nhint: add it (or run `tessera generate --stubs`):\n\n{}\n", stub.file,
-               stub.function, stub.body);
+    fmt::print(stderr,
+               "{}: error: no function '{}'\nhint: add it (or run `tessera generate --stubs`):\n\n{}\n",
+               stub.file, stub.function, stub.body);
   return generated.missing.empty();
 }
 
-fs::path compile(const Specification& specification, const Generated& generated, const BuildOptions& options) {
+fs::path compile(const Specification& specification, const Generated& generated,
+                 const BuildOptions& options) {
   const fs::path build = specification.project / ".tessera/build" / (options.debug ? "debug" : "release");
   if (!configure(specification, generated, build, options.debug)) return {};
   Step step("compiling");
   const Exit done =
-      capture({"cmake", "--build", build.string(), "--target", options.target},
-              [&](std::string_view line) {
-                if (const std::string count = ninja_progress(line); !count.empty()) step.progress(count);
-              });
+      capture({"cmake", "--build", build.string(), "--target", options.target}, [&](std::string_view line) {
+        if (const std::string count = ninja_progress(line); !count.empty()) step.progress(count);
+      });
   if (done.code != 0) {
     fmt::print(stderr, "{}", compiler_output(done.text));
     return {};

@@ -7,12 +7,13 @@
 #include "cli/walk.hpp"
 #include "codegen/codegen.hpp"
 
-/// The folder of a user's project: specification, src/, test/, and .tessera/ with what is generated and built.
+/// The folder of a user's project: specification, src/, test/, and .tessera/ with what is generated and
+/// built.
 namespace tessera::cli {
 
 struct GenerateOptions {
-  bool stubs = false;             ///< append stubs of missing functions to files that exist
-  std::filesystem::path output;   ///< instead of .tessera/generated; empty: there
+  bool stubs = false;            ///< append stubs of missing functions to files that exist
+  std::filesystem::path output;  ///< instead of .tessera/generated; empty: there
 };
 
 /// What generate did.
@@ -23,20 +24,21 @@ struct Generated {
   std::vector<codegen::Stub> missing;          ///< functions the user has yet to write
 };
 
-/// Generates the controller of a verified net: changed files only, so that little is compiled again; the user's files
-/// once. Throws std::runtime_error when a file cannot be written.
+/// Generates the controller of a verified net: changed files only, so that little is compiled again; the
+/// user's files once. Throws std::runtime_error when a file cannot be written.
 [[nodiscard]] Generated generate(const Verified& verified, const GenerateOptions& options = {});
 
-/// Says on standard error what generate did to the user's files and what is missing. false: something is missing.
+/// Says on standard error what generate did to the user's files and what is missing. false: something is
+/// missing.
 bool report_missing(const Generated& generated);
 
 struct BuildOptions {
-  bool debug = false;                ///< for gdb: -O0 -g in a build folder of its own
+  bool debug = false;  ///< for gdb: -O0 -g in a build folder of its own
   std::string target = "controller";
 };
 
-/// Builds with CMake. Prints the compiler's complaints, which name the user's files and, for conditions, the lines of
-/// the specification. Returns the program, or an empty path.
+/// Builds with CMake. Prints the compiler's complaints, which name the user's files and, for conditions, the
+/// lines of the specification. Returns the program, or an empty path.
 [[nodiscard]] std::filesystem::path compile(const Specification& specification, const Generated& generated,
                                             const BuildOptions& options);
 
@@ -46,6 +48,7 @@ struct Controller {
   Specification specification;
   verify::Report report;
 };
-[[nodiscard]] std::optional<Controller> make_controller(const std::filesystem::path& given, const BuildOptions& options);
+[[nodiscard]] std::optional<Controller> make_controller(const std::filesystem::path& given,
+                                                        const BuildOptions& options);
 
 }  // namespace tessera::cli

@@ -28,20 +28,19 @@ int print_debugger(const Command& command) {
   return ok;
 }
 
-// The summary is written even by a run that failed, and says why; only a controller that could not start leaves none.
-int launch(const Controller& controller, const LaunchOptions& options, const Command& command, const std::string& json,
-           const std::string& report_folder) {
+// The summary is written even by a run that failed, and says why; only a controller that could not start
+// leaves none.
+int launch(const Controller& controller, const LaunchOptions& options, const Command& command,
+           const std::string& json, const std::string& report_folder) {
   if (options.debug) return print_debugger(command);
   const RunFiles files = run_files(controller.specification, options);
   std::filesystem::remove(files.summary);
   const Exit exit = run(command);
   if (!std::filesystem::exists(files.summary)) return exit.code == 0 ? failed : exit.code;
   const RunOutcome outcome = read_outcome(controller, options);
-  if (json.empty())
-    print(outcome);
-  else
-    write_output(json, to_json(outcome));
-  if (!report_folder.empty()) write_report(outcome, controller, options, report_folder);
+  if (json != "-") print(outcome);
+  if (!json.empty()) write_output(json, to_json(outcome));
+  if (!report_folder.empty()) write_report(outcome, controller.report, report_folder);
   return exit.code;
 }
 
@@ -61,27 +60,31 @@ int run_command(const RunCommandOptions& options) {
   if (!controller) return failed;
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is no world to drive");
-  return launch(*controller, options, controller_command(*controller, options, "run", options.world), options.json, "");
+  return launch(*controller, options, controller_command(*controller, options, "run", options.world),
+                options.json, "");
 }
 
 }  // namespace
 
 void add_simulate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("simulate", "Build the controller and run it in its simulated world");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Build the controller and run it in its simulated world");
   auto options = std::make_shared<SimulateOptions>();
   declare(*command, *options);
   declare_world(*command, *options);
   command->add_flag("--realtime", options->realtime, "Not faster than the wall clock");
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command->add_option("--report", options->report, "Folder for a page and a picture of the run");
-  command->footer("Examples:\n"
-                  "  tessera simulate --for 60s --seed 1 --report report\n"
-                  "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15");
+  command->footer(
+      "Examples:\n"
+      "  tessera simulate --for 60s --seed 1 --report report\n"
+      "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15");
   command->callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 
 void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "Build the controller and run it on the steady clock with real drivers");
+  CLI::App* command =
+      app.add_subcommand("run", "Build the controller and run it on the steady clock with real drivers");
   auto options = std::make_shared<RunCommandOptions>();
   declare(*command, *options);
   declare_world(*command, *options);

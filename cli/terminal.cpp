@@ -25,10 +25,12 @@ int complain(const std::string& text) {
 
 void write_output(const std::string& file, std::string_view text) {
   std::FILE* stream = file == "-" ? stdout : std::fopen(file.c_str(), "wb");
-  if (stream == nullptr) throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
+  if (stream == nullptr)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const bool closed = stream == stdout ? std::fflush(stream) == 0 : std::fclose(stream) == 0;
-  if (!written || !closed) throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
+  if (!written || !closed)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
 }
 
 Step::Step(std::string what) : what_(std::move(what)), start_(std::chrono::steady_clock::now()) {}

@@ -23,8 +23,8 @@ int complain(const std::string& text);
 /// Writes a file, or standard output for "-". Throws std::runtime_error with path and reason.
 void write_output(const std::string& file, std::string_view text);
 
-/// A line on standard error that appears when a step takes longer than a second and goes when it is done. Prints
-/// nothing when standard error is no terminal.
+/// A line on standard error that appears when a step takes longer than a second and goes when it is done.
+/// Prints nothing when standard error is no terminal.
 class Step {
  public:
   explicit Step(std::string what);

@@ -21,7 +21,8 @@ int test_command(const Options& options) {
   const std::filesystem::path given(options.spec);
   const std::filesystem::path project = std::filesystem::is_directory(given) ? given : given.parent_path();
   if (!std::filesystem::exists(project / "test", ignored))
-    return complain(fmt::format("{} has no test/ folder: put GoogleTest files there", std::filesystem::absolute(project).string()));
+    return complain(fmt::format("{} has no test/ folder: put GoogleTest files there",
+                                std::filesystem::absolute(project).string()));
   const std::optional<Controller> tests = make_controller(options.spec, {options.debug, "tests"});
   if (!tests) return failed;
   Command command{tests->program.string()};
@@ -32,9 +33,11 @@ int test_command(const Options& options) {
 }  // namespace
 
 void add_test(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("test", "Build and run the project's own GoogleTests of its functions");
+  CLI::App* command =
+      app.add_subcommand("test", "Build and run the project's own GoogleTests of its functions");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")->capture_default_str();
+  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
+      ->capture_default_str();
   command->add_option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command->add_flag("--debug", options->debug, "Build the tests for gdb");
   command->footer("Example: tessera test --filter 'Follow.*'");

@@ -12,9 +12,13 @@ namespace tessera::cli {
 
 namespace fs = std::filesystem;
 
+fs::path spec_file(const fs::path& given) {
+  fs::path inside = given / "spec.yaml";
+  return fs::exists(inside) ? inside : given;
+}
+
 std::optional<Specification> read(const fs::path& given) {
-  const fs::path inside = given / "spec.yaml";
-  const fs::path file = fs::exists(inside) ? inside : given;
+  const fs::path file = spec_file(given);
   diagnostics::Diagnostics diagnostics = diagnostics::load(file);
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
@@ -38,14 +42,22 @@ verify::Report check(const Specification& specification, const Nets& nets) {
   return verify::check(nets.flat, layers::invariants(specification.model, nets.pages, nets.flat));
 }
 
-void print(const verify::Report& report) {
-  for (const verify::PropertyResult& property : report.properties) {
-    const char* verdict = property.verdict == verify::Verdict::holds      ? "holds"
-                          : property.verdict == verify::Verdict::violated ? "violated"
-                                                                          : "unknown";
-    fmt::print("{}: {} ({})\n", property.name, verdict,
-               property.verdict == verify::Verdict::holds ? property.method : property.why);
+const char* name_of(verify::Verdict verdict) {
+  switch (verdict) {
+    case verify::Verdict::holds:
+      return "holds";
+    case verify::Verdict::violated:
+      return "violated";
+    case verify::Verdict::unknown:
+      return "unknown";
   }
+  return "";
+}
+
+void print(const verify::Report& report) {
+  for (const verify::PropertyResult& property : report.properties)
+    fmt::print("{}: {} ({})\n", property.name, name_of(property.verdict),
+               property.verdict == verify::Verdict::holds ? property.method : property.why);
 }
 
 std::optional<Verified> walk(const fs::path& given) {

@@ -8,8 +8,8 @@
 #include "spec/model.hpp"
 #include "verify/verify.hpp"
 
-/// The walk of the data, as far as a command needs it: specification -> Model -> hierarchical net -> flat net ->
-/// verified net. Every stage prints what it has to say to standard error.
+/// The walk of the data, as far as a command needs it: specification -> Model -> hierarchical net -> flat net
+/// -> verified net. Every stage prints what it has to say to standard error.
 namespace tessera::cli {
 
 /// A specification that was read without error.
@@ -19,6 +19,9 @@ struct Specification {
   diagnostics::Diagnostics diagnostics;
   spec::Model model;
 };
+
+/// The file that `given` means: itself, or the spec.yaml of a folder.
+[[nodiscard]] std::filesystem::path spec_file(const std::filesystem::path& given);
 
 /// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been printed.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given);
@@ -32,7 +35,10 @@ struct Nets {
 /// The verdicts on a net made by build.
 [[nodiscard]] verify::Report check(const Specification& specification, const Nets& nets);
 
-/// Verdicts as lines of text, a tick or a cross each.
+/// "holds", "violated", "unknown"
+[[nodiscard]] const char* name_of(verify::Verdict verdict);
+
+/// Verdicts as lines of text on standard output.
 void print(const verify::Report& report);
 
 /// read, build, check; only a net that passed gets through. Uses up the nets.

@@ -15,7 +15,8 @@ namespace {
 
 void check_float64(const std::string& path, std::size_t bytes) {
   if (bytes == sizeof(double)) return;
-  throw std::invalid_argument(path + ": the device has a float64 (8 bytes), the buffer has " + std::to_string(bytes) + " bytes");
+  throw std::invalid_argument(path + ": the device has a float64 (8 bytes), the buffer has " +
+                              std::to_string(bytes) + " bytes");
 }
 
 /// FNV-1a: the same on every machine, unlike std::hash.
@@ -26,7 +27,8 @@ std::uint64_t hash_of(std::string_view text, std::uint64_t hash) {
 
 class LightSensor final : public RealReceptor {
  public:
-  LightSensor(std::shared_ptr<Simulation> simulation, std::string path, int eye, double noise, std::uint64_t seed)
+  LightSensor(std::shared_ptr<Simulation> simulation, std::string path, int eye, double noise,
+              std::uint64_t seed)
       : simulation_(std::move(simulation)), path_(std::move(path)), eye_(eye), noise_(noise), random_(seed) {}
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
@@ -87,16 +89,20 @@ double option(const DriverRequest& request, const std::string& name, double othe
 
 }  // namespace
 
-std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulation, const DriverRequest& request, double footprint_m,
+std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulation,
+                                           const DriverRequest& request, double footprint_m,
                                            std::uint64_t seed, std::string& error) {
   if (!options_fit(request, {"noise", "footprint"}, error)) return nullptr;
   const auto eye = simulation->add_eye(request.target, option(request, "footprint", footprint_m), error);
   if (!eye) return nullptr;
-  const std::uint64_t own_seed = hash_of(request.path, seed * 0x9e3779b97f4a7c15ULL + 14695981039346656037ULL);
-  return std::make_unique<LightSensor>(std::move(simulation), request.path, *eye, option(request, "noise", 0.01), own_seed);
+  const std::uint64_t own_seed =
+      hash_of(request.path, seed * 0x9e3779b97f4a7c15ULL + 14695981039346656037ULL);
+  return std::make_unique<LightSensor>(std::move(simulation), request.path, *eye,
+                                       option(request, "noise", 0.01), own_seed);
 }
 
-std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation, const DriverRequest& request, std::string& error) {
+std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation, const DriverRequest& request,
+                                    std::string& error) {
   if (!options_fit(request, {}, error)) return nullptr;
   const auto actuator = simulation->find_actuator(request.target, error);
   if (!actuator) return nullptr;

@@ -1,14 +1,14 @@
-// Draws the tracks of share/tessera/tracks: draw_tracks DIRECTORY. Black anti-aliased lines 0.05 m wide on white, at
-// 5 mm per pixel, in greys, so that edges are where they are and not at the next pixel.
+// Draws the tracks of share/tessera/tracks: draw_tracks DIRECTORY. Black anti-aliased lines 0.05 m wide on
+// white, at 5 mm per pixel, in greys, so that edges are where they are and not at the next pixel.
 #include <cairo.h>
 #include <png.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -49,6 +49,11 @@ class Pen {
     cairo_move_to(picture_, x_, y_);
     return *this;
   }
+  Pen& gap_left(double metres, double radius_m) {
+    turn_about(metres / radius_m, radius_m, 1);
+    cairo_move_to(picture_, x_, y_);
+    return *this;
+  }
   Pen& left(double degrees, double radius_m) { return arc(degrees, radius_m, 1); }
   Pen& right(double degrees, double radius_m) { return arc(degrees, radius_m, -1); }
   /// Joins the end to the start of the last stroke.
@@ -56,9 +61,6 @@ class Pen {
     cairo_close_path(picture_);
     return *this;
   }
-
-  /// How far the pen is from there, to see that a track closes.
-  [[nodiscard]] double distance_to(double x_m, double y_m) const { return std::hypot(x_ - x_m, y_ - y_m); }
 
   bool write(const std::string& file) {
     cairo_stroke(picture_);
@@ -90,14 +92,22 @@ class Pen {
     y_ += metres * std::sin(heading_);
   }
 
-  Pen& arc(double degrees, double radius_m, double side) {
-    const double angle = degrees * std::numbers::pi / 180;
+  /// Moves along a circle whose centre is on that side: 1 left, -1 right. Returns the centre's x and y.
+  std::pair<double, double> turn_about(double angle, double radius_m, double side) {
     const double centre_x = x_ - side * radius_m * std::sin(heading_);
     const double centre_y = y_ + side * radius_m * std::cos(heading_);
-    const double from = heading_ - side * std::numbers::pi / 2;
     heading_ += side * angle;
-    (side > 0 ? cairo_arc : cairo_arc_negative)(picture_, centre_x, centre_y, radius_m, from, from + side * angle);
-    cairo_get_current_point(picture_, &x_, &y_);
+    x_ = centre_x + side * radius_m * std::sin(heading_);
+    y_ = centre_y - side * radius_m * std::cos(heading_);
+    return {centre_x, centre_y};
+  }
+
+  Pen& arc(double degrees, double radius_m, double side) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const double from = heading_ - side * std::numbers::pi / 2;
+    const auto [centre_x, centre_y] = turn_about(angle, radius_m, side);
+    (side > 0 ? cairo_arc : cairo_arc_negative)(picture_, centre_x, centre_y, radius_m, from,
+                                                from + side * angle);
     return *this;
   }
 
@@ -126,12 +136,13 @@ bool draw_curves(const std::string& directory) {
   return pen.write(directory + "/curves.png");
 }
 
-/// Gaps of 2, 3 and 4 cm on straights and of 2 cm in a curve.
+/// Gaps of 2 and 4 cm on straights and of 3 cm in a curve.
 bool draw_gap(const std::string& directory) {
   constexpr double radius_m = 0.4;
   Pen pen(2.4, 1.2, 1.2, 0.2);
-  pen.forward(0.24).gap(0.02).forward(0.14).left(88.6, radius_m).gap(0.02).left(88.6, radius_m);
-  pen.forward(0.2).gap(0.03).forward(0.34).gap(0.04).forward(0.19).left(180, radius_m).forward(0.4);
+  pen.forward(0.2).gap(0.02).forward(0.18).left(90, radius_m).gap_left(0.03, radius_m);
+  pen.left(90 - 0.03 / radius_m * 180 / std::numbers::pi, radius_m);
+  pen.forward(0.38).gap(0.04).forward(0.38).left(180, radius_m).forward(0.41);
   return pen.write(directory + "/gap.png");
 }
 

@@ -24,10 +24,12 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string unknown_name(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
+std::string unknown_name(std::string_view what, std::string_view name,
+                         const std::vector<std::string>& known) {
   std::string text = "no " + std::string(what) + " '" + std::string(name) + "'";
   if (known.empty()) return text + "; there is none at all";
-  const auto nearest = std::ranges::min_element(known, {}, [&](const std::string& k) { return distance(name, k); });
+  const auto nearest =
+      std::ranges::min_element(known, {}, [&](const std::string& k) { return distance(name, k); });
   if (distance(name, *nearest) <= name.size() / 3 + 1) text += " (did you mean '" + *nearest + "'?)";
   text += known.size() == 1 ? "; there is " : "; there are ";
   for (const std::string& k : known) text += k + ", ";

@@ -14,7 +14,8 @@ namespace {
 /// Where the warnings of the engine go that this thread causes.
 thread_local std::string* warnings = nullptr;
 
-/// MuJoCo requires that this does not return. Its C code has unwind tables on all Debian architectures that ship it.
+/// MuJoCo requires that this does not return. Its C code has unwind tables on all Debian architectures that
+/// ship it.
 [[noreturn]] void on_error(const char* message) { throw std::runtime_error(message); }
 
 void on_warning(const char* message) {
@@ -60,7 +61,8 @@ std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& err
     model.reset(mj_loadXML(mjcf.c_str(), nullptr, message.data(), static_cast<int>(message.size())));
     if (model) data.reset(mj_makeData(model.get()));
   });
-  if (model && data && complaint.empty() && model->opt.timestep > 0.1) complaint = "the time step is longer than 0.1 s";
+  if (model && data && complaint.empty() && model->opt.timestep > 0.1)
+    complaint = "the time step is longer than 0.1 s";
   if (!model || !data || !complaint.empty()) {
     if (complaint.empty()) complaint = message.data();
     error = mjcf + ": " + complaint;
@@ -99,13 +101,13 @@ std::optional<Pose> Physics::robot() {
   const int body = model_->jnt_bodyid[robot_joint_];
   const mjtNum* at = data_->xpos + 3 * body;
   const mjtNum* axes = data_->xmat + 9 * body;
-  return Pose{at[0], at[1], std::atan2(axes[3], axes[0])};
+  return Pose{{at[0], at[1]}, std::atan2(axes[3], axes[0])};
 }
 
 void Physics::place_robot(const Pose& pose) {
   mjtNum* q = data_->qpos + model_->jnt_qposadr[robot_joint_];
-  q[0] = pose.x_m;
-  q[1] = pose.y_m;
+  q[0] = pose.at.x_m;
+  q[1] = pose.at.y_m;
   q[3] = std::cos(pose.heading_rad / 2);
   q[4] = q[5] = 0;
   q[6] = std::sin(pose.heading_rad / 2);
@@ -136,7 +138,8 @@ void Physics::command(int actuator, double value) { data_->ctrl[actuator] = valu
 std::vector<std::string> Physics::names(mjtObj type, int count) const {
   std::vector<std::string> all;
   for (int id = 0; id < count; ++id) {
-    if (const char* name = mj_id2name(model_.get(), type, id); name != nullptr && *name != '\0') all.emplace_back(name);
+    if (const char* name = mj_id2name(model_.get(), type, id); name != nullptr && *name != '\0')
+      all.emplace_back(name);
   }
   return all;
 }

@@ -13,13 +13,9 @@
 
 namespace tessera::sim {
 
-/// Where a body is, seen from above.
-struct Pose {
-  double x_m = 0, y_m = 0, heading_rad = 0;
-};
-
-/// A MuJoCo model with its state. What the engine complains of, errors and warnings alike (an unstable simulation is a
-/// warning to it), stops this physics for good and is in failure(); it never ends the process.
+/// A MuJoCo model with its state. What the engine complains of, errors and warnings alike (an unstable
+/// simulation is a warning to it), stops this physics for good and is in failure(); it never ends the
+/// process.
 ///
 /// Threads: one at a time.
 class Physics {
@@ -33,7 +29,7 @@ class Physics {
   [[nodiscard]] Duration next_time() const { return (steps_ + 1) * step_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
-  /// The body on the first free joint: the robot. nullopt when nothing in the world is free to move.
+  /// Where the body on the first free joint is: the robot. nullopt when nothing in the world is free to move.
   [[nodiscard]] std::optional<Pose> robot();
   /// Puts the robot there, at rest, as high as the world file says. Needs robot().
   void place_robot(const Pose& pose);

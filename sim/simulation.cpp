@@ -20,7 +20,8 @@ Point middle_of(const std::vector<Point>& points) {
     mean.x_m += p.x_m / static_cast<double>(points.size());
     mean.y_m += p.y_m / static_cast<double>(points.size());
   }
-  return *std::ranges::min_element(points, {}, [&](const Point& p) { return std::hypot(p.x_m - mean.x_m, p.y_m - mean.y_m); });
+  return *std::ranges::min_element(
+      points, {}, [&](const Point& p) { return std::hypot(p.x_m - mean.x_m, p.y_m - mean.y_m); });
 }
 
 }  // namespace
@@ -41,13 +42,16 @@ void Simulation::sample() {
   next_sample_ += sampling_period;
   if (!trace_.wanted()) return;
   const Pose robot = physics_->robot().value_or(Pose{});
-  TracePoint point{.t_s = seconds(physics_->time()), .x_m = robot.x_m, .y_m = robot.y_m, .heading_rad = robot.heading_rad};
+  TracePoint point{.t_s = seconds(physics_->time()),
+                   .x_m = robot.at.x_m,
+                   .y_m = robot.at.y_m,
+                   .heading_rad = robot.heading_rad};
   std::vector<Point> places;
   for (const Eye& eye : eyes_) {
     places.push_back(physics_->site_position(eye.site));
     point.on_line = point.on_line || light_under(eye) < line_threshold;
   }
-  const Point middle = places.empty() ? Point{robot.x_m, robot.y_m} : middle_of(places);
+  const Point middle = places.empty() ? robot.at : middle_of(places);
   point.eye_x_m = middle.x_m;
   point.eye_y_m = middle.y_m;
   trace_.add(point);

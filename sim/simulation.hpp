@@ -22,7 +22,8 @@ class Simulation {
   void advance_to(Time time);
   [[nodiscard]] bool finish(std::string& error);
 
-  /// The site as a light sensor, which from now on counts for the trace. nullopt and `error` when there is none.
+  /// The site as a light sensor, which from now on counts for the trace. nullopt and `error` when there is
+  /// none.
   [[nodiscard]] std::optional<int> add_eye(const std::string& site, double footprint_m, std::string& error);
   [[nodiscard]] std::optional<int> find_actuator(const std::string& name, std::string& error) const;
 

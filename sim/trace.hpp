@@ -9,9 +9,10 @@ namespace tessera::sim {
 /// Where a simulated robot was, and what its light sensors saw.
 struct TracePoint {
   double t_s = 0;
-  double x_m = 0, y_m = 0, heading_rad = 0;  ///< of the body that carries the sensors; x right, y up in the floor picture
-  double eye_x_m = 0, eye_y_m = 0;           ///< of the middle light sensor
-  bool on_line = false;                      ///< any light sensor over the line
+  double x_m = 0, y_m = 0,
+         heading_rad = 0;  ///< of the body that carries the sensors; x right, y up in the floor picture
+  double eye_x_m = 0, eye_y_m = 0;  ///< of the middle light sensor
+  bool on_line = false;             ///< any light sensor over the line
 };
 
 /// The path of one robot: a file of comma-separated values, one line a point, after a line of column names

@@ -7,7 +7,8 @@
 
 namespace tessera::sim {
 
-/// Writes a trace file point by point. The same points give the same bytes: numbers have a fixed number of decimals.
+/// Writes a trace file point by point. The same points give the same bytes: numbers have a fixed number of
+/// decimals.
 class TraceWriter {
  public:
   /// An empty path: writes nothing. Whether the file can be written, finish() says.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tessera::sim {
 namespace {
@@ -52,14 +51,16 @@ namespace {
 class Row {
  public:
   Row(std::span<const std::uint8_t> pixels, std::int64_t width, std::int64_t height, std::int64_t y) {
-    if (y >= 0 && y < height) row_ = pixels.subspan(static_cast<std::size_t>(y * width), static_cast<std::size_t>(width));
+    if (y >= 0 && y < height)
+      row_ = pixels.subspan(static_cast<std::size_t>(y * width), static_cast<std::size_t>(width));
   }
   /// The integral of the grey value from `from` to `to`, in pixels.
   [[nodiscard]] double integral(double from, double to) const {
     const auto first = static_cast<std::int64_t>(std::floor(from));
     const auto last = static_cast<std::int64_t>(std::floor(to));
     if (first == last) return grey(first) * (to - from);
-    double sum = grey(first) * (static_cast<double>(first + 1) - from) + grey(last) * (to - static_cast<double>(last));
+    double sum =
+        grey(first) * (static_cast<double>(first + 1) - from) + grey(last) * (to - static_cast<double>(last));
     for (std::int64_t x = first + 1; x < last; ++x) sum += grey(x);
     return sum;
   }
@@ -73,7 +74,8 @@ class Row {
 
 }  // namespace
 
-// Exact along x; along y each row of pixels is cut into strips of equal height, whose chord is taken at mid-height.
+// Exact along x; along y each row of pixels is cut into strips of equal height, whose chord is taken at
+// mid-height.
 double Track::reflectance(Point at, double footprint_m) const {
   const double x = at.x_m / metres_per_pixel_;
   const double y = height_ - at.y_m / metres_per_pixel_;  // rows count from the top
@@ -90,7 +92,8 @@ double Track::reflectance(Point at, double footprint_m) const {
   for (std::int64_t r = first; r <= last; ++r) {
     const Row row(pixels_, width_, height_, r);
     const double top = std::max(static_cast<double>(r), y - radius);
-    const double height = (std::min(static_cast<double>(r + 1), y + radius) - top) / static_cast<double>(strips);
+    const double height =
+        (std::min(static_cast<double>(r + 1), y + radius) - top) / static_cast<double>(strips);
     for (std::int64_t s = 0; s < strips; ++s) {
       const double dy = top + (static_cast<double>(s) + 0.5) * height - y;
       const double half = std::sqrt(std::max(0.0, radius * radius - dy * dy));

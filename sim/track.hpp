@@ -20,7 +20,8 @@ struct Point {
 class Track {
  public:
   /// Any PNG that libpng reads; colours become grey, transparency white. nullopt and `error` otherwise.
-  [[nodiscard]] static std::optional<Track> load(const std::string& png, double metres_per_pixel, std::string& error);
+  [[nodiscard]] static std::optional<Track> load(const std::string& png, double metres_per_pixel,
+                                                 std::string& error);
 
   /// Mean reflectance (0 dark .. 1 bright) of the disc of that diameter around `at`.
   [[nodiscard]] double reflectance(Point at, double footprint_m) const;
@@ -39,7 +40,8 @@ class Track {
   std::vector<std::uint8_t> pixels_;
 };
 
-/// The middle of the line as a polyline in driving order, from the longest loop of the picture's skeleton (gaps bridged).
+/// The middle of the line as a polyline in driving order, from the longest loop of the picture's skeleton
+/// (gaps bridged).
 struct Skeleton {
   std::vector<Point> points;
   bool closed = false;
@@ -47,13 +49,21 @@ struct Skeleton {
 };
 [[nodiscard]] Skeleton skeleton(const Track& track);
 
+/// Where to put a robot that shall follow the line: on its straightest stretch, looking along it. nullopt:
+/// there is no line, or it is shorter than a robot.
+struct Pose {
+  Point at;
+  double heading_rad = 0;
+};
+[[nodiscard]] std::optional<Pose> start_on(const Skeleton& line);
+
 /// How well a path kept to the line.
 struct LineMetrics {
-  double laps = 0;         ///< full progress along the skeleton: distance along it / its length, either direction
+  double laps = 0;  ///< full progress along the skeleton: distance along it / its length, either direction
   double line_lost_s = 0;  ///< total time with no sensor over the line
   double longest_loss_s = 0;
   double mean_error_m = 0, max_error_m = 0;  ///< middle sensor to skeleton
-  std::vector<double> error_m;               ///< signed (left of the driving direction positive), one per trace point
+  std::vector<double> error_m;  ///< signed (left of the driving direction positive), one per trace point
 };
 [[nodiscard]] LineMetrics measure(const Skeleton& line, const Trace& trace);
 

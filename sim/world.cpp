@@ -17,7 +17,8 @@ class MujocoWorld final : public World {
   MujocoWorld(std::shared_ptr<Simulation> simulation, double footprint_m, std::uint64_t seed)
       : simulation_(std::move(simulation)), footprint_m_(footprint_m), seed_(seed) {}
 
-  [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request, std::string& error) override {
+  [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
+                                                       std::string& error) override {
     if (request.kind == "reflectance") {
       return prefixed(request, light_sensor(simulation_, request, footprint_m_, seed_, error), error);
     }
@@ -25,7 +26,8 @@ class MujocoWorld final : public World {
     return nullptr;
   }
 
-  [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request, std::string& error) override {
+  [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
+                                                       std::string& error) override {
     if (request.kind == "velocity") return prefixed(request, wheel(simulation_, request, error), error);
     error = request.path + ": " + unknown_name("effector", request.kind, {"velocity"});
     return nullptr;
@@ -53,9 +55,9 @@ bool place(Physics& physics, const WorldOptions& options, std::string& error) {
     error = options.world + ": a start pose needs a body with a free joint";
     return false;
   }
-  *pose = {options.start_x_m.value_or(pose->x_m), options.start_y_m.value_or(pose->y_m),
+  *pose = {{options.start_x_m.value_or(pose->at.x_m), options.start_y_m.value_or(pose->at.y_m)},
            options.start_heading_rad.value_or(pose->heading_rad)};
-  if (!std::isfinite(pose->x_m) || !std::isfinite(pose->y_m) || !std::isfinite(pose->heading_rad)) {
+  if (!std::isfinite(pose->at.x_m) || !std::isfinite(pose->at.y_m) || !std::isfinite(pose->heading_rad)) {
     error = "the start pose must be finite numbers";
     return false;
   }
@@ -86,8 +88,8 @@ std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 
-/// Opens a MuJoCo world. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a site), effector `velocity`
-/// (target: an actuator).
+/// Opens a MuJoCo world. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a site), effector
+/// `velocity` (target: an actuator).
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
     const tessera::WorldOptions& options, std::string& error) {
   return tessera::sim::open(options, error);

@@ -31,8 +31,12 @@ class SteadyClock final : public Clock {
  public:
   [[nodiscard]] Time now() const override { return Time(Duration(monotonic_ns() - start_ns_)); }
   [[nodiscard]] bool simulated() const override { return false; }
+  /// Time zero is now. Only while no other thread uses the clock.
+  void restart() { start_ns_ = monotonic_ns(); }
   /// As CLOCK_MONOTONIC counts.
-  [[nodiscard]] std::int64_t absolute_ns(Time time) const { return start_ns_ + time.time_since_epoch().count(); }
+  [[nodiscard]] std::int64_t absolute_ns(Time time) const {
+    return start_ns_ + time.time_since_epoch().count();
+  }
 
  private:
   std::int64_t start_ns_ = monotonic_ns();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "channel.hpp"
+#include "shared_channel.hpp"
 
 namespace tessera {
 namespace {
@@ -57,9 +57,9 @@ class Compilation {
   void check_ports() {
     for (std::size_t port = 0; port < net_.ports.size(); ++port) {
       if (fused_[port].empty()) fail(fmt::format("port '{}' has no channel", net_.ports[port].name));
-      if (fused_[port].size() > Channel::max_places)
+      if (fused_[port].size() > SharedChannel::max_places)
         fail(fmt::format("the channel of port '{}' has more than {} places", net_.ports[port].name,
-                         Channel::max_places));
+                         SharedChannel::max_places));
     }
   }
 
@@ -91,7 +91,8 @@ class Compilation {
     entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
     for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
     entry.end = static_cast<std::uint32_t>(plan_.arcs.size());
-    if (entry.inputs == entry.outputs) fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
+    if (entry.inputs == entry.outputs)
+      fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
     if (!error_.empty()) return;
     find_latch(transition, entry);
     if (taken != 0) entry.need = need(transition, entry.port, taken);
@@ -99,7 +100,8 @@ class Compilation {
   }
 
   /// One end of an arc: "place", or "port/place" of a channel.
-  void add_end(const Transition& transition, std::string_view name, Plan::TransitionEntry& entry, std::uint16_t& bits) {
+  void add_end(const Transition& transition, std::string_view name, Plan::TransitionEntry& entry,
+               std::uint16_t& bits) {
     const std::size_t slash = name.find('/');
     if (slash == std::string_view::npos) {
       plan_.arcs.push_back(resolve(places_, name, "place"));
@@ -114,7 +116,8 @@ class Compilation {
     const auto found = std::find_if(fused.begin(), fused.end(), [&](const FusedPlace& place) {
       return place.name == name.substr(slash + 1);
     });
-    if (found == fused.end()) return fail(fmt::format("'{}': its channel has no place '{}'", transition.name, name));
+    if (found == fused.end())
+      return fail(fmt::format("'{}': its channel has no place '{}'", transition.name, name));
     bits = static_cast<std::uint16_t>(bits | 1U << (found - fused.begin()));
   }
 
@@ -129,28 +132,34 @@ class Compilation {
       const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
       if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = plan_.arcs[arc];
     }
-    if (entry.latch == Plan::none) fail(fmt::format("no place decides the condition of '{}'", transition.name));
+    if (entry.latch == Plan::none)
+      fail(fmt::format("no place decides the condition of '{}'", transition.name));
   }
 
   std::uint8_t need(const Transition& transition, std::uint32_t port, std::uint16_t taken) {
     std::vector<std::uint16_t>& needs = plan_.ports[port].needs;
     const auto found = std::find(needs.begin(), needs.end(), taken);
     if (found != needs.end()) return static_cast<std::uint8_t>(found - needs.begin());
-    if (needs.size() == Channel::max_needs)
-      fail(fmt::format("'{}': its port takes in more than {} different ways", transition.name, Channel::max_needs));
+    if (needs.size() == SharedChannel::max_needs)
+      fail(fmt::format("'{}': its port takes in more than {} different ways", transition.name,
+                       SharedChannel::max_needs));
     needs.push_back(taken);
     return static_cast<std::uint8_t>(needs.size() - 1);
   }
 
   void index_leaving() {
     std::vector<std::vector<std::uint32_t>> leaving(plan_.places.size());
-    const auto timed = [&](std::uint32_t t) { return plan_.transitions[t].guard.kind == Guard::Kind::elapsed; };
+    const auto timed = [&](std::uint32_t t) {
+      return plan_.transitions[t].guard.kind == Guard::Kind::elapsed;
+    };
     for (std::uint32_t t = 0; t < plan_.transitions.size(); ++t)
       for (std::uint32_t place : plan_.inputs(plan_.transitions[t])) leaving[place].push_back(t);
     for (std::vector<std::uint32_t>& ways : leaving) {
-      const auto first_timed = std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });
+      const auto first_timed =
+          std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });
       if (first_timed != ways.end())
-        std::for_each(ways.begin(), first_timed, [&](std::uint32_t t) { plan_.transitions[t].answers_in_time = true; });
+        std::for_each(ways.begin(), first_timed,
+                      [&](std::uint32_t t) { plan_.transitions[t].answers_in_time = true; });
       plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
     }

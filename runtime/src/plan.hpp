@@ -10,8 +10,8 @@
 
 namespace tessera {
 
-/// The net of a subsystem made ready to be fired: names resolved to indices, arcs in compressed rows. Instances with the
-/// same tables share one. Immutable.
+/// The net of a subsystem made ready to be fired: names resolved to indices, arcs in compressed rows.
+/// Instances with the same tables share one. Immutable.
 struct Plan {
   static constexpr std::uint32_t none = UINT32_MAX;
 
@@ -22,11 +22,12 @@ struct Plan {
   struct TransitionEntry {
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
     Guard guard;
-    std::uint32_t latch = none;   ///< the input place whose arrival decides the guard
-    std::uint32_t port = none;    ///< the channel it touches
-    std::uint8_t need = 0xff;     ///< into PortEntry::needs; Channel::no_need: takes nothing from the channel
-    std::uint16_t produced = 0;   ///< fused places it gives, as bits
-    bool answers_in_time = false; ///< the untimed way out of a place that also has a timed one
+    std::uint32_t latch = none;  ///< the input place whose arrival decides the guard
+    std::uint32_t port = none;   ///< the channel it touches
+    std::uint8_t need =
+        0xff;  ///< into PortEntry::needs; SharedChannel::no_need: takes nothing from the channel
+    std::uint16_t produced = 0;    ///< fused places it gives, as bits
+    bool answers_in_time = false;  ///< the untimed way out of a place that also has a timed one
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits
@@ -35,8 +36,8 @@ struct Plan {
   std::vector<PlaceEntry> places;
   std::vector<TransitionEntry> transitions;
   std::vector<PortEntry> ports;
-  std::vector<std::uint32_t> arcs;         ///< local places
-  std::vector<std::uint32_t> leaving;      ///< per place: transitions that take from it, untimed ones first
+  std::vector<std::uint32_t> arcs;           ///< local places
+  std::vector<std::uint32_t> leaving;        ///< per place: transitions that take from it, untimed ones first
   std::vector<std::uint32_t> first_leaving;  ///< into leaving; one more than places
   std::uint32_t in = 0, out = 0;
 
@@ -53,9 +54,11 @@ struct Plan {
 
 /// fused: per port of the net, the fused places of the channel behind it.
 ///
-/// Errors: a name that the tables do not declare, a transition that touches two channels or takes from no place of the
-///         subsystem, more than Channel::max_places fused places: nullopt and `error`.
-[[nodiscard]] std::optional<Plan> compile(const SubsystemNet& net, std::span<const std::span<const FusedPlace>> fused,
+/// Errors: a name that the tables do not declare, a transition that touches two channels or takes from no
+/// place of the
+///         subsystem, more than SharedChannel::max_places fused places: nullopt and `error`.
+[[nodiscard]] std::optional<Plan> compile(const SubsystemNet& net,
+                                          std::span<const std::span<const FusedPlace>> fused,
                                           std::string& error);
 
 }  // namespace tessera

@@ -20,13 +20,15 @@ void WakeWord::wake() {
 }
 
 void WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
-  // Sequentially consistent: either this thread sees the new count, or the one that wakes sees that it sleeps.
+  // Sequentially consistent: either this thread sees the new count, or the one that wakes sees that it
+  // sleeps.
   sleeping_.store(true, std::memory_order_seq_cst);
   if (wakes_.load(std::memory_order_seq_cst) == ticket) {
     timespec until{};
     until.tv_sec = until_ns / 1'000'000'000;
     until.tv_nsec = until_ns % 1'000'000'000;
-    // BITSET takes an absolute time of CLOCK_MONOTONIC. Whatever ends the wait, the caller looks at its net again.
+    // BITSET takes an absolute time of CLOCK_MONOTONIC. Whatever ends the wait, the caller looks at its net
+    // again.
     syscall(SYS_futex, &wakes_, FUTEX_WAIT_BITSET_PRIVATE, ticket, until_ns < 0 ? nullptr : &until, nullptr,
             FUTEX_BITSET_MATCH_ANY);
   }

@@ -17,8 +17,8 @@ class Waker {
 
 /// What one thread sleeps on: a futex word that counts wake-ups.
 ///
-/// The sleeper takes a `ticket`, looks whether there is work, and then sleeps with that ticket: a wake-up between the
-/// two makes the sleep return at once, so none is lost.
+/// The sleeper takes a `ticket`, looks whether there is work, and then sleeps with that ticket: a wake-up
+/// between the two makes the sleep return at once, so none is lost.
 class alignas(64) WakeWord {
  public:
   [[nodiscard]] std::uint32_t ticket() const { return wakes_.load(std::memory_order_seq_cst); }

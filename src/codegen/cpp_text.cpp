@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace tessera::codegen {
 namespace {
@@ -11,11 +12,12 @@ namespace {
 constexpr std::string_view off = "// clang-format off\n";
 constexpr std::string_view on = "// clang-format on\n";
 
-constexpr std::array scalar_names{"bool",          "std::int8_t",   "std::int16_t",  "std::int32_t",
-                                  "std::int64_t",  "std::uint8_t",  "std::uint16_t", "std::uint32_t",
-                                  "std::uint64_t", "float",         "double"};
+constexpr std::array scalar_names{"bool",          "std::int8_t",  "std::int16_t",  "std::int32_t",
+                                  "std::int64_t",  "std::uint8_t", "std::uint16_t", "std::uint32_t",
+                                  "std::uint64_t", "float",        "double"};
 
-std::string element_name(const spec::Model& model, const spec::Type& type, const std::set<std::string_view>& hidden) {
+std::string element_name(const spec::Model& model, const spec::Type& type,
+                         const std::set<std::string_view>& hidden) {
   switch (type.kind) {
     case spec::Type::Kind::scalar:
       return scalar_names[static_cast<std::size_t>(type.scalar)];
@@ -36,24 +38,25 @@ std::size_t end_of_run(const std::vector<Declaration>& lines, std::size_t begin)
 }
 
 /// Comments behind the code, aligned; above it where the column limit leaves no room.
-void add_run(const std::vector<Declaration>& lines, std::size_t begin, std::size_t end, std::string& out) {
+void add_run(std::span<const Declaration> lines, const std::string& indent, std::string& out) {
   std::size_t code = 0, comment = 0;
-  for (std::size_t line = begin; line < end; ++line) {
-    code = std::max(code, lines[line].code.size());
-    comment = std::max(comment, lines[line].comment.size());
+  for (const Declaration& line : lines) {
+    code = std::max(code, line.code.size());
+    comment = std::max(comment, line.comment.size());
   }
-  const bool fits = 2 + code + 5 + comment <= column_limit;
-  for (std::size_t line = begin; line < end; ++line) {
+  const bool fits = indent.size() + code + 5 + comment <= column_limit;
+  for (const Declaration& line : lines) {
     if (fits)
-      out += fmt::format("  {:<{}}  // {}\n", lines[line].code, code, lines[line].comment);
+      out += fmt::format("{}{:<{}}  // {}\n", indent, line.code, code, line.comment);
     else
-      out += fmt::format("  // {}\n  {}\n", lines[line].comment, lines[line].code);
+      out += fmt::format("{0}// {1}\n{0}{2}\n", indent, line.comment, line.code);
   }
 }
 
 }  // namespace
 
-std::string type_name(const spec::Model& model, const spec::Type& type, const std::set<std::string_view>& hidden) {
+std::string type_name(const spec::Model& model, const spec::Type& type,
+                      const std::set<std::string_view>& hidden) {
   const std::string element = element_name(model, type, hidden);
   return type.extent == 0 ? element : fmt::format("std::array<{}, {}>", element, type.extent);
 }
@@ -61,7 +64,8 @@ std::string type_name(const spec::Model& model, const spec::Type& type, const st
 void add_headers(const spec::Type& type, std::set<std::string>& headers) {
   if (type.extent != 0) headers.insert("<array>");
   if (type.kind == spec::Type::Kind::string) headers.insert("<tessera/bounded_string.hpp>");
-  if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 && type.scalar <= spec::Scalar::uint64)
+  if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 &&
+      type.scalar <= spec::Scalar::uint64)
     headers.insert("<cstdint>");
 }
 
@@ -103,12 +107,13 @@ std::string comment_text(std::string_view text) {
   return out;
 }
 
-std::string declarations(const std::vector<Declaration>& lines) {
+std::string declarations(const std::vector<Declaration>& lines, std::size_t indent) {
+  const std::string margin(indent, ' ');
   std::string out;
   for (std::size_t line = 0; line < lines.size();) {
     const std::size_t end = end_of_run(lines, line);
-    add_run(lines, line, end, out);
-    if (end < lines.size()) out += fmt::format("  {}\n", lines[end].code);
+    add_run(std::span(lines).subspan(line, end - line), margin, out);
+    if (end < lines.size()) out += fmt::format("{}{}\n", margin, lines[end].code);
     line = end + 1;
   }
   return out;
@@ -127,22 +132,31 @@ std::string enumeration(std::string_view prefix, const std::vector<std::string_v
   return out += "};\n";
 }
 
-std::string fence_long_lines(const std::string& text) {
-  std::string out;
-  out.reserve(text.size());
-  bool fenced = false;
-  for (std::size_t begin = 0; begin < text.size();) {
+std::string member_function(std::string_view head, const std::vector<std::string>& statements) {
+  if (statements.empty()) return fmt::format("  {} {{}}\n", head);
+  std::string out = fmt::format("  {} {{ {} }}\n", head, statements.front());
+  if (statements.size() == 1 && out.size() - 1 <= column_limit) return out;
+  out = fmt::format("  {} {{\n", head);
+  for (const std::string& statement : statements) out += fmt::format("    {}\n", statement);
+  return out += "  }\n";
+}
+
+std::string keep_formatter_off_long_lines(std::string text) {
+  bool fenced = false, too_long = false;
+  std::string rest;  // without switches for the formatter
+  for (std::size_t begin = text.find('\n') + 1; begin < text.size();) {
     const std::size_t end = text.find('\n', begin) + 1;
     const std::string_view line(text.data() + begin, end - begin);
-    if (line == off) fenced = true;
-    if (line == on) fenced = false;
-    if (!fenced && line.size() - 1 > column_limit)
-      ((out += off) += line) += on;
+    if (line == off || line == on)
+      fenced = line == off;
     else
-      out += line;
+      rest += line;
+    too_long = too_long || (!fenced && line.size() - 1 > column_limit);
     begin = end;
   }
-  return out;
+  if (!too_long) return text;
+  text.resize(text.find('\n') + 1);
+  return ((text += off) += rest) += on;
 }
 
 }  // namespace tessera::codegen

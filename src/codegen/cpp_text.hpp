@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,8 +14,8 @@ namespace tessera::codegen {
 /// Columns of a generated line.
 inline constexpr std::size_t column_limit = 110;
 
-/// "std::array<Velocity, 3>". Structures in `hidden` are qualified by the namespace `system`, because something nearer
-/// has the same name.
+/// "std::array<Velocity, 3>". Structures in `hidden` are qualified by the namespace `system`, because
+/// something nearer has the same name.
 [[nodiscard]] std::string type_name(const spec::Model& model, const spec::Type& type,
                                     const std::set<std::string_view>& hidden = {});
 
@@ -41,8 +40,8 @@ struct Declaration {
   std::string comment;
 };
 
-/// One declaration per line, indented by two; the comments of neighbours are aligned.
-[[nodiscard]] std::string declarations(const std::vector<Declaration>& lines);
+/// One line each; the comments of neighbours are aligned.
+[[nodiscard]] std::string declarations(const std::vector<Declaration>& lines, std::size_t indent = 2);
 
 /// "struct NAME {...};" with the declarations, "struct NAME {};" without.
 [[nodiscard]] std::string structure(std::string_view name, const std::vector<Declaration>& members,
@@ -51,7 +50,11 @@ struct Declaration {
 /// "PREFIX { a, b };", or one name per line where that is too long for one.
 [[nodiscard]] std::string enumeration(std::string_view prefix, const std::vector<std::string_view>& names);
 
-/// `text` with every line over the column limit kept from the formatter.
-[[nodiscard]] std::string fence_long_lines(const std::string& text);
+/// A member function whose body is `statements`, each without indentation: on one line where it fits.
+[[nodiscard]] std::string member_function(std::string_view head, const std::vector<std::string>& statements);
+
+/// A file as it is, unless names are so long that a line exceeds the column limit: then the formatter keeps
+/// off the whole file.
+[[nodiscard]] std::string keep_formatter_off_long_lines(std::string text);
 
 }  // namespace tessera::codegen

@@ -60,7 +60,8 @@ class Extraction {
 
   LocalNet result() {
     find_ports();
-    for (const PlaceId id : places_) local_.places.push_back({std::string(local(net_[id].name)), operation(id)});
+    for (const PlaceId id : places_)
+      local_.places.push_back({std::string(local(net_[id].name)), operation(id)});
     for (const TransitionId id : transitions_) add_transition(id);
     return std::move(local_);
   }
@@ -96,9 +97,11 @@ class Extraction {
   }
 
   [[nodiscard]] const std::string& port(spec::Index channel, bool sends) const {
-    return std::ranges::find_if(local_.ports, [&](const LocalNet::Port& candidate) {
-             return candidate.channel == channel && candidate.sends == sends;
-           })->name;
+    return std::ranges::find_if(local_.ports,
+                                [&](const LocalNet::Port& candidate) {
+                                  return candidate.channel == channel && candidate.sends == sends;
+                                })
+        ->name;
   }
 
   [[nodiscard]] std::string operation(PlaceId id) const {
@@ -163,7 +166,8 @@ class Extraction {
       // Places of one instance keep the order of the flat net, so their ids are sorted.
       const auto found = std::ranges::lower_bound(places_, arc.place);
       LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
-      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", quoted(first_part(place.name)));
+      place.does =
+          fmt::format("tessera::{}({})", decides ? "decides" : "routes", quoted(first_part(place.name)));
     }
   }
 
@@ -193,7 +197,8 @@ std::string identity(const LocalNet& net) {
 
 }  // namespace
 
-LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model, const std::vector<Unit>& units) {
+LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model,
+                     const std::vector<Unit>& units) {
   LocalNets all;
   all.of_channel.resize(model.channels.size());
   const Parts parts(net.net(), model.instances.size());

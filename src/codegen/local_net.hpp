@@ -9,7 +9,8 @@
 
 namespace tessera::codegen {
 
-/// The part of the flat net that one subsystem executes, with names that lack its path, as tessera::SubsystemNet has it.
+/// The part of the flat net that one subsystem executes, with names that lack its path, as
+/// tessera::SubsystemNet has it.
 struct LocalNet {
   struct Port {
     std::string name, buffer;
@@ -31,7 +32,8 @@ struct LocalNet {
   std::vector<Transition> transitions;
 };
 
-/// What the instances of one unit execute. Most share a net; those at the end of a fleet may have fewer channels.
+/// What the instances of one unit execute. Most share a net; those at the end of a fleet may have fewer
+/// channels.
 struct NetVariants {
   std::vector<LocalNet> nets;
   std::vector<std::uint32_t> of_instance;  ///< per instance of the unit, into nets
@@ -50,6 +52,7 @@ struct LocalNets {
 struct Unit;
 
 /// Takes the flat net apart, subsystem by subsystem. Linear in the net.
-[[nodiscard]] LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model, const std::vector<Unit>& units);
+[[nodiscard]] LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model,
+                                   const std::vector<Unit>& units);
 
 }  // namespace tessera::codegen

@@ -12,7 +12,8 @@
 
 namespace tessera::codegen {
 
-/// A subsystem of a definition that some agent runs: the unit that gets a header, a source and the user's functions.
+/// A subsystem of a definition that some agent runs: the unit that gets a header, a source and the user's
+/// functions.
 struct Unit {
   const spec::Definition* definition = nullptr;
   const spec::Subsystem* subsystem = nullptr;
@@ -44,7 +45,7 @@ struct Project {
 
   /// "spec.yaml:12"
   [[nodiscard]] std::string at(const spec::Span& span) const;
-  /// The first lines of every file; `marker` starts a comment.
+  /// The first line of every file; `marker` starts a comment.
   [[nodiscard]] std::string banner(std::string_view marker = "//") const;
 };
 

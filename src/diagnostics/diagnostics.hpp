@@ -77,6 +77,7 @@ class Diagnostics {
 [[nodiscard]] std::string render_json(const Diagnostics& diagnostics);
 
 /// The candidate that `word` was probably meant to be (small edit distance), or "" if none is near.
+/// Of very many candidates only the first thousand are looked at.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "did you mean 'gripper'?", or "" if nothing is near.

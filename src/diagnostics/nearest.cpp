@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <bit>
 #include <cctype>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "diagnostics/diagnostics.hpp"
@@ -10,6 +13,7 @@ namespace tessera::diagnostics {
 namespace {
 
 constexpr std::size_t longest_word = 80;
+constexpr std::size_t most_candidates = 1000;  // a guess is not worth more time than that
 
 std::string lower(std::string_view word) {
   std::string result(word);
@@ -38,8 +42,29 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// One bit per character, letters without their case. A character that only one of two words has costs a
+/// mistake.
+std::uint64_t characters(std::string_view word) {
+  std::uint64_t bits = 0;
+  for (const char c : word) bits |= std::uint64_t{1} << (static_cast<unsigned char>(c) & 31U);
+  return bits;
+}
+
 /// How many mistakes a word of this length may hold and still be recognised.
 std::size_t tolerance(std::size_t length) { return length <= 2 ? 1 : (length + 2) / 3; }
+
+/// The only candidate that begins with `word` (in lower case), or "".
+std::string abbreviated(const std::string& word, std::span<const std::string> candidates) {
+  constexpr std::size_t shortest = 3;
+  std::string found;
+  for (const std::string& candidate : candidates) {
+    const bool longer = word.size() >= shortest && candidate.size() > word.size();
+    if (!longer || !lower(candidate.substr(0, word.size())).starts_with(word)) continue;
+    if (!found.empty()) return {};
+    found = candidate;
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -47,12 +72,16 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   if (word.empty() || word.size() > longest_word) return {};
   const std::string wanted = lower(word);
   // The first number ignores case, so that a difference of case alone hardly counts.
+  const std::uint64_t wanted_characters = characters(word);
   std::pair best{std::numeric_limits<std::size_t>::max(), std::size_t{0}};
   const std::string* found = nullptr;
-  for (const std::string& candidate : candidates) {
+  const std::span<const std::string> tried(candidates.data(), std::min(candidates.size(), most_candidates));
+  for (const std::string& candidate : tried) {
     const std::size_t limit = tolerance(std::min(word.size(), candidate.size()));
     const std::size_t gap = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
     if (candidate.empty() || candidate == word || gap > limit) continue;
+    const auto foreign = static_cast<std::size_t>(std::popcount(wanted_characters & ~characters(candidate)));
+    if (foreign > limit) continue;
     const std::size_t distance = edit_distance(wanted, lower(candidate));
     const bool all_replaced = distance >= std::max(word.size(), candidate.size());
     const std::pair score{distance, edit_distance(word, candidate)};
@@ -60,7 +89,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     best = score;
     found = &candidate;
   }
-  return found == nullptr ? std::string() : *found;
+  return found == nullptr ? abbreviated(wanted, tried) : *found;
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {

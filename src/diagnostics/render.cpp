@@ -98,6 +98,15 @@ Quote quote(std::string_view line, const Span& span) {
   return result;
 }
 
+/// A message or hint, which may quote a name of any length.
+std::string brief(const std::string& text) {
+  constexpr std::size_t longest = 400;
+  if (text.size() <= longest) return visible(text);
+  std::size_t end = longest;
+  for (int i = 0; i < 3 && continues(text, end); ++i) --end;
+  return visible(std::string_view(text).substr(0, end)) + std::string(cut);
+}
+
 std::string location(const Diagnostic& diagnostic, const std::string& file) {
   std::string result = visible(file) + ":";
   if (diagnostic.span.line == 0) return result;
@@ -132,13 +141,13 @@ std::string render(const Diagnostic& diagnostic, const Diagnostics& source, bool
   const Style shown = style(diagnostic.severity);
   std::string result = paint(bold, location(diagnostic, source.file())) + " " +
                        paint(shown.colour, std::string(shown.word) + " " + diagnostic.code + ":") + " " +
-                       visible(diagnostic.message) + "\n";
+                       brief(diagnostic.message) + "\n";
   if (diagnostic.span.line != 0) {
     const Quote lines = quote(source.line(diagnostic.span.line), diagnostic.span);
     result += margin(std::to_string(diagnostic.span.line)) + lines.text + "\n";
     result += margin("") + paint(green, lines.caret) + "\n";
   }
-  if (!diagnostic.hint.empty()) result += paint(cyan, "hint:") + " " + visible(diagnostic.hint) + "\n";
+  if (!diagnostic.hint.empty()) result += paint(cyan, "hint:") + " " + brief(diagnostic.hint) + "\n";
   return result;
 }
 

@@ -36,5 +36,9 @@ struct Glyph {
 
 /// `word` in quotes for a message: visible and, if long, shortened.
 [[nodiscard]] std::string quoted(std::string_view word);
+// Exact matches, so that std::quoted of <iomanip>, found by argument-dependent lookup, is never the better
+// one.
+[[nodiscard]] inline std::string quoted(const std::string& word) { return quoted(std::string_view(word)); }
+[[nodiscard]] inline std::string quoted(const char* word) { return quoted(std::string_view(word)); }
 
 }  // namespace tessera::diagnostics

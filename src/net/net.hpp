@@ -63,39 +63,39 @@ inline constexpr std::uint32_t no_subsystem = UINT32_MAX;
 
 /// A place or a page drawn in a net.
 struct Node {
-  std::string name;          ///< local: "in", "snd", "motion.2"
-  PageId page;               ///< valid: this is a page, standing for that net
-  FusionId fusion;           ///< valid: member of that fusion set
+  std::string name{};        ///< local: "in", "snd", "motion.2"
+  PageId page{};             ///< valid: this is a page, standing for that net
+  FusionId fusion{};         ///< valid: member of that fusion set
   std::uint32_t tokens = 0;  ///< initial marking
-  Operation operation;
+  Operation operation{};
 };
 
 struct PageTransition {
-  std::string name;                   ///< local: "t1", "motion.t1o"
-  std::vector<std::uint32_t> inputs;  ///< indices into Page::nodes
-  std::vector<std::uint32_t> outputs;
-  Condition condition;
-  Span span;  ///< of the specification
+  std::string name{};                   ///< local: "t1", "motion.t1o"
+  std::vector<std::uint32_t> inputs{};  ///< indices into Page::nodes
+  std::vector<std::uint32_t> outputs{};
+  Condition condition{};
+  Span span{};  ///< of the specification
 };
 
 /// One net of the hierarchy: what one sheet of the drawing shows.
 struct Page {
-  std::string name;  ///< last part of the path: "follow"; empty for the root
+  std::string name{};  ///< last part of the path: "follow"; empty for the root
   Layer layer = Layer::system;
-  PageId parent;                           ///< invalid for the root
+  PageId parent{};                         ///< invalid for the root
   std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
   std::uint32_t input = 0, output = 0;     ///< indices into nodes
-  std::vector<Node> nodes;
-  std::vector<PageTransition> transitions;
-  Span span;
+  std::vector<Node> nodes{};
+  std::vector<PageTransition> transitions{};
+  Span span{};
 };
 
 /// A place seen in several nets (global fusion). Members agree on marking; at most one has an operation.
 struct FusionSet {
-  std::string name;  ///< "robot.control.motion->robot.motor.velocity.full"
+  std::string name{};  ///< "robot.control.motion->robot.motor.velocity.full"
   std::uint32_t tokens = 0;
   std::uint32_t channel = UINT32_MAX;  ///< of the model
-  Span span;
+  Span span{};
 };
 
 /// Pages in an order in which parents come before children; pages[0] is the multi-agent system.
@@ -112,25 +112,25 @@ struct HierarchicalNet {
 // ---------------------------------------------------------------------------------------------- flat
 
 struct Place {
-  std::string name;  ///< path: "robot.control.follow.snd.motion.2"
+  std::string name{};  ///< path: "robot.control.follow.snd.motion.2"
   std::uint32_t tokens = 0;
-  Operation operation;
+  Operation operation{};
   Layer layer = Layer::system;  ///< of the page that drew it (communication for fused places)
-  PageId page;                  ///< invalid for fused places
+  PageId page{};                ///< invalid for fused places
   std::uint32_t subsystem = no_subsystem;
   std::uint32_t channel = UINT32_MAX;  ///< of a fused place
-  Span span;
+  Span span{};
 
   [[nodiscard]] bool fused() const { return channel != UINT32_MAX; }
 };
 
 struct Transition {
-  std::string name;
-  Condition condition;
+  std::string name{};
+  Condition condition{};
   Layer layer = Layer::system;
-  PageId page;
+  PageId page{};
   std::uint32_t subsystem = no_subsystem;
-  Span span;
+  Span span{};
 };
 
 /// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have

@@ -48,14 +48,16 @@ class TreeBuilder final : public YAML::EventHandler {
         first_line_shift_(out.text().starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (documents_++ > 0) fail("E006", span(mark), "a second document begins here", "one file holds one system");
+    if (documents_++ > 0)
+      fail("E006", span(mark), "a second document begins here", "one file holds one system");
   }
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node& node = make(Node::Kind::null, mark, anchor);
     const Span at = behind_properties(node.span, out_);
-    const bool written = out_.line(at.line).substr(std::min<std::size_t>(at.column - 1, out_.line(at.line).size()))
+    const bool written = out_.line(at.line)
+                             .substr(std::min<std::size_t>(at.column - 1, out_.line(at.line).size()))
                              .find_first_of("~nN") == 0;
     // An empty value has no place of its own (yaml-cpp gives that of the next token): complain about its key.
     if (!written && awaits_value()) {
@@ -235,8 +237,9 @@ std::optional<Document> read_document(Diagnostics& out) {
   if (!feed(builder, out)) return std::nullopt;
   const std::string& text = out.text();
   const std::size_t first = text.find_first_not_of(" \t\r\n", text.starts_with(byte_order_mark) ? 3 : 0);
-  if (document.root_ == nullptr || document.root_->is_null()) {
-    out.error("E002", {}, first == std::string::npos ? "the file is empty" : "the file holds no specification",
+  if (document.empty()) {
+    out.error("E002", {},
+              first == std::string::npos ? "the file is empty" : "the file holds no specification",
               "begin with 'tessera: 1' and 'system: NAME'");
     return std::nullopt;
   }

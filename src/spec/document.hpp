@@ -25,13 +25,13 @@ struct Entry {
 
 struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
-  Span span;                        ///< of a scalar's text without quotes; of its first line if it has several
-  std::string text;                 ///< of a scalar
-  bool quoted = false;              ///< '...', "..." or a block (|, >): text for certain
-  bool verbatim = false;            ///< the text stands in the file as it is, on one line
-  std::vector<Entry> entries;       ///< of a map, in the order of the file, without duplicates
-  std::vector<const Node*> items;   ///< of a sequence
-  std::uint64_t size = 1;           ///< nodes below and including this one, aliases counted as often as they stand
+  Span span;                       ///< of a scalar's text without quotes; of its first line if it has several
+  std::string text;                ///< of a scalar
+  bool quoted = false;             ///< '...', "..." or a block (|, >): text for certain
+  bool verbatim = false;           ///< the text stands in the file as it is, on one line
+  std::vector<Entry> entries;      ///< of a map, in the order of the file, without duplicates
+  std::vector<const Node*> items;  ///< of a sequence
+  std::uint64_t size = 1;  ///< nodes below and including this one, aliases counted as often as they stand
   std::uint32_t height = 1;
 
   [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
@@ -45,6 +45,8 @@ struct Node {
 /// The nodes of one YAML document; aliases share them. Cycles do not occur.
 class Document {
  public:
+  /// Nothing, or nothing but null. Else there is a root.
+  [[nodiscard]] bool empty() const { return root_ == nullptr || root_->is_null(); }
   [[nodiscard]] const Node& root() const { return *root_; }
 
  private:
@@ -58,7 +60,8 @@ inline constexpr std::uint32_t deepest = 64;            ///< nesting
 
 /// Reads the only YAML document of out.text().
 ///
-/// Errors: E002 empty, E005 syntax, E006 several documents, E007 nested too deeply, E008 aliases that expand too far
+/// Errors: E002 empty, E005 syntax, E006 several documents, E007 nested too deeply, E008 aliases that expand
+/// too far
 ///         or contain themselves, E009 duplicate keys, E010 keys that are not text, tags. A tree is returned
 ///         with E009 and E010, so that the rest of the text is checked too.
 [[nodiscard]] std::optional<Document> read_document(Diagnostics& out);

@@ -9,8 +9,8 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// The specification as data: what section "The specification file" of docs/specification.md describes, with every
-/// default filled in and every name resolved to an index. Nothing here knows about nets.
+/// The specification as data: what section "The specification file" of docs/specification.md describes, with
+/// every default filled in and every name resolved to an index. Nothing here knows about nets.
 namespace tessera::spec {
 
 using diagnostics::Span;
@@ -21,7 +21,17 @@ inline constexpr Index none = UINT32_MAX;
 // ---------------------------------------------------------------------------------------------- types
 
 enum class Scalar : std::uint8_t {
-  boolean, int8, int16, int32, int64, uint8, uint16, uint32, uint64, float32, float64
+  boolean,
+  int8,
+  int16,
+  int32,
+  int64,
+  uint8,
+  uint16,
+  uint32,
+  uint64,
+  float32,
+  float64
 };
 
 /// The type of a buffer, field or parameter.
@@ -78,11 +88,11 @@ struct Condition {
 /// When an entry of `next` is taken (the paper's initial condition of the next behaviour).
 struct When {
   enum class Kind : std::uint8_t {
-    always,      ///< no `when`
-    error,       ///< the behaviour ended by its error condition
-    terminal,    ///< the terminal expression `expression` of the behaviour held
-    named_error, ///< the error expression `expression` of the behaviour held
-    expression   ///< `text` holds
+    always,       ///< no `when`
+    error,        ///< the behaviour ended by its error condition
+    terminal,     ///< the terminal expression `expression` of the behaviour held
+    named_error,  ///< the error expression `expression` of the behaviour held
+    expression    ///< `text` holds
   } kind = Kind::always;
   Index expression = none;  ///< into Behaviour::terminal or ::error
   Expression text;
@@ -100,16 +110,24 @@ struct Behaviour {
   std::string name;
   Condition terminal;
   Condition error;
-  std::vector<Next> next;          ///< never empty: a behaviour without `next` has one unconditional `end`
-  bool next_given = false;         ///< false: that `end` is the default
-  std::optional<std::vector<Index>> send;     ///< output buffers in the order listed; nullopt: all, in channel order
-  std::optional<std::vector<Index>> receive;  ///< input buffers in the order listed; nullopt: all, in channel order
+  std::vector<Next> next;   ///< never empty: a behaviour without `next` has one unconditional `end`
+  bool next_given = false;  ///< false: that `end` is the default
+  std::optional<std::vector<Index>>
+      send;  ///< output buffers in the order listed; nullopt: all, in channel order
+  std::optional<std::vector<Index>>
+      receive;  ///< input buffers in the order listed; nullopt: all, in channel order
   Transfer transfer = Transfer::sequential;
-  Duration takes{0};               ///< simulated time of its transition function
+  Duration takes{0};  ///< simulated time of its transition function
   Span span;
 };
 
-// ---------------------------------------------------------------------------------------------- subsystems, agents
+/// Whether some entry of `next` holds however the behaviour ends, so that "none holds" cannot happen: an
+/// unconditional entry, or `when: error` together with every way to end well (none, or each named terminal
+/// expression asked for).
+[[nodiscard]] bool always_continues(const Behaviour& behaviour);
+
+// ---------------------------------------------------------------------------------------------- subsystems,
+// agents
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
@@ -117,12 +135,12 @@ struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
   std::optional<Duration> period;
-  Index start = 0;   ///< behaviour
+  Index start = 0;  ///< behaviour
   std::vector<Field> inputs, outputs, memory;
   std::vector<Parameter> parameters;
-  std::vector<Field> real;           ///< read before (receptor) or written after (effector) the transition function
-  std::vector<std::string> safe;     ///< effector: C++ initialiser per real buffer; empty string: zero
-  std::optional<Duration> stale;     ///< effector: inputs older than this mean the safe command
+  std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
+  std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
+  std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
   std::vector<Behaviour> behaviours;
   Span span;
 };
@@ -139,8 +157,8 @@ struct Definition {
 struct Agent {
   std::string path;  ///< "robot", or "robot[3]" in a fleet
   Index definition = 0;
-  Index fleet = none;      ///< agents of one `count` share a number
-  Index number = 0;        ///< within the fleet
+  Index fleet = none;        ///< agents of one `count` share a number
+  Index number = 0;          ///< within the fleet
   Index first_instance = 0;  ///< into Model::instances; its subsystems follow one another
   Span span;
 };
@@ -181,9 +199,9 @@ struct Property {
 /// Which device stands behind a real buffer.
 struct Driver {
   Index instance = 0;
-  Index real = 0;       ///< into Subsystem::real
-  std::string kind;     ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
-  std::string target;   ///< C++ class, or the name of an element of the world
+  Index real = 0;      ///< into Subsystem::real
+  std::string kind;    ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
+  std::string target;  ///< C++ class, or the name of an element of the world
   std::map<std::string, double> options;  ///< e.g. noise
   Span span;
 };
@@ -209,13 +227,15 @@ struct Model {
   std::vector<Parameter> parameters;  ///< of the system, visible in every subsystem
   std::vector<Definition> definitions;
   std::vector<Agent> agents;
-  std::vector<Instance> instances;    ///< every subsystem of every agent, agent by agent
-  std::vector<Channel> channels;      ///< in the order of the file, fleets expanded agent by agent
-  std::vector<Driver> drivers;        ///< of the real robot (`drivers:`)
+  std::vector<Instance> instances;  ///< every subsystem of every agent, agent by agent
+  std::vector<Channel> channels;    ///< in the order of the file, fleets expanded agent by agent
+  std::vector<Driver> drivers;      ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
   std::optional<Simulation> simulation;
 
-  [[nodiscard]] const Definition& definition_of(const Agent& agent) const { return definitions[agent.definition]; }
+  [[nodiscard]] const Definition& definition_of(const Agent& agent) const {
+    return definitions[agent.definition];
+  }
   [[nodiscard]] const Subsystem& subsystem(Index instance) const;
   /// "robot[3].control"
   [[nodiscard]] std::string instance_path(Index instance) const;

@@ -12,19 +12,25 @@ namespace {
 constexpr std::size_t longest_name = 64;
 
 constexpr std::array keywords = std::to_array<std::string_view>(
-    {"alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch",
-     "char", "char16_t", "char32_t", "char8_t", "class", "co_await", "co_return", "co_yield", "compl", "concept",
-     "const", "const_cast", "consteval", "constexpr", "constinit", "continue", "decltype", "default", "delete",
-     "do", "double", "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for",
-     "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq",
-     "nullptr", "operator", "or", "or_eq", "private", "protected", "public", "register", "reinterpret_cast",
-     "requires", "return", "short", "signed", "sizeof", "static", "static_assert", "static_cast", "struct",
-     "switch", "template", "this", "thread_local", "throw", "true", "try", "typedef", "typeid", "typename",
-     "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while", "xor", "xor_eq"});
+    {"alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+     "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+     "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+     "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+     "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+     "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+     "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+     "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+     "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+     "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+     "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+     "xor_eq"});
 
 /// Namespaces, functions and macros that generated code cannot do without.
-constexpr std::array taken = std::to_array<std::string_view>(
-    {"std", "tessera", "main", "NULL", "EOF", "NAN", "INFINITY", "errno", "assert", "stdin", "stdout", "stderr"});
+constexpr std::array taken =
+    std::to_array<std::string_view>({"std", "tessera", "main", "NULL", "EOF", "NAN", "INFINITY", "errno",
+                                     "assert", "stdin", "stdout", "stderr"});
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -72,11 +78,13 @@ bool check_name(std::string_view name, diagnostics::Span span, std::string_view 
   } else if (name.size() > longest_name) {
     out.error("E105", span, subject + " is longer than " + std::to_string(longest_name) + " characters");
   } else if (name.front() == '_' || name.find("__") != std::string_view::npos) {
-    out.error("E105", span, subject + ": leading and double underscores belong to the compiler", write_it(name));
+    out.error("E105", span, subject + ": leading and double underscores belong to the compiler",
+              write_it(name));
   } else if (contains(keywords, name)) {
     out.error("E106", span, subject + " is a keyword of C++", "for example '" + std::string(name) + "_1'");
   } else if (contains(taken, name)) {
-    out.error("E106", span, subject + " is taken by the generated code", "for example '" + std::string(name) + "_1'");
+    out.error("E106", span, subject + " is taken by the generated code",
+              "for example '" + std::string(name) + "_1'");
   } else {
     return true;
   }

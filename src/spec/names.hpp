@@ -10,7 +10,8 @@ namespace tessera::spec {
 ///
 /// what: the thing, e.g. "buffer".
 /// Errors: E105 no C++ identifier, too long, leading or double underscore; E106 a word of C++.
-bool check_name(std::string_view name, diagnostics::Span span, std::string_view what, diagnostics::Diagnostics& out);
+bool check_name(std::string_view name, diagnostics::Span span, std::string_view what,
+                diagnostics::Diagnostics& out);
 
 /// A letter or underscore, then letters, digits and underscores.
 [[nodiscard]] bool is_identifier(std::string_view text);

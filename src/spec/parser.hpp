@@ -7,10 +7,11 @@
 
 namespace tessera::spec {
 
-/// Reads a specification (YAML) into a Model. Reports every mistake of the text to `out`, then nullopt if any was an
-/// error.
+/// Reads a specification (YAML) into a Model. Reports every mistake of the text to `out`, then nullopt if any
+/// was an error.
 ///
-/// Errors:  E0xx the text is not YAML that we read; E1xx names and structure; E2xx types and units; E3xx wiring.
+/// Errors:  E0xx the text is not YAML that we read; E1xx names and structure; E2xx types and units; E3xx
+/// wiring.
 ///          docs/diagnostics.md is the catalogue.
 /// Threads: pure.
 [[nodiscard]] std::optional<Model> parse(diagnostics::Diagnostics& out);

@@ -20,7 +20,7 @@ struct Unit {
   double factor;
 };
 
-constexpr std::array time_units = {Unit{"ns", 1},  Unit{"us", 1e3},  Unit{"\u00b5s", 1e3}, Unit{"ms", 1e6},
+constexpr std::array time_units = {Unit{"ns", 1},  Unit{"us", 1e3},   Unit{"\u00b5s", 1e3}, Unit{"ms", 1e6},
                                    Unit{"s", 1e9}, Unit{"min", 6e10}, Unit{"h", 3.6e12}};
 constexpr std::array rate_units = {Unit{"Hz", 1}, Unit{"kHz", 1e3}};
 constexpr std::array length_units = {Unit{"m", 1}, Unit{"cm", 1e-2}, Unit{"mm", 1e-3}, Unit{"", 1}};
@@ -43,7 +43,8 @@ std::optional<double> read(const Node& node, Span at, std::string_view what, std
   if (text == nullptr) return std::nullopt;
   const auto quantity = split_quantity(text->text);
   if (!quantity) {
-    out.error("E205", text->span, std::string(what) + " must be a number with a unit, not " + quoted(text->text),
+    out.error("E205", text->span,
+              std::string(what) + " must be a number with a unit, not " + quoted(text->text),
               "for example " + like);
     return std::nullopt;
   }
@@ -56,13 +57,14 @@ std::optional<double> read(const Node& node, Span at, std::string_view what, std
   }
   const bool bare = quantity->unit.empty();
   out.error("E205", text->span,
-            bare ? std::string(what) + " needs a unit" : "unknown unit " + quoted(quantity->unit) + " of " + std::string(what),
+            bare ? std::string(what) + " needs a unit"
+                 : "unknown unit " + quoted(quantity->unit) + " of " + std::string(what),
             "write one of " + known + "; for example " + like);
   return std::nullopt;
 }
 
-std::optional<double> in_range(std::optional<double> value, bool good, const Node& node, const std::string& message,
-                               Diagnostics& out) {
+std::optional<double> in_range(std::optional<double> value, bool good, const Node& node,
+                               const std::string& message, Diagnostics& out) {
   if (!value || good) return value;
   out.error("E206", node.span, message);
   return std::nullopt;
@@ -111,7 +113,8 @@ std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out) {
 std::optional<double> read_length(const Node& node, Span at, std::string_view what, Diagnostics& out) {
   constexpr double longest_m = 1e6;
   const auto value = read(node, at, what, length_units, "8 mm", out);
-  return in_range(value, value && std::abs(*value) <= longest_m, node, std::string(what) + " is longer than 1000 km", out);
+  return in_range(value, value && std::abs(*value) <= longest_m, node,
+                  std::string(what) + " is longer than 1000 km", out);
 }
 
 std::optional<double> read_angle(const Node& node, Span at, std::string_view what, Diagnostics& out) {

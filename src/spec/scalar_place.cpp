@@ -50,7 +50,8 @@ bool place_quoted(Node& node, const Span& begin, const Diagnostics& source) {
 
 /// A block scalar (| or >): the span of its first line that is not blank.
 void place_block(Node& node, const Span& begin, const Diagnostics& source) {
-  const std::size_t lines = static_cast<std::size_t>(std::count(node.text.begin(), node.text.end(), '\n')) + 1;
+  const std::size_t lines =
+      static_cast<std::size_t>(std::count(node.text.begin(), node.text.end(), '\n')) + 1;
   node.span = begin;
   for (std::uint32_t line = begin.line + 1; line <= begin.line + lines + 1; ++line) {
     const std::string_view text = source.line(line);
@@ -64,7 +65,8 @@ void place_block(Node& node, const Span& begin, const Diagnostics& source) {
 void place_plain(Node& node, const Span& begin, const Diagnostics& source) {
   const std::string_view rest = rest_of_line(begin, source);
   node.verbatim = rest.starts_with(node.text);
-  const std::size_t length = node.verbatim ? node.text.size() : trim_right(rest.substr(0, rest.find(" #"))).size();
+  const std::size_t length =
+      node.verbatim ? node.text.size() : trim_right(rest.substr(0, rest.find(" #"))).size();
   node.span = {begin.line, begin.column, size32(std::max<std::size_t>(length, 1))};
 }
 

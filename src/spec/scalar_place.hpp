@@ -4,8 +4,8 @@
 
 namespace tessera::spec {
 
-/// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file verbatim.
-/// yaml-cpp only says where a node begins, its anchor and quotes included.
+/// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file
+/// verbatim. yaml-cpp only says where a node begins, its anchor and quotes included.
 ///
 /// begin:   the place that yaml-cpp gives.
 /// Returns: false if the scalar opens a quote that nothing closes.

@@ -29,8 +29,8 @@ std::string found(const Node& node) {
 
 void complain(const Node& node, Span at, std::string_view what, std::string_view wanted, std::string hint,
               Diagnostics& out) {
-  out.error("E104", place(node, at), std::string(what) + " must be " + std::string(wanted) + ", not " + found(node),
-            std::move(hint));
+  out.error("E104", place(node, at),
+            std::string(what) + " must be " + std::string(wanted) + ", not " + found(node), std::move(hint));
 }
 
 template <std::size_t N>
@@ -57,6 +57,8 @@ Section::Section(const Node& node, Span at, std::string what, std::initializer_l
   for (const Entry& entry : node.entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
+    unknown_keys_ = true;
+    guesses_.push_back(diagnostics::nearest(entry.key, known));
     std::string hint = diagnostics::did_you_mean(entry.key, known);
     if (entry.key == "<<") hint = "merge keys are not read; use a template of agents or an alias";
     if (hint.empty()) hint = what_ + " has " + list_of(known);
@@ -73,7 +75,8 @@ const Entry* Section::find(std::string_view key) const {
 
 const Entry* Section::require(std::string_view key, std::string hint) const {
   const Entry* entry = find(key);
-  if (entry == nullptr && node_ != nullptr) {
+  const bool guessed = std::find(guesses_.begin(), guesses_.end(), key) != guesses_.end();
+  if (entry == nullptr && node_ != nullptr && !guessed) {
     out_.error("E103", at_, what_ + " needs '" + std::string(key) + "'", std::move(hint));
   }
   return entry;
@@ -96,7 +99,8 @@ const Node* text_of(const Node& node, Span at, std::string_view what, Diagnostic
 }
 
 bool bool_of(const Entry& entry, std::string_view what, Diagnostics& out) {
-  if (!is_true(*entry.value) && !is_false(*entry.value)) complain(*entry.value, entry.span, what, "true or false", {}, out);
+  if (!is_true(*entry.value) && !is_false(*entry.value))
+    complain(*entry.value, entry.span, what, "true or false", {}, out);
   return is_true(*entry.value);
 }
 

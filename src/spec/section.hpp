@@ -20,16 +20,19 @@ class Section {
 
   /// The entry of `key`, or nullptr.
   [[nodiscard]] const Entry* find(std::string_view key) const;
-  /// The same; E103 if it is missing.
+  /// The same; E103 if it is missing, unless an unknown key looks like it.
   const Entry* require(std::string_view key, std::string hint = {}) const;
 
   [[nodiscard]] bool readable() const { return node_ != nullptr; }
-  [[nodiscard]] Span span() const { return at_; }
+  /// Whether a key was unknown: then what seems to be missing may be what was meant.
+  [[nodiscard]] bool has_unknown_keys() const { return unknown_keys_; }
 
  private:
   const Node* node_ = nullptr;  ///< null if it is no map
   Span at_;
   std::string what_;
+  bool unknown_keys_ = false;
+  std::vector<std::string> guesses_;  ///< what unknown keys probably mean
   Diagnostics& out_;
 };
 

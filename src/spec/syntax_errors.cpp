@@ -16,20 +16,26 @@ struct Explanation {
   std::string_view theirs, ours, hint;
 };
 
-constexpr std::string_view brackets_hint = "inside { } and [ ], text with brackets or commas needs quotes: \"float64[8]\"";
-constexpr std::string_view indent_hint = "entries of one map begin in the same column; text with ': ' in it needs quotes";
+constexpr std::string_view brackets_hint =
+    "inside { } and [ ], text with brackets or commas needs quotes: \"float64[8]\"";
+constexpr std::string_view indent_hint =
+    "entries of one map begin in the same column; text with ': ' in it needs quotes";
 
 constexpr std::array explanations = {
     Explanation{"illegal map value", "a second ': ' on this line, or wrong indentation", indent_hint},
     Explanation{"illegal map key", "a key may not begin here", indent_hint},
-    Explanation{"illegal block entry", "a list entry '- ' may not begin here", "begin the list on its own line"},
+    Explanation{"illegal block entry", "a list entry '- ' may not begin here",
+                "begin the list on its own line"},
     Explanation{"end of map not found", "this does not continue the map above it", indent_hint},
     Explanation{"end of sequence not found", "this does not continue the list above it",
                 "entries of one list begin with '- ' in the same column"},
-    Explanation{"end of map flow not found", "a '{' is not closed, or something in it needs quotes", brackets_hint},
-    Explanation{"end of sequence flow not found", "a '[' is not closed, or something in it needs quotes", brackets_hint},
+    Explanation{"end of map flow not found", "a '{' is not closed, or something in it needs quotes",
+                brackets_hint},
+    Explanation{"end of sequence flow not found", "a '[' is not closed, or something in it needs quotes",
+                brackets_hint},
     Explanation{"the referenced anchor is not defined", "this alias names no anchor above it", ""},
-    Explanation{"alias not found after *", "'*' begins an alias, and its name is missing", "put text that begins with * in quotes"},
+    Explanation{"alias not found after *", "'*' begins an alias, and its name is missing",
+                "put text that begins with * in quotes"},
 };
 
 bool indented_by_tab(std::string_view line) {
@@ -41,7 +47,8 @@ bool indented_by_tab(std::string_view line) {
 Span place(const YAML::Mark& mark, const Diagnostics& out) {
   Span span{1, 1, 1};
   if (mark.line >= 0) {
-    span = {static_cast<std::uint32_t>(mark.line) + 1, static_cast<std::uint32_t>(std::max(mark.column, 0)) + 1, 1};
+    span = {static_cast<std::uint32_t>(mark.line) + 1,
+            static_cast<std::uint32_t>(std::max(mark.column, 0)) + 1, 1};
   }
   while (span.line > 1 && out.line(span.line).find_first_not_of(" \t") == std::string_view::npos) {
     --span.line;

@@ -1,6 +1,7 @@
 #include "spec/text_checks.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "diagnostics/utf8.hpp"
 
@@ -19,6 +20,20 @@ diagnostics::Span place(const std::string& text, std::size_t position) {
   return {static_cast<std::uint32_t>(line) + 1, static_cast<std::uint32_t>(column) + 1, 1};
 }
 
+bool check_lines(diagnostics::Diagnostics& out) {
+  const std::string_view text = out.text();
+  std::uint32_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > longest_line) {
+      out.error("E011", {line, 1, 1}, "this line is longer than 1 MB: it cannot be a specification");
+      return false;
+    }
+    begin = end + 1;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool check_text(diagnostics::Diagnostics& out) {
@@ -30,10 +45,11 @@ bool check_text(diagnostics::Diagnostics& out) {
     return false;
   }
   if (const auto position = diagnostics::first_invalid_byte(text)) {
-    out.error("E004", place(text, *position), "this byte is not UTF-8", "save the file in the encoding UTF-8");
+    out.error("E004", place(text, *position), "this byte is not UTF-8",
+              "save the file in the encoding UTF-8");
     return false;
   }
-  return true;
+  return check_lines(out);
 }
 
 }  // namespace tessera::spec

@@ -7,7 +7,8 @@ namespace tessera::cli_test {
 using Install = Command;
 
 TEST_F(Install, PrefixWorksWhereverItIsMoved) {
-  const cli::Exit installed = shell("cmake --install '" TESSERA_BINARY_DIR "' --prefix '" + folder_.string() + "/here'");
+  const cli::Exit installed =
+      shell("cmake --install '" TESSERA_BINARY_DIR "' --prefix '" + folder_.string() + "/here'");
   ASSERT_EQ(installed.code, 0) << installed.text;
   fs::rename(folder_ / "here", folder_ / "there");
   const cli::Exit made = shell("there/bin/tessera new rover");

@@ -60,7 +60,9 @@ TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
   ASSERT_EQ(tessera("new rover").code, 0);
   replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft, next: end }");
   const std::string spec = content_of(folder_ / "rover/spec.yaml");
-  const auto line = 1 + std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft")), '\n');
+  const auto line =
+      1 +
+      std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft")), '\n');
   const cli::Exit done = tessera("simulate rover --for 1s");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("spec.yaml:" + std::to_string(line) + ":"), std::string::npos) << done.text;
@@ -73,8 +75,9 @@ TEST_F(Project, DebugPrintsTheCommandThatDebugsTheRun) {
   EXPECT_EQ(done.code, 0) << done.text;
   EXPECT_NE(done.text.find("gdb --args "), std::string::npos) << done.text;
   const std::string line = done.text.substr(done.text.find("gdb --args "));
-  const cli::Exit debugged =
-      shell("gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run -ex bt " + line.substr(4));
+  const cli::Exit debugged = shell(
+      "gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run -ex bt " +
+      line.substr(4));
   EXPECT_NE(debugged.text.find("control.cpp"), std::string::npos) << debugged.text;
 }
 

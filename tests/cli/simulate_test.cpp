@@ -24,7 +24,7 @@ TEST_F(Simulate, TheRobotKeepsToEveryShippedTrack) {
     const char* options;
     double laps;
   };
-  for (const Case& track : {Case{"", 3}, Case{TESSERA_CURVES_OPTIONS, 1}}) {
+  for (const Case& track : {Case{"", 3}, Case{"--track curves.png", 1}}) {
     for (const char* seed : {"1", "2"}) {
       const nlohmann::json run =
           json(std::string("simulate 01_line_follower --for 120s --seed ") + seed + " " + track.options);

@@ -21,7 +21,8 @@ TEST_F(Usage, ExitCodesTellMistakesInTheFileFromMistakesInTheCall) {
 }
 
 TEST_F(Usage, EveryCommandShowsAnExample) {
-  for (const char* command : {"new", "check", "show", "verify", "export", "generate", "test", "simulate", "run", "completion"}) {
+  for (const char* command :
+       {"new", "check", "show", "verify", "export", "generate", "test", "simulate", "run", "completion"}) {
     const cli::Exit help = tessera(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.text.find("tessera " + std::string(command)), std::string::npos) << help.text;
@@ -30,7 +31,8 @@ TEST_F(Usage, EveryCommandShowsAnExample) {
 
 TEST_F(Usage, CompletionOffersCommandsAndOptions) {
   write(folder_ / "complete.sh",
-        "eval \"$(" TESSERA_BINARY_DIR "/tessera completion)\"\n"
+        "eval \"$(" TESSERA_BINARY_DIR
+        "/tessera completion)\"\n"
         "COMP_WORDS=(tessera simu); COMP_CWORD=1; _tessera; echo \"${COMPREPLY[@]}\"\n"
         "COMP_WORDS=(tessera simulate --se); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[@]}\"\n");
   const cli::Exit done = shell("bash complete.sh");
@@ -49,7 +51,8 @@ TEST_F(Usage, ShowDrawsCountsAndExportsTheExample) {
   EXPECT_EQ(tessera("show " + spec + " --svg whole.svg --notation paper").code, 0);
   EXPECT_EQ(tessera("show " + spec + " --dot whole.dot").code, 0);
   EXPECT_EQ(tessera("export " + spec + " --pnml net.pnml").code, 0);
-  EXPECT_NE(content_of(folder_ / "net.pnml").find("http://www.pnml.org/version-2009/grammar/ptnet"), std::string::npos);
+  EXPECT_NE(content_of(folder_ / "net.pnml").find("http://www.pnml.org/version-2009/grammar/ptnet"),
+            std::string::npos);
   const cli::Exit nowhere = tessera("show " + spec + " --page robot.control.folow --svg x.svg");
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_NE(nowhere.text.find("did you mean 'robot.control.follow'?"), std::string::npos) << nowhere.text;

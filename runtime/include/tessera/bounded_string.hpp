@@ -7,14 +7,15 @@
 
 namespace tessera {
 
-/// A string of at most `Capacity` bytes, stored in place, so that it travels through a channel without allocation.
-/// Longer text is cut.
+/// A string of at most `Capacity` bytes, stored in place, so that it travels through a channel without
+/// allocation. Longer text is cut.
 template <std::size_t Capacity>
 class BoundedString {
  public:
   BoundedString() = default;
-  BoundedString(std::string_view text) { assign(text); }                       // NOLINT(google-explicit-constructor)
-  BoundedString(const char* text) : BoundedString(std::string_view(text)) {}  // NOLINT(google-explicit-constructor)
+  BoundedString(std::string_view text) { assign(text); }  // NOLINT(google-explicit-constructor)
+  BoundedString(const char* text)
+      : BoundedString(std::string_view(text)) {}  // NOLINT(google-explicit-constructor)
 
   operator std::string_view() const { return view(); }  // NOLINT(google-explicit-constructor)
   [[nodiscard]] std::string_view view() const { return {bytes_.data(), size_}; }
@@ -23,6 +24,9 @@ class BoundedString {
   [[nodiscard]] static constexpr std::size_t capacity() { return Capacity; }
 
   friend bool operator==(const BoundedString& a, std::string_view b) { return a.view() == b; }
+  friend bool operator==(const BoundedString& a, const char* b) {
+    return a.view() == b;
+  }  // else it is ambiguous
   friend bool operator==(const BoundedString& a, const BoundedString& b) { return a.view() == b.view(); }
 
  private:

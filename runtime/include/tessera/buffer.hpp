@@ -8,10 +8,10 @@ namespace tessera {
 
 /// What is known about the value in an input buffer.
 struct Arrival {
-  bool fresh = false;      ///< new since the last iteration
-  bool timed_out = false;  ///< the last receive gave up waiting
-  bool valid = false;      ///< the producer has written it, and its transition function did not fail
-  Time stamp{};            ///< when the producer wrote it
+  bool fresh = false;              ///< new since the last iteration
+  bool timed_out = false;          ///< the last receive gave up waiting
+  bool valid = false;              ///< the producer has written it, and its transition function did not fail
+  Time stamp{};                    ///< when the producer wrote it
   Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first value
 };
 
@@ -26,7 +26,8 @@ struct Departure {
 template <class T, class Status, bool = std::is_class_v<T>>
 struct Buffer : T, Status {
   Buffer() : T{}, Status{} {}
-  Buffer(const T& value) : T(value), Status{} {}  // NOLINT(google-explicit-constructor): a value is a buffer of it
+  Buffer(const T& value)
+      : T(value), Status{} {}  // NOLINT(google-explicit-constructor): a value is a buffer of it
   Buffer& operator=(const T& value) {
     static_cast<T&>(*this) = value;
     return *this;

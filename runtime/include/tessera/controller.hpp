@@ -18,37 +18,42 @@ struct RunOptions {
     simulated,  ///< single-threaded, deterministic from the seed, as fast as the machine allows
     steady      ///< a thread per subsystem
   } clock = Clock::simulated;
-  bool realtime = false;                 ///< simulated clock: not faster than the wall clock
-  std::optional<Duration> duration;      ///< unset: until the net ends or something stops it
+  bool realtime = false;             ///< simulated clock: not faster than the wall clock
+  std::optional<Duration> duration;  ///< unset: until the net ends or something stops it
   std::uint64_t seed = 1;
-  std::string recording;                 ///< file; empty: none
+  std::string recording;                                        ///< file; empty: none
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
-  std::vector<DriverRequest> drivers;    ///< of the simulated world; C++ drivers come with the System
+  std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
   std::optional<WorldOptions> world;
-  std::string world_library;             ///< shared library that opens it
-  bool progress = false;                 ///< a line on standard error that is rewritten
+  std::string world_library;  ///< shared library that opens it
+  bool progress = false;      ///< a line on standard error that is rewritten
 };
 
 /// What a run came to.
 struct RunSummary {
-  Duration simulated{};       ///< time on the run's clock
+  Duration simulated{};  ///< time on the run's clock
   double wall_s = 0;
   std::uint64_t firings = 0;
-  std::string ended;          ///< "duration", "net ended", "stopped: WHY", "SIGINT", "SIGTERM"
-  bool failed = false;        ///< a fault ended it
+  std::string ended;    ///< "duration", "net ended", "stopped: WHY", "SIGINT", "SIGTERM"
+  bool failed = false;  ///< a fault ended it
   struct PerSubsystem {
     std::string path;
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
   };
   std::vector<PerSubsystem> subsystems;
+  std::uint64_t lost_events = 0;      ///< of the recording
+  std::vector<std::string> warnings;  ///< e.g. the recording could not be written
 };
 
-/// Builds the system, checks its hash against the net of its tables, runs it. nullopt and `error` when it cannot start.
+/// Builds the system, checks its hash against the net of its tables, runs it. nullopt and `error` when it
+/// cannot start.
 ///
 /// Threads: one run at a time per process when it handles signals.
-[[nodiscard]] std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error);
+[[nodiscard]] std::optional<RunSummary> execute(const System& system, const RunOptions& options,
+                                                std::string& error);
 
-/// The command line of a generated controller: `controller simulate|run [options]`, see --help. Returns the exit code.
+/// The command line of a generated controller: `controller simulate|run [options]`, see --help. Returns the
+/// exit code.
 [[nodiscard]] int controller_main(const System& system, int argc, char** argv);
 
 }  // namespace tessera

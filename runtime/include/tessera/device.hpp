@@ -17,11 +17,13 @@ namespace tessera {
 class RealReceptor {
  public:
   virtual ~RealReceptor() = default;
-  /// Fills `value` (the bytes of the real buffer's type). false: no value now; the buffer keeps the old one, not fresh.
+  /// Fills `value` (the bytes of the real buffer's type). false: no value now; the buffer keeps the old one,
+  /// not fresh.
   [[nodiscard]] virtual bool read(std::span<std::byte> value) = 0;
 };
 
-/// A real effector E: written after every transition function of its virtual effector, and with the safe command.
+/// A real effector E: written after every transition function of its virtual effector, and with the safe
+/// command.
 class RealEffector {
  public:
   virtual ~RealEffector() = default;
@@ -31,9 +33,9 @@ class RealEffector {
 
 /// A device behind a real buffer, as specifications and command lines name it.
 struct DriverRequest {
-  std::string path;    ///< "robot.sensor.left"
-  std::string kind;    ///< "reflectance"
-  std::string target;  ///< "eye_left"
+  std::string path;                       ///< "robot.sensor.left"
+  std::string kind;                       ///< "reflectance"
+  std::string target;                     ///< "eye_left"
   std::map<std::string, double> options;  ///< e.g. {"noise", 0.01}
 };
 
@@ -42,9 +44,9 @@ struct WorldOptions {
   std::string track;  ///< PNG of the floor, dark is line; empty: a white floor
   double metres_per_pixel = 0.005;
   std::optional<double> start_x_m, start_y_m, start_heading_rad;  ///< unset: as the world file says
-  double footprint_m = 0.008;  ///< diameter of what a light sensor sees
-  std::uint64_t seed = 1;      ///< of sensor noise
-  std::string trace;           ///< file that gets the path driven; empty: none
+  double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
+  std::uint64_t seed = 1;                                         ///< of sensor noise
+  std::string trace;  ///< file that gets the path driven; empty: none
 };
 
 /// A simulated world: makes devices, and moves in lock-step with the clock.
@@ -54,8 +56,10 @@ class World {
  public:
   virtual ~World() = default;
   /// nullptr and `error` when the world has no such thing.
-  [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const DriverRequest& request, std::string& error) = 0;
-  [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const DriverRequest& request, std::string& error) = 0;
+  [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
+                                                               std::string& error) = 0;
+  [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const DriverRequest& request,
+                                                               std::string& error) = 0;
   /// Physics up to `time`; deterministic. Never goes back.
   virtual void advance_to(Time time) = 0;
   /// Writes out the trace. false and `error` when that failed.

@@ -12,7 +12,8 @@ namespace tessera {
 
 /// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
-///  "transitions": [[name, instance]...]}, padding to a multiple of 8, then events of 24 bytes. A truncated tail loses
+///  "transitions": [[name, instance]...]}, padding to a multiple of 8, then events of 24 bytes. A truncated
+///  tail loses
 /// only itself. Nothing in it depends on the wall clock when the run's clock is simulated.
 struct Event {
   enum class Kind : std::uint8_t {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,11 +14,41 @@
 
 namespace tessera {
 
+/// Whether no number in `value` is infinite or NaN. Of structures: what a function `finite(const T&)` beside
+/// them says.
+template <class T>
+[[nodiscard]] bool all_finite(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::isfinite(value);
+  } else if constexpr (requires {
+                         value.begin();
+                         value.end();
+                       }) {
+    return std::all_of(value.begin(), value.end(), [](const auto& element) { return all_finite(element); });
+  } else if constexpr (requires { finite(value); } && std::is_class_v<T>) {
+    return finite(value);
+  } else {
+    return true;
+  }
+}
+
 /// How an iteration ended: which of t4, t5, t6 of the behaviour is to fire.
 enum class Outcome : std::uint8_t { go_on, terminal, error };
 
 enum class ValueKind : std::uint8_t {
-  boolean, int8, int16, int32, int64, uint8, uint16, uint32, uint64, float32, float64, string, other
+  boolean,
+  int8,
+  int16,
+  int32,
+  int64,
+  uint8,
+  uint16,
+  uint32,
+  uint64,
+  float32,
+  float64,
+  string,
+  other
 };
 
 template <class T>
@@ -51,7 +83,8 @@ struct Bindings {
     Departure* departure;
   };
   struct RealOutgoing : Outgoing {
-    std::vector<std::byte> safe;  ///< the safe command
+    std::vector<std::byte> safe;                  ///< the safe command
+    bool (*finite)(const void* value) = nullptr;  ///< whether a device may be given it; nullptr: always
   };
   struct Parameter {
     std::string_view name;
@@ -59,6 +92,7 @@ struct Bindings {
     void* value;
     std::size_t size;
     double minimum, maximum;
+    std::size_t capacity = 0;  ///< of a string
   };
   std::vector<Incoming> inputs, real_inputs;
   std::vector<Outgoing> outputs;
@@ -66,22 +100,32 @@ struct Bindings {
   std::vector<Parameter> parameters;
 
   template <class T>
-  void input(std::string_view name, Input<T>& buffer) { inputs.push_back(incoming(name, buffer)); }
+  void input(std::string_view name, Input<T>& buffer) {
+    inputs.push_back(incoming(name, buffer));
+  }
   template <class T>
-  void real_input(std::string_view name, Input<T>& buffer) { real_inputs.push_back(incoming(name, buffer)); }
+  void real_input(std::string_view name, Input<T>& buffer) {
+    real_inputs.push_back(incoming(name, buffer));
+  }
   template <class T>
-  void output(std::string_view name, Output<T>& buffer) { outputs.push_back(outgoing(name, buffer)); }
+  void output(std::string_view name, Output<T>& buffer) {
+    outputs.push_back(outgoing(name, buffer));
+  }
   template <class T>
   void real_output(std::string_view name, Output<T>& buffer, const T& safe) {
     const auto* bytes = reinterpret_cast<const std::byte*>(&safe);
-    real_outputs.push_back({outgoing(name, buffer), {bytes, bytes + sizeof(T)}});
+    real_outputs.push_back({outgoing(name, buffer), {bytes, bytes + sizeof(T)}, [](const void* at) {
+                              return all_finite(*static_cast<const T*>(at));
+                            }});
   }
   template <class T>
   void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),
                  double maximum = std::numeric_limits<double>::infinity()) {
     static_assert(std::is_trivially_copyable_v<T>);
-    constexpr ValueKind kind = std::is_class_v<T> ? ValueKind::string : value_kind<T>();
-    parameters.push_back({name, kind, &value, sizeof(T), minimum, maximum});
+    if constexpr (requires { T::capacity(); })
+      parameters.push_back({name, ValueKind::string, &value, sizeof(T), minimum, maximum, T::capacity()});
+    else
+      parameters.push_back({name, value_kind<T>(), &value, sizeof(T), minimum, maximum});
   }
 
  private:
@@ -97,8 +141,8 @@ struct Bindings {
   }
 };
 
-/// One subsystem as its executor sees it: user functions and conditions by number, data by bindings. Generated code
-/// derives from SubsystemOf.
+/// One subsystem as its executor sees it: user functions and conditions by number, data by bindings.
+/// Generated code derives from SubsystemOf.
 ///
 /// Threads: one at a time (the subsystem's thread).
 class Subsystem {

@@ -10,14 +10,14 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
-/// The net as generated controllers carry it: constant tables, read once at start. Generated code includes this and
-/// states which version it was made for.
+/// The net as generated controllers carry it: constant tables, read once at start. Generated code includes
+/// this and states which version it was made for.
 namespace tessera {
 
 inline constexpr int tables_version = 1;
 
-/// What a token in a place starts. The last two are no operations of the net: they latch, when the token arrives, which
-/// of the conditional transitions behind the place may fire.
+/// What a token in a place starts. The last two are no operations of the net: they latch, when the token
+/// arrives, which of the conditional transitions behind the place may fire.
 struct Does {
   enum class Kind : std::uint8_t { nothing, call, count, write, read, decide, route } kind = Kind::nothing;
   std::string_view subject;  ///< behaviour (call, decide, route) or port (write, read)
@@ -34,8 +34,8 @@ struct Guard {
   enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
   std::uint16_t entry = 0;  ///< of `next`, from 0
 };
-inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal}, if_error{Guard::Kind::error},
-    if_elapsed{Guard::Kind::elapsed};
+inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
+    if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
 
 /// A place of a subsystem; its name lacks the subsystem's path ("follow.snd.motion.2").
@@ -44,7 +44,8 @@ struct Place {
   Does does{};
 };
 
-/// inputs and outputs name places of the subsystem, or fused places of a channel as "port/place" ("motion/full").
+/// inputs and outputs name places of the subsystem, or fused places of a channel as "port/place"
+/// ("motion/full").
 struct Transition {
   std::string_view name;
   std::initializer_list<std::string_view> inputs, outputs;
@@ -121,7 +122,7 @@ struct VerifiedProperty {
 struct System {
   int tables_version;
   std::string_view name;
-  std::string_view net_hash;           ///< of the net that was verified; the controller refuses to start on another
+  std::string_view net_hash;  ///< of the net that was verified; the controller refuses to start on another
   std::string_view verification_hash;
   std::span<const VerifiedProperty> verdicts;
   std::span<const Instance> instances;  ///< agent by agent

@@ -1,0 +1,13 @@
+#include "robot/sensor.hpp"
+
+namespace line_follower::robot::sensor {
+
+/// Behaviour watch of robot.sensor: the line is dark.
+/// Reads in.left, in.middle, in.right.
+/// Writes out.line.
+void watch(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  const double threshold = context.parameters.threshold;
+  out.line = {in.left < threshold, in.middle < threshold, in.right < threshold};
+}
+
+}  // namespace line_follower::robot::sensor

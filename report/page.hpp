@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "report/report.hpp"
+
+namespace tessera::report {
+
+/// "4.07 laps, line lost 0.00 s, ...": what matters most, in one line.
+[[nodiscard]] std::string headline(const ReportInput& input);
+
+/// The HTML page.
+[[nodiscard]] std::string page(const ReportInput& input);
+
+}  // namespace tessera::report

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/trace.hpp"
+#include "sim/track.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::report {
+
+/// What a robot did on a floor.
+struct Drive {
+  sim::Track floor;
+  sim::Skeleton line;  ///< may be empty: then there is no error to show
+  sim::Trace trace;
+  sim::LineMetrics metrics;  ///< of line and trace
+};
+
+struct SubsystemFigures {
+  std::string path;  ///< "robot.control"
+  std::uint64_t iterations = 0, overruns = 0, errors = 0;
+};
+
+struct Verdict {
+  std::string property;  ///< "safe"
+  std::string result;    ///< "holds", "violated", "unknown"; holds is shown as good, violated as bad
+  std::string note;      ///< may be empty
+};
+
+/// All that a report tells. What is not known stays empty and is left out of the page.
+struct ReportInput {
+  Recording recording;
+  std::optional<Drive> drive;
+  double simulated_s = 0, wall_s = 0;
+  std::uint64_t firings = 0;
+  std::string ended;                         ///< why the run ended
+  std::vector<SubsystemFigures> subsystems;  ///< empty: counted from the recording, without overruns
+  std::vector<Verdict> verdicts;
+};
+
+struct File {
+  std::string name;  ///< "index.html", "path.png"
+  std::string bytes;
+};
+
+/// A page that needs nothing but itself (pictures inline, no scripts, no network; light and dark, prints
+/// well), and with a drive the picture of the path over the floor: index.html and path.png. All text from
+/// outside is escaped. The same input gives the same bytes. Memory and size stay bounded on long runs: curves
+/// and time lines are thinned to what a page can show, and of many log messages the first and the last are
+/// shown.
+///
+/// Errors:  none of its own; throws std::bad_alloc.
+/// Threads: pure.
+[[nodiscard]] std::vector<File> render(const ReportInput& input);
+
+}  // namespace tessera::report

@@ -1,0 +1,238 @@
+#include "assembly.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "parameters.hpp"
+
+namespace tessera {
+namespace {
+
+/// Builds in the order in which things depend on each other; stops at the first step that fails.
+class Assembler {
+ public:
+  Assembler(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error)
+      : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
+
+  bool run() {
+    return check_version() && bind() && link_ports() && compile_plans() && check_hash() && set_values() &&
+           open_devices() && make_channels() && open_recording() && make_executors();
+  }
+
+ private:
+  bool fail(std::string text) {
+    error_ = std::move(text);
+    return false;
+  }
+
+  bool check_version() {
+    if (system_.tables_version == tables_version) return true;
+    return fail(
+        fmt::format("this controller was generated for version {} of the tables, this runtime has version {}",
+                    system_.tables_version, tables_version));
+  }
+
+  bool bind() {
+    for (const Instance& instance : system_.instances) {
+      SubsystemParts& parts = parts_.emplace_back();
+      parts.path = fmt::format("{}.{}", instance.agent, instance.name);
+      parts.instance = &instance;
+      parts.subsystem = instance.make();
+      parts.subsystem->bind(parts.bindings);
+      parts.ports.resize(instance.net->ports.size());
+      ports_.emplace_back();
+      for (std::uint32_t port = 0; port < instance.net->ports.size(); ++port)
+        ports_.back().emplace(instance.net->ports[port].name, port);
+    }
+    return true;
+  }
+
+  /// Which channel is behind each port.
+  bool link_ports() {
+    channel_of_.resize(parts_.size());
+    for (std::size_t index = 0; index < parts_.size(); ++index)
+      channel_of_[index].assign(parts_[index].ports.size(), nullptr);
+    for (const Channel& channel : system_.channels)
+      if (!link(channel, channel.from, channel.to, Side::send) ||
+          !link(channel, channel.to, channel.from, Side::receive))
+        return false;
+    return true;
+  }
+
+  bool link(const Channel& channel, const End& end, const End& other, Side side) {
+    if (end.port.empty()) return true;
+    if (end.instance >= parts_.size()) return fail(fmt::format("channel {} ends nowhere", channel.name));
+    SubsystemParts& parts = parts_[end.instance];
+    const auto found = ports_[end.instance].find(end.port);
+    if (found == ports_[end.instance].end() || parts.instance->net->ports[found->second].side != side)
+      return fail(fmt::format("{} has no port '{}' for channel {}", parts.path, end.port, channel.name));
+    PortLink& link = parts.ports[found->second];
+    channel_of_[end.instance][found->second] = &channel;
+    link.side = side;
+    link.timeout = side == Side::send ? channel.send_timeout : channel.receive_timeout;
+    if (!other.port.empty()) link.peer = other.instance;
+    return find_buffer(parts, parts.instance->net->ports[found->second], link);
+  }
+
+  bool find_buffer(const SubsystemParts& parts, const Port& port, PortLink& link) {
+    const auto find = [&](const auto& buffers) {
+      const auto found = std::find_if(buffers.begin(), buffers.end(),
+                                      [&](const auto& buffer) { return buffer.name == port.buffer; });
+      link.buffer = static_cast<std::uint32_t>(found - buffers.begin());
+      return found != buffers.end();
+    };
+    if (port.side == Side::send ? find(parts.bindings.outputs) : find(parts.bindings.inputs)) return true;
+    return fail(fmt::format("{} has no buffer '{}'", parts.path, port.buffer));
+  }
+
+  /// One plan per net and kinds of channels behind its ports: a fleet shares one.
+  bool compile_plans() {
+    std::map<std::pair<const SubsystemNet*, std::vector<const FusedPlace*>>, std::shared_ptr<const Plan>>
+        known;
+    for (std::size_t index = 0; index < parts_.size(); ++index) {
+      const SubsystemNet& net = *parts_[index].instance->net;
+      std::vector<std::span<const FusedPlace>> fused;
+      std::vector<const FusedPlace*> kinds;
+      for (const Channel* channel : channel_of_[index]) {
+        fused.push_back(channel == nullptr ? std::span<const FusedPlace>{} : channel->places);
+        kinds.push_back(fused.back().data());
+      }
+      std::shared_ptr<const Plan>& plan = known[{&net, kinds}];
+      if (plan == nullptr) {
+        std::string wrong;
+        std::optional<Plan> compiled = compile(net, fused, wrong);
+        if (!compiled) return fail(fmt::format("the net of {}: {}", parts_[index].path, wrong));
+        plan = std::make_shared<const Plan>(std::move(*compiled));
+      }
+      plans_.push_back(plan);
+    }
+    return true;
+  }
+
+  bool check_hash() {
+    net_ = net_of(system_);
+    const std::string hash = net_.hash();
+    if (hash == system_.net_hash) return true;
+    return fail(
+        fmt::format("this controller's tables are not the net that was verified (tables {}, verified {})",
+                    hash, system_.net_hash));
+  }
+
+  bool set_values() {
+    std::vector<ParameterOwner> owners;
+    for (const SubsystemParts& parts : parts_) owners.push_back({parts.path, parts.bindings.parameters});
+    return set_parameters(owners, assembly_.options.parameters, error_);
+  }
+
+  bool open_devices() {
+    error_.clear();
+    assembly_.world = open_world(assembly_.options, error_);
+    if (assembly_.world == nullptr && assembly_.options.world) return false;
+    DeviceFinder finder(system_, assembly_.options, assembly_.world.get());
+    for (SubsystemParts& parts : parts_) {
+      for (const Bindings::Incoming& input : parts.bindings.real_inputs)
+        parts.receptors.push_back(finder.receptor(fmt::format("{}.{}", parts.path, input.name)));
+      for (const Bindings::RealOutgoing& output : parts.bindings.real_outputs)
+        parts.effectors.push_back(finder.effector(fmt::format("{}.{}", parts.path, output.name)));
+    }
+    error_ = finder.complaints();
+    return error_.empty();
+  }
+
+  bool make_channels() {
+    for (const Channel& channel : system_.channels) {
+      std::uint32_t marking = 0;
+      for (std::size_t place = 0; place < channel.places.size() && place < SharedChannel::max_places; ++place)
+        if (channel.places[place].tokens > 0) marking |= 1U << place;
+      const std::size_t sent = value_size(channel.from, Side::send),
+                        received = value_size(channel.to, Side::receive);
+      if (sent != 0 && received != 0 && sent != received)
+        return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received)));
+      connect(channel.from, Side::send);
+      connect(channel.to, Side::receive);
+    }
+    return true;
+  }
+
+  /// 0: that end is not used.
+  [[nodiscard]] std::size_t value_size(const End& end, Side side) const {
+    if (end.port.empty()) return 0;
+    const SubsystemParts& parts = parts_[end.instance];
+    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
+  }
+
+  void connect(const End& end, Side side) {
+    if (end.port.empty()) return;
+    const std::uint32_t port = ports_[end.instance].at(end.port);
+    parts_[end.instance].ports[port].channel = assembly_.channels.back().get();
+    assembly_.channels.back()->connect(side, &waker_, end.instance, plans_[end.instance]->ports[port].needs);
+  }
+
+  bool open_recording() {
+    const RunOptions& options = assembly_.options;
+    if (options.recording.empty()) return true;
+    const bool simulated = options.clock == RunOptions::Clock::simulated;
+    assembly_.recorder =
+        Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
+                       static_cast<std::uint32_t>(parts_.size()),
+                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_);
+    return assembly_.recorder != nullptr;
+  }
+
+  [[nodiscard]] std::string header(const char* clock) const {
+    nlohmann::ordered_json header{{"system", system_.name},
+                                  {"net_hash", system_.net_hash},
+                                  {"verification_hash", system_.verification_hash}};
+    header["verdicts"] = nlohmann::ordered_json::array();
+    for (const VerifiedProperty& property : system_.verdicts)
+      header["verdicts"].push_back(
+          {{"name", property.name}, {"verdict", property.verdict}, {"method", property.method}});
+    header["seed"] = assembly_.options.seed;
+    header["clock"] = clock;
+    header["instances"] = nlohmann::ordered_json::array();
+    for (const SubsystemParts& parts : parts_) header["instances"].push_back(parts.path);
+    header["transitions"] = nlohmann::ordered_json::array();
+    for (const FlatNet::FlatTransition& transition : net_.transitions)
+      header["transitions"].push_back(nlohmann::ordered_json::array({transition.name, transition.instance}));
+    return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
+  bool make_executors() {
+    for (std::uint32_t index = 0; index < parts_.size(); ++index) {
+      RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
+      assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
+          index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
+          SubsystemExecutor::Shared{assembly_.control, clock_, waker_}, lane));
+    }
+    return true;
+  }
+
+  Assembly& assembly_;
+  const System& system_;
+  const Clock& clock_;
+  Waker& waker_;
+  std::string& error_;
+  std::vector<SubsystemParts> parts_;                             // per instance
+  std::vector<std::map<std::string_view, std::uint32_t>> ports_;  // per instance: by name
+  std::vector<std::vector<const Channel*>> channel_of_;           // per instance and port
+  std::vector<std::shared_ptr<const Plan>> plans_;                // per instance
+  FlatNet net_;
+};
+
+}  // namespace
+
+bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error) try {
+  return Assembler(assembly, clock, waker, error).run();
+} catch (const std::exception& exception) {  // of constructors of the user's: memory, drivers
+  error = exception.what();
+  return false;
+}
+
+}  // namespace tessera

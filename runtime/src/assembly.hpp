@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clock.hpp"
+#include "devices.hpp"
+#include "flat_net.hpp"
+#include "recorder.hpp"
+#include "run_control.hpp"
+#include "shared_channel.hpp"
+#include "subsystem_executor.hpp"
+#include "tessera/controller.hpp"
+
+namespace tessera {
+
+/// A controller ready to run: every subsystem with its plan, channels, devices and parameters.
+struct Assembly {
+  Assembly(const System& its_system, const RunOptions& its_options)
+      : system(its_system),
+        options(its_options),
+        control(static_cast<std::uint32_t>(its_system.instances.size())) {}
+
+  const System& system;
+  const RunOptions& options;
+  RunControl control;
+  std::unique_ptr<World> world;
+  std::unique_ptr<Recorder> recorder;
+  std::vector<std::unique_ptr<SharedChannel>> channels;
+  std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
+};
+
+/// Checks that the tables are the net that was verified, and puts everything together.
+///
+/// Errors: other tables version, names that do not resolve, another hash, unknown or bad parameters, real
+/// buffers
+///         without a driver, a world or recording that cannot be opened: false and `error`.
+[[nodiscard]] bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error);
+
+}  // namespace tessera

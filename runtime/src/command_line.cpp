@@ -1,0 +1,186 @@
+#include "command_line.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "parameters.hpp"
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+/// As the user wrote it, before it means anything.
+struct Words {
+  std::string duration, parameter_file;
+  std::vector<std::string> parameters, drivers;
+  std::vector<double> start;
+  WorldOptions world;
+};
+
+void describe_common(CLI::App& command, CommandLine& line, Words& words) {
+  RunOptions& options = line.options;
+  command.add_option("--for", words.duration,
+                     "End after this time: 60s, 2min, 500ms (default: run until the net ends)");
+  command
+      .add_option("--set", words.parameters,
+                  "PATH=VALUE: v=0.3 (everywhere), robot.control.v=0.3, robot[*].control.v=0.3")
+      ->allow_extra_args(false);
+  command.add_option("--parameters", words.parameter_file,
+                     "File of 'path = value' lines, applied before --set");
+  command.add_option("--record", options.recording, "Write every firing and log line to this file");
+  command.add_option("--world", words.world.world, "World of the simulated robot (MJCF)");
+  command.add_option("--world-library", options.world_library, "Library that simulates the world");
+  command.add_option("--track", words.world.track, "Floor picture (PNG), dark is line");
+  command.add_option("--metres-per-pixel", words.world.metres_per_pixel, "Scale of the floor picture")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--start", words.start, "x,y,deg: where the robot starts (metres, degrees)")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      .add_option("--footprint", words.world.footprint_m, "Diameter of what a light sensor sees, in metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--trace", words.world.trace, "Write the path driven to this file");
+  command
+      .add_option("--driver", words.drivers,
+                  "BUFFER=KIND:TARGET[,OPTION=NUMBER...]: robot.sensor.left=reflectance:eye_left,noise=0.01")
+      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
+  command.add_option("--summary", line.summary, "Write what the run came to as JSON; - is standard output");
+  command.add_flag("--progress", options.progress, "Show progress on standard error");
+}
+
+/// What is wrong with the words; empty: nothing, and the options are filled.
+[[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
+  if (!words.duration.empty()) {
+    options.duration = parse_duration(words.duration);
+    if (!options.duration)
+      return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+  }
+  for (const std::string& assignment : words.parameters) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return fmt::format("--set {}: expected PATH=VALUE", assignment);
+    options.parameters.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  for (const std::string& driver : words.drivers) {
+    std::string error;
+    const std::optional<DriverRequest> request = parse_driver(driver, error);
+    if (!request) return fmt::format("--driver {}: {}", driver, error);
+    options.drivers.push_back(*request);
+  }
+  if (words.world.world.empty()) return "";
+  options.world = words.world;
+  options.world->seed = options.seed;
+  if (words.start.size() == 3) {
+    options.world->start_x_m = words.start[0];
+    options.world->start_y_m = words.start[1];
+    options.world->start_heading_rad = words.start[2] * std::numbers::pi / 180;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<Duration> parse_duration(std::string text) {
+  std::erase(text, ' ');
+  const std::size_t unit_at = text.find_first_not_of("0123456789.eE+-");
+  std::string_view unit = unit_at == std::string::npos ? "s" : std::string_view(text).substr(unit_at);
+  struct Unit {
+    std::string_view name;
+    double in_ns;
+  };
+  constexpr std::array units{Unit{"s", 1e9},    Unit{"ms", 1e6}, Unit{"us", 1e3},  Unit{"ns", 1.0},
+                             Unit{"min", 60e9}, Unit{"m", 60e9}, Unit{"h", 3600e9}};
+  const std::optional<double> number = parse_number(std::string_view(text).substr(0, unit_at));
+  for (const Unit& known : units) {
+    if (known.name != unit || !number || *number < 0) continue;
+    const double nanoseconds = std::round(*number * known.in_ns);
+    if (nanoseconds > 9e18) return std::nullopt;
+    return Duration(static_cast<Duration::rep>(nanoseconds));
+  }
+  return std::nullopt;
+}
+
+std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error) {
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == std::string::npos || equals == 0 || colon == std::string::npos || colon == equals + 1) {
+    error = "expected BUFFER=KIND:TARGET";
+    return std::nullopt;
+  }
+  DriverRequest request{.path = text.substr(0, equals),
+                        .kind = text.substr(equals + 1, colon - equals - 1),
+                        .target = {},
+                        .options = {}};
+  std::istringstream rest(text.substr(colon + 1));
+  std::getline(rest, request.target, ',');
+  for (std::string option; std::getline(rest, option, ',');) {
+    const std::size_t sign = option.find('=');
+    const std::optional<double> value =
+        sign == std::string::npos ? std::nullopt : parse_number(std::string_view(option).substr(sign + 1));
+    if (!value) {
+      error = fmt::format("'{}' is no OPTION=NUMBER", option);
+      return std::nullopt;
+    }
+    request.options[option.substr(0, sign)] = *value;
+  }
+  return request;
+}
+
+std::variant<CommandLine, int> parse_command_line(const System& system, int argc, char** argv) {
+  CommandLine line;
+  Words words;
+  CLI::App app(fmt::format("The controller of {}, generated by Tessera.", system.name));
+  app.footer(
+      "Example: controller simulate --for 60s --seed 1 --record run.tessrec --set v=0.3\n"
+      "Exit codes: 0 ended as asked, 1 failed or could not start, 2 usage, 130 interrupted.");
+  app.require_subcommand(1);
+  app.set_config("--config", "", "Read options from this file (INI or TOML)");
+  CLI::App* simulate =
+      app.add_subcommand("simulate", "Simulated clock: deterministic from the seed, as fast as possible");
+  CLI::App* run =
+      app.add_subcommand("run", "Real time, a thread per subsystem; with --world the robot is simulated");
+  for (CLI::App* command : {simulate, run}) {
+    command->fallthrough();
+    command->configurable();
+    describe_common(*command, line, words);
+  }
+  simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool unreadable = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
+    return app.exit(error) == 0 ? 0 : unreadable ? 1 : 2;
+  }
+  line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;
+  std::string wrong;
+  if (!words.parameter_file.empty() &&
+      !read_parameter_file(words.parameter_file, line.options.parameters, wrong)) {
+    fmt::print(stderr, "error: {}\n", wrong);
+    return 1;
+  }
+  wrong = interpret(words, line.options);
+  if (wrong.empty()) return line;
+  fmt::print(stderr, "error: {}\n", wrong);
+  return 2;
+}
+
+}  // namespace tessera

@@ -1,0 +1,54 @@
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "command_line.hpp"
+#include "summary_text.hpp"
+#include "tessera/controller.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_terminated = 143;
+
+[[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
+  if (file == "-") return static_cast<bool>(std::cout << json << std::flush);
+  std::ofstream stream(file);
+  stream << json << std::flush;
+  return static_cast<bool>(stream);
+}
+
+[[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
+  if (summary.failed) fmt::print(stderr, "{}", summary_lines(summary));
+  if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  if (summary.failed) return exit_failed;
+  if (summary.ended == "SIGINT") return exit_interrupted;
+  if (summary.ended == "SIGTERM") return exit_terminated;
+  return exit_ok;
+}
+
+}  // namespace
+
+int controller_main(const System& system, int argc, char** argv) try {
+  const std::variant<CommandLine, int> parsed = parse_command_line(system, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const CommandLine& line = std::get<CommandLine>(parsed);
+  std::string error;
+  const std::optional<RunSummary> summary = execute(system, line.options, error);
+  if (!summary) {
+    fmt::print(stderr, "error: {}\n", error);
+    return exit_failed;
+  }
+  return report(*summary, line);
+} catch (const std::exception& exception) {
+  fmt::print(stderr, "error: {}\n", exception.what());
+  return exit_failed;
+}
+
+}  // namespace tessera

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tessera/tables.hpp"
+
+namespace tessera {
+
+/// The whole flat net that the tables of a controller stand for, by names: what was verified, what the hash
+/// is of, and what the transitions of a recording are called. Execution uses Plan.
+struct FlatNet {
+  struct FlatPlace {
+    std::string name;
+    std::uint32_t tokens = 0;
+  };
+  struct FlatTransition {
+    std::string name;
+    std::uint32_t instance;                      ///< system_instance: of the upper layers
+    std::vector<std::uint32_t> inputs, outputs;  ///< into places
+    std::string guard;
+  };
+  std::vector<FlatPlace> places;
+  /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table.
+  std::vector<FlatTransition> transitions;
+  std::vector<std::uint32_t> first_of_instance;  ///< into transitions
+
+  [[nodiscard]] std::string hash() const;
+};
+
+/// The agents of a system: its instances come agent by agent.
+struct AgentSpan {
+  std::string_view name;
+  std::uint32_t first, end;  ///< instances
+};
+[[nodiscard]] std::vector<AgentSpan> agents_of(const System& system);
+
+/// Every name in the tables must resolve (Plan checks that); an end of an arc that does not is left out, so
+/// that the hash differs.
+[[nodiscard]] FlatNet net_of(const System& system);
+
+}  // namespace tessera

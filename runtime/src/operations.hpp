@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clock.hpp"
+#include "recorder.hpp"
+#include "run_control.hpp"
+#include "shared_channel.hpp"
+#include "tessera/device.hpp"
+#include "tessera/tables.hpp"
+
+namespace tessera {
+
+/// One end of a channel as its subsystem sees it.
+struct PortLink {
+  SharedChannel* channel = nullptr;
+  Side side = Side::send;
+  std::uint32_t buffer = 0;         ///< into Bindings::inputs or outputs
+  Duration timeout{0};              ///< zero: waits for ever
+  std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none
+};
+
+/// What a subsystem is made of besides its net.
+struct SubsystemParts {
+  std::string path;
+  const Instance* instance = nullptr;
+  std::unique_ptr<Subsystem> subsystem;
+  Bindings bindings;
+  std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs
+  std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
+  std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
+};
+
+/// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code.
+/// Knows no net.
+///
+/// *Failure.* When user code or a device fails during the transition function, the outputs become those of
+/// the iteration before, they are sent marked invalid until an iteration succeeds, an effector gets its safe
+/// command at once, and the outcome is error whatever the conditions say.
+///
+/// *Safe command.* Given instead of the outputs while no valid value has arrived on some input for longer
+/// than `stale` (counted from the start of the run before the first; an invalid value is no news), and for
+/// good once a subsystem that feeds an input has ended. Given at once on failure, and by give_safe_command on
+/// every way out of the run.
+///
+/// Threads: the subsystem's.
+class Operations final : public ContextServices {
+ public:
+  Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane);
+
+  // Operations of places.
+  void start_call(std::uint16_t behaviour, Time now);
+  void finish_call(Time now);
+  void count() { ++iteration_; }
+  void write(std::uint32_t port, Time now);
+  void read(std::uint32_t port, Time now);
+
+  // Conditions. Ages are those of `now`; what throws is an error.
+  [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
+  /// no_entry: none holds; unknown_entry: a condition has thrown, which has been logged.
+  static constexpr int no_entry = -1, unknown_entry = -2;
+  [[nodiscard]] int route(std::uint16_t behaviour, Time now);
+
+  /// A timeout transition of that port has fired.
+  void note_timeout(std::uint32_t port);
+  /// A blocking send of that port was acknowledged in time.
+  void note_answer(std::uint32_t port);
+
+  void give_safe_command();
+  /// Gives the safe command if an input is stale or its source has ended and it has not been given for that
+  /// reason.
+  void guard_effectors(Time now);
+  /// When guard_effectors must be called next if nothing else happens; Time::max(): never.
+  [[nodiscard]] Time guard_deadline() const;
+
+  void log(LogLevel level, std::string_view text) override;
+  void stop(std::string_view reason) override;
+
+  [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
+  [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
+    return parts_.instance->net->behaviours[behaviour].takes;
+  }
+  [[nodiscard]] bool ended_by_error() const { return erroneous_; }
+  [[nodiscard]] std::uint64_t iterations() const { return calls_; }
+  [[nodiscard]] std::uint64_t errors() const { return errors_; }
+
+ private:
+  void read_receptors(Time now);
+  void write_effectors(Time now);
+  [[nodiscard]] bool outputs_are_finite() const;
+  void refresh_ages(Time now);
+  void fail(std::string_view what);
+  [[nodiscard]] bool must_be_safe(Time now) const;
+  template <class Code>
+  [[nodiscard]] bool survives(std::uint16_t behaviour, std::string_view activity, Code&& code);
+
+  SubsystemParts parts_;
+  RunControl& control_;
+  const Clock& clock_;
+  RecordingLane* lane_;
+
+  struct InputState {
+    std::uint64_t sequence = 0;  // of the last value read; 0: none yet
+    Time last_valid{};
+    std::uint32_t source = UINT32_MAX;
+    bool used = false;  // some behaviour receives it
+  };
+  std::vector<InputState> inputs_;  // as Bindings::inputs
+  std::uint64_t iteration_ = 0;     // i of the paper
+  std::uint64_t calls_ = 0, errors_ = 0;
+  std::uint16_t behaviour_ = 0;  // the last called
+  bool failed_ = false;          // the last transition function
+  bool erroneous_ = false;       // the last outcome was error
+  bool held_safe_ = false;       // the safe command stands because of an input
+};
+
+}  // namespace tessera

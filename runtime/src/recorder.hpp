@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "tessera/recording.hpp"
+#include "tessera/time.hpp"
+
+namespace tessera {
+
+inline constexpr std::uint32_t system_instance = 0xffffff;  ///< of events of the upper layers
+
+/// Where the bytes of a recording go. Errors are remembered, not thrown; after one nothing is written any
+/// more.
+///
+/// Threads: one at a time.
+class RecordingFile {
+ public:
+  /// false and `error` when it cannot be created.
+  [[nodiscard]] bool open(const std::string& path, std::string_view header, std::string& error);
+  RecordingFile() = default;
+  RecordingFile(const RecordingFile&) = delete;
+  RecordingFile& operator=(const RecordingFile&) = delete;
+  ~RecordingFile();
+
+  void append(const Event& event);
+  void flush();
+  void close();
+  [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
+
+ private:
+  void write_all(const char* bytes, std::size_t count);
+  int descriptor_ = -1;
+  std::array<Event, 2048> buffer_{};
+  std::size_t filled_ = 0;
+  std::uint64_t lost_ = 0;
+  std::string failure_;
+};
+
+/// Events of one thread on their way to the file: appended at once, or through a ring to a thread that
+/// writes. A full ring loses the event and counts it; nothing ever waits.
+///
+/// Threads: the producer's; drain on the writer's.
+class RecordingLane {
+ public:
+  /// capacity 0: append at once.
+  RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity);
+
+  void firing(Time time, std::uint32_t transition, std::uint32_t version);
+  void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }
+  void drain();
+
+ private:
+  [[nodiscard]] Event event(Event::Kind kind, Time time);
+  [[nodiscard]] bool has_room(std::uint64_t count);
+  void push(const Event& event);
+  void publish();
+
+  std::uint32_t instance_;
+  std::uint32_t sequence_ = 0;
+  std::uint64_t lost_ = 0;
+  RecordingFile& file_;
+  std::vector<Event> ring_;         // empty: append at once; otherwise a power of two
+  std::uint64_t pushed_ = 0;        // the producer's
+  std::uint64_t seen_drained_ = 0;  // the producer's last look at drained_
+  alignas(64) std::atomic<std::uint64_t> published_{0};
+  alignas(64) std::atomic<std::uint64_t> drained_{0};
+};
+
+/// The recording of a run: a lane per instance and one for the upper layers.
+class Recorder {
+ public:
+  enum class Mode : std::uint8_t { direct, threaded };
+  /// nullptr and `error` when the file cannot be created.
+  [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, std::string_view header,
+                                                      std::uint32_t instances, Mode mode, std::string& error);
+  ~Recorder();
+
+  [[nodiscard]] RecordingLane* lane(std::uint32_t instance) { return lanes_[instance].get(); }
+  [[nodiscard]] RecordingLane* system_lane() { return lanes_.back().get(); }
+  void flush() { file_.flush(); }  ///< direct mode only
+
+  struct Result {
+    std::uint64_t lost = 0;
+    std::string failure;
+  };
+  /// Writes what is left. Only after the producers have ended.
+  [[nodiscard]] Result close();
+
+ private:
+  Recorder() = default;
+  void write_until_closed();
+  RecordingFile file_;
+  std::vector<std::unique_ptr<RecordingLane>> lanes_;
+  std::atomic<std::uint32_t> closing_{0};
+  std::thread writer_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+namespace tessera {
+
+/// How a run is told to end, and who has ended already. Shared by all threads of a run.
+///
+/// Threads: any, unless said otherwise. Never blocks, never allocates after construction.
+class RunControl {
+ public:
+  explicit RunControl(std::uint32_t instances) : ended_(std::make_unique<std::atomic<bool>[]>(instances)) {}
+
+  /// The first reason counts; longer than 512 bytes is cut. fault: the run failed.
+  void request_stop(std::string_view reason, bool fault);
+  [[nodiscard]] bool stopping() const { return state_.load(std::memory_order_acquire) != 0; }
+  /// Only after the threads of the run have ended.
+  [[nodiscard]] std::string_view reason() const { return {reason_.data(), length_}; }
+  [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
+
+  void mark_ended(std::uint32_t instance) { ended_[instance].store(true, std::memory_order_release); }
+  [[nodiscard]] bool has_ended(std::uint32_t instance) const {
+    return ended_[instance].load(std::memory_order_acquire);
+  }
+
+ private:
+  std::atomic<std::uint32_t> state_{0};
+  std::atomic<bool> failed_{false};
+  std::array<char, 512> reason_{};
+  std::size_t length_ = 0;
+  std::unique_ptr<std::atomic<bool>[]> ended_;
+};
+
+}  // namespace tessera

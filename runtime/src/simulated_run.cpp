@@ -1,0 +1,137 @@
+#include "simulated_run.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "console.hpp"
+
+namespace tessera {
+namespace {
+
+/// Keeps simulated time from running ahead of the wall clock; a signal ends the wait.
+class Pace {
+ public:
+  Pace(bool realtime, const StopSignals& signals) : realtime_(realtime), signals_(signals) {}
+  void wait_for(Time time, Recorder* recorder) const {
+    if (!realtime_) return;
+    const std::int64_t left_ns = start_ns_ + time.time_since_epoch().count() - monotonic_ns();
+    if (left_ns <= 0) return;
+    if (recorder != nullptr) recorder->flush();  // there is time, and whoever watches sees what has happened
+    timespec left{.tv_sec = left_ns / 1'000'000'000, .tv_nsec = left_ns % 1'000'000'000};
+    pollfd signal{.fd = signals_.descriptor(), .events = POLLIN, .revents = 0};
+    ppoll(&signal, 1, &left, nullptr);
+  }
+
+ private:
+  bool realtime_;
+  const StopSignals& signals_;
+  std::int64_t start_ns_ = monotonic_ns();
+};
+
+[[nodiscard]] std::string why_nothing_happens(const Assembly& assembly) {
+  constexpr int shown = 8;
+  std::string text = "stopped: nothing can ever happen again";
+  int named = 0, waiting = 0;
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    if (assembly.control.has_ended(instance)) continue;
+    ++waiting;
+    if (named++ < shown)
+      text += (named == 1 ? ": " : "; ") + assembly.executors[instance]->whereabouts(assembly.system);
+  }
+  if (waiting > shown) text += fmt::format("; and {} more", waiting - shown);
+  return text;
+}
+
+}  // namespace
+
+SimulatedRun::SimulatedRun(std::uint32_t instances, std::uint64_t seed)
+    : random_(seed), is_ready_(instances), has_ended_(instances), deadlines_(instances) {
+  ready_.reserve(instances);
+}
+
+void SimulatedRun::wake(std::uint32_t instance) {
+  if (is_ready_[instance] || has_ended_[instance]) return;
+  is_ready_[instance] = true;
+  ready_.push_back(instance);
+}
+
+std::uint32_t SimulatedRun::draw_ready() {
+  // Not std::uniform_int_distribution: its numbers differ from library to library.
+  if (ready_.size() > 1) std::swap(ready_[random_() % ready_.size()], ready_.back());
+  const std::uint32_t drawn = ready_.back();
+  ready_.pop_back();
+  is_ready_[drawn] = false;
+  return drawn;
+}
+
+void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
+  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step();
+  deadlines_.set(instance,
+                 progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
+  if (progress.state != SubsystemExecutor::State::ended) return;
+  has_ended_[instance] = true;
+  upper.subsystem_ended(instance, clock_.now());
+}
+
+void SimulatedRun::move_to(Assembly& assembly, Time time) {
+  clock_.set(time);
+  if (assembly.world == nullptr) return;
+  try {
+    assembly.world->advance_to(time);
+  } catch (const std::exception& exception) {
+    assembly.control.request_stop(fmt::format("the world: {}", exception.what()), /*fault=*/true);
+  }
+}
+
+Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  Ending ending = run_until_end(assembly, upper, signals);
+  for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
+    if (!has_ended_[instance]) assembly.executors[instance]->leave();
+  return ending;
+}
+
+Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  const std::optional<Duration> duration = assembly.options.duration;
+  const Time end = duration ? Time(*duration) : Time::max();
+  const Pace pace(assembly.options.realtime, signals);
+  ProgressLine progress(assembly.options.progress, duration);
+  const auto ending = [&](std::string text, bool failed) {
+    return Ending{std::move(text), failed, clock_.now()};
+  };
+
+  move_to(assembly, Time{});
+  upper.enter(clock_.now());
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    assembly.executors[instance]->enter();
+    wake(instance);
+  }
+  for (;;) {
+    while (!ready_.empty() && !assembly.control.stopping()) step(assembly, upper, draw_ready());
+    if (const int signal = StopSignals::pending(); signal != 0)
+      return ending(StopSignals::name(signal), false);
+    if (assembly.control.stopping())
+      return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
+    if (upper.ended()) return ending("net ended", false);
+    const Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
+    pace.wait_for(std::min(next, end), assembly.recorder.get());
+    if (next >= end) {
+      move_to(assembly, end);
+      return ending("duration", assembly.control.failed());
+    }
+    move_to(assembly, next);
+    progress.update(next);
+    while (!deadlines_.empty() && deadlines_.first_time() <= next) {
+      const std::uint32_t due = deadlines_.first();
+      deadlines_.set(due, Time::max());
+      wake(due);
+    }
+  }
+}
+
+}  // namespace tessera

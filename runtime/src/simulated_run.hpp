@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "assembly.hpp"
+#include "deadline_queue.hpp"
+#include "stop_signals.hpp"
+#include "upper_layers.hpp"
+
+namespace tessera {
+
+/// How a run ended.
+struct Ending {
+  std::string text;  ///< as RunSummary::ended
+  bool failed = false;
+  Time at{};
+};
+
+/// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something
+/// to do take turns in an order drawn from the seed; when none has, time jumps to the next deadline, and the
+/// world with it. Everything but the wall clock's speed follows from tables, seed and user code.
+class SimulatedRun final : public Waker {
+ public:
+  SimulatedRun(std::uint32_t instances, std::uint64_t seed);
+  [[nodiscard]] const SimulatedClock& clock() const { return clock_; }
+  void wake(std::uint32_t instance) override;
+  [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+
+ private:
+  [[nodiscard]] Ending run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  [[nodiscard]] std::uint32_t draw_ready();
+  void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
+  void move_to(Assembly& assembly, Time time);
+
+  SimulatedClock clock_;
+  std::mt19937_64 random_;
+  std::vector<std::uint32_t> ready_;
+  std::vector<bool> is_ready_, has_ended_;
+  DeadlineQueue deadlines_;
+};
+
+}  // namespace tessera

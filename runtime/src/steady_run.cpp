@@ -1,0 +1,135 @@
+#include "steady_run.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <system_error>
+
+#include "console.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr Duration world_step = std::chrono::milliseconds(1);
+constexpr Duration progress_step = std::chrono::milliseconds(200);
+
+}  // namespace
+
+SteadyRun::SteadyRun(std::uint32_t instances)
+    : wake_words_(std::make_unique<WakeWord[]>(instances)),
+      collected_(instances),
+      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+SteadyRun::~SteadyRun() {
+  if (news_ >= 0) close(news_);
+}
+
+void SteadyRun::tell_supervisor() const {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
+}
+
+void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
+  WakeWord& wakes = wake_words_[instance];
+  while (!control.stopping()) {
+    const std::uint32_t ticket = wakes.ticket();
+    const SubsystemExecutor::Progress progress = executor.step();
+    if (progress.state != SubsystemExecutor::State::waiting) break;
+    wakes.sleep(ticket, progress.deadline == Time::max() ? -1 : clock_.absolute_ns(progress.deadline));
+  }
+  if (!control.has_ended(instance)) executor.leave();
+  tell_supervisor();
+}
+
+void SteadyRun::run_world(World& world, RunControl& control) {
+  for (Time next{}; !control.stopping(); next += world_step) {
+    const std::uint32_t ticket = world_wakes_.ticket();
+    try {
+      world.advance_to(clock_.now());
+    } catch (const std::exception& exception) {
+      control.request_stop(fmt::format("the world: {}", exception.what()), /*fault=*/true);
+      return tell_supervisor();
+    }
+    next = std::max(next, clock_.now());  // a slow world does not try to catch up
+    if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next + world_step));
+  }
+}
+
+Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  clock_.restart();
+  upper.enter(clock_.now());
+  for (const auto& executor : assembly.executors) executor->enter();
+  std::vector<std::thread> threads;
+  try {
+    if (assembly.world != nullptr)
+      threads.emplace_back([&] { run_world(*assembly.world, assembly.control); });
+    for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance)
+      threads.emplace_back(
+          [&, instance] { run_subsystem(*assembly.executors[instance], instance, assembly.control); });
+  } catch (const std::system_error& error) {
+    assembly.control.request_stop(fmt::format("no thread for every subsystem: {}", error.what()),
+                                  /*fault=*/true);
+  }
+  supervise(assembly, upper, signals);
+  for (std::thread& thread : threads) thread.join();
+  collect_ended(assembly, upper);
+
+  const Time now = clock_.now();
+  if (upper.ended()) return {"net ended", assembly.control.failed(), now};
+  if (duration_over_) return {"duration", assembly.control.failed(), now};
+  if (const int signal = StopSignals::pending(); signal != 0)
+    return {StopSignals::name(signal), assembly.control.failed(), now};
+  return {fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(), now};
+}
+
+void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  const Time end = assembly.options.duration ? Time(*assembly.options.duration) : Time::max();
+  ProgressLine progress(assembly.options.progress, assembly.options.duration);
+  RunControl& control = assembly.control;
+  while (!control.stopping()) {
+    collect_ended(assembly, upper);
+    const Time now = clock_.now();
+    if (upper.ended()) {
+      control.request_stop("net ended", /*fault=*/false);
+    } else if (const int signal = StopSignals::pending(); signal != 0) {
+      control.request_stop(StopSignals::name(signal), /*fault=*/false);
+    } else if (now >= end) {
+      duration_over_ = true;
+      control.request_stop("duration", /*fault=*/false);
+    } else {
+      progress.update(now);
+      await_news(signals, assembly.options.progress ? std::min(end, now + progress_step) : end);
+    }
+  }
+  wake_all(static_cast<std::uint32_t>(assembly.executors.size()));
+}
+
+void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
+  for (std::uint32_t instance = 0; instance < collected_.size(); ++instance) {
+    if (collected_[instance] || !assembly.control.has_ended(instance)) continue;
+    collected_[instance] = true;
+    upper.subsystem_ended(instance, clock_.now());
+  }
+}
+
+void SteadyRun::await_news(const StopSignals& signals, Time until) const {
+  std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = signals.descriptor(), .events = POLLIN, .revents = 0}};
+  const Duration left = std::max(until - clock_.now(), Duration::zero());
+  const timespec limit{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
+  ppoll(sources.data(), sources.size(), until == Time::max() ? nullptr : &limit, nullptr);
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
+}
+
+void SteadyRun::wake_all(std::uint32_t instances) {
+  world_wakes_.wake();
+  for (std::uint32_t instance = 0; instance < instances; ++instance) wake_words_[instance].wake();
+}
+
+}  // namespace tessera

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "assembly.hpp"
+#include "simulated_run.hpp"
+#include "stop_signals.hpp"
+#include "upper_layers.hpp"
+
+namespace tessera {
+
+/// Runs every subsystem in a thread of its own, in real time; one more moves the simulated world, if there is
+/// one. The calling thread fires the transitions of the upper layers, watches the clock and the signals, and
+/// wakes everybody when the run is to end.
+class SteadyRun final : public Waker {
+ public:
+  explicit SteadyRun(std::uint32_t instances);
+  SteadyRun(const SteadyRun&) = delete;
+  SteadyRun& operator=(const SteadyRun&) = delete;
+  ~SteadyRun() override;
+  [[nodiscard]] const SteadyClock& clock() const { return clock_; }
+  void wake(std::uint32_t instance) override { wake_words_[instance].wake(); }
+  [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+
+ private:
+  void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
+  void run_world(World& world, RunControl& control);
+  void tell_supervisor() const;
+  void supervise(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  void collect_ended(const Assembly& assembly, UpperLayers& upper);
+  void await_news(const StopSignals& signals, Time until) const;
+  void wake_all(std::uint32_t instances);
+
+  SteadyClock clock_;
+  std::unique_ptr<WakeWord[]> wake_words_;
+  WakeWord world_wakes_;
+  std::vector<bool> collected_;
+  int news_ = -1;  // eventfd: a subsystem has ended or the run is to stop
+  bool duration_over_ = false;
+};
+
+}  // namespace tessera

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "operations.hpp"
+#include "plan.hpp"
+
+namespace tessera {
+
+/// Executes the net of one subsystem: fires what may fire, starts the operations of the places that get
+/// tokens, and says what it waits for. Resumable, so that one thread can run all of a system in simulated
+/// time, or a thread each in real time.
+///
+/// The rule of firing: a transition fires if its places in the subsystem hold tokens whose operations have
+/// finished, its condition holds, and the channel it touches, if any, makes its part of the firing
+/// (SharedChannel::fire) - the only step that other threads can interfere with, and it comes last. Where a
+/// transition with a timeout has alternatives, these are tried first.
+///
+/// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
+/// not before the token's arrival and later than that of the call before; the grid is one for all behaviours.
+/// The first call starts at once. Instants passed over are overruns, unless the time went by waiting for
+/// other subsystems.
+///
+/// *Ends.* The token in `out`: the subsystem has ended. It is a fault, which stops the system, when that
+/// happens after an error (nobody routed it to another behaviour), and when no condition of `next` holds or
+/// one throws.
+///
+/// Threads: the subsystem's. No allocation and no lock in `step`, apart from what user code does.
+class SubsystemExecutor {
+ public:
+  struct Shared {
+    RunControl& control;
+    const Clock& clock;
+    Waker& waker;
+  };
+  /// first_transition: how the recording numbers the net's transitions.
+  SubsystemExecutor(std::uint32_t index, SubsystemParts parts, std::shared_ptr<const Plan> plan,
+                    std::uint32_t first_transition, Shared shared, RecordingLane* lane);
+
+  /// Puts the token into `in`: t_in of the agent has fired.
+  void enter();
+
+  enum class State : std::uint8_t { waiting, ended, stopped };
+  struct Progress {
+    State state = State::waiting;
+    Time deadline = Time::max();  ///< of waiting: step again then, or when woken
+  };
+  /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
+  [[nodiscard]] Progress step();
+
+  /// The safe command, on every way out of the run.
+  void leave() { operations_.give_safe_command(); }
+
+  /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread does not
+  /// run.
+  [[nodiscard]] std::string whereabouts(const System& system) const;
+
+  [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
+  [[nodiscard]] const Operations& operations() const { return operations_; }
+  [[nodiscard]] std::uint64_t firings() const { return firings_; }
+  [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
+
+  /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
+  static constexpr std::uint32_t firings_per_instant = 100'000;
+
+ private:
+  enum class Phase : std::uint8_t { released_later, running, finished };
+  struct Token {
+    Time arrival{};
+    Time due{};  // of released_later and running
+    Phase phase = Phase::finished;
+    std::int32_t latched = 0;             // the outcome or the entry of `next`
+    std::uint32_t position = Plan::none;  // in marked_
+  };
+
+  [[nodiscard]] bool fire_one(Time now);
+  [[nodiscard]] bool try_fire(std::uint32_t transition, Time now);
+  [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
+  [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition, Time now) const;
+  [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
+  void after_firing(std::uint32_t transition, std::uint32_t version, Time now);
+
+  void take(std::uint32_t place);
+  void put(std::uint32_t place, Time now);
+  void start_operation(std::uint32_t place, Time now);
+  void check_way_out(std::uint32_t place, Time now);
+  void arrive_at_end();
+  [[nodiscard]] bool advance_operations(Time now);
+  [[nodiscard]] bool advance(std::uint32_t place, Time now);
+  [[nodiscard]] Time release(Time arrival);
+
+  [[nodiscard]] bool register_waits(Time now);
+  [[nodiscard]] Time next_deadline() const;
+  [[nodiscard]] bool time_stands_still(Time now);
+  void fault(std::string_view text);
+  void end();
+
+  std::uint32_t index_;
+  Operations operations_;
+  std::shared_ptr<const Plan> plan_;
+  std::uint32_t first_transition_;
+  RunControl& control_;
+  const Clock& clock_;
+  Waker& waker_;
+  RecordingLane* lane_;
+
+  std::vector<Token> tokens_;              // per place
+  std::vector<std::uint32_t> marked_;      // places with a token; room for all
+  std::vector<std::uint16_t> wants_;       // per port: registered in its channel
+  std::vector<std::uint16_t> wants_next_;  // per port: scratch of register_waits
+  std::uint32_t registrations_ = 0;        // ports with wants_
+
+  std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
+  Time blocked_since_ = Time::max();
+  Duration waited_{0};  // for other subsystems, since the last call
+  std::uint64_t firings_ = 0, overruns_ = 0;
+  Time instant_ = Time::min();
+  std::uint32_t fired_at_instant_ = 0;
+};
+
+}  // namespace tessera

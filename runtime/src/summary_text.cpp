@@ -1,0 +1,41 @@
+#include "summary_text.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+std::string summary_json(const RunSummary& summary, const RunOptions& options) {
+  const double simulated_s = seconds(summary.simulated);
+  nlohmann::ordered_json json{
+      {"simulated_s", simulated_s},
+      {"wall_s", summary.wall_s},
+      {"real_time_factor", summary.wall_s > 0 ? simulated_s / summary.wall_s : 0.0},
+      {"firings", summary.firings},
+      {"ended", summary.ended},
+      {"failed", summary.failed},
+      {"recording", options.recording},
+      {"lost_events", summary.lost_events},
+      {"warnings", summary.warnings},
+  };
+  json["subsystems"] = nlohmann::ordered_json::array();
+  for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
+    json["subsystems"].push_back({{"path", subsystem.path},
+                                  {"iterations", subsystem.iterations},
+                                  {"overruns", subsystem.overruns},
+                                  {"errors", subsystem.errors}});
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string summary_lines(const RunSummary& summary) {
+  std::string text = fmt::format("{} after {:.3f} s: {} firings\n", summary.ended, seconds(summary.simulated),
+                                 summary.firings);
+  for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
+    fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
+                   subsystem.iterations, subsystem.overruns, subsystem.errors);
+  return text;
+}
+
+}  // namespace tessera

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <optional>
+#include <vector>
+
+#include "sim/bitmap.hpp"
+#include "sim/track.hpp"
+
+namespace tessera::sim {
+
+/// A thinned line as a graph: nodes where lines end or meet, edges the lines between them.
+class LineGraph {
+ public:
+  struct Edge {
+    std::array<std::size_t, 2> ends;  ///< nodes at points.front() and points.back()
+    std::vector<Point> points;        ///< at least two
+  };
+
+  /// `line_width_m`: what counts as a detail (spurs, and the short piece between the two junctions that
+  /// thinning makes of one crossing) is measured by it.
+  LineGraph(const Bitmap& thinned, double line_width_m);
+
+  /// Removes dead ends no longer than the line is wide, and melts junctions that close into one.
+  void simplify();
+  /// Joins free ends that face each other over a gap of up to 6 cm.
+  void bridge_gaps();
+  /// Removes all that is on no loop, unless hardly anything would be left.
+  void keep_loops();
+  /// The longest way that goes straight on at crossings and uses no edge twice; a loop is preferred to an
+  /// open line.
+  [[nodiscard]] Skeleton longest_way() const;
+
+ private:
+  struct Port {  ///< one end of an edge
+    std::size_t edge, end;
+    auto operator<=>(const Port&) const = default;
+  };
+  /// What each end of each edge goes on to.
+  using Partners = std::vector<std::array<std::optional<Port>, 2>>;
+  struct Way {
+    std::vector<Port> edges;  ///< each entered at that end
+    bool closed = false;
+  };
+
+  [[nodiscard]] std::vector<std::vector<Port>> ports() const;  ///< by node
+  /// Unit vector into the edge, past what a junction distorts.
+  [[nodiscard]] Point direction(const Port& port) const;
+  [[nodiscard]] const Point& place(const Port& port) const;
+  /// All edges, each in one way; open ways first.
+  [[nodiscard]] std::vector<Way> ways(const Partners& partners) const;
+  [[nodiscard]] std::vector<Point> points_of(const Way& way) const;
+  [[nodiscard]] Partners straight_partners() const;
+  [[nodiscard]] Way longest_cycle() const;
+  bool remove_spur();
+  void join_through_nodes();
+  void melt_close_junctions();
+  void drop(std::vector<std::size_t> edges);
+
+  double width_m_;
+  std::size_t nodes_ = 0;
+  std::vector<Edge> edges_;
+};
+
+/// Of a polyline.
+[[nodiscard]] double length_of(const std::vector<Point>& points);
+
+}  // namespace tessera::sim

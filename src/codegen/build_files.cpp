@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include "codegen/emit.hpp"
+
+namespace tessera::codegen {
+
+File cmake_lists(const Project& project) {
+  std::string sources;
+  for (const Unit& unit : project.units) sources += fmt::format("\n  {}", source_name(unit));
+  return {"CMakeLists.txt", fmt::format(R"({}cmake_minimum_required(VERSION 3.25)
+project({} LANGUAGES CXX)
+
+set(TESSERA_PROJECT_DIR ${{CMAKE_CURRENT_SOURCE_DIR}}/../.. CACHE PATH "The folder of spec.yaml, src and test")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Debug steps better, RelWithDebInfo runs faster" FORCE)
+endif()
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+find_package(tessera REQUIRED CONFIG)
+
+# Yours: the transition functions, as a library that the controller and the tests link.
+file(GLOB_RECURSE user_sources CONFIGURE_DEPENDS ${{TESSERA_PROJECT_DIR}}/src/*.cpp)
+if(NOT user_sources)
+  message(FATAL_ERROR "${{TESSERA_PROJECT_DIR}}/src has no transition functions: 'tessera generate --stubs' writes them")
+endif()
+add_library(functions STATIC ${{user_sources}})
+target_include_directories(functions PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}} ${{TESSERA_PROJECT_DIR}}/src)
+target_compile_options(functions PRIVATE -Wall -Wextra -Wno-unused-parameter)
+target_link_libraries(functions PUBLIC tessera::runtime)
+
+# Tessera's: the net and what binds it to the functions.
+add_library(system STATIC
+  system.cpp{})
+target_compile_options(system PRIVATE -Wall -Wextra -Werror)
+target_link_libraries(system PUBLIC functions)
+
+add_executable(controller main.cpp)
+target_compile_options(controller PRIVATE -Wall -Wextra -Werror)
+target_link_libraries(controller PRIVATE system)
+
+file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${{TESSERA_PROJECT_DIR}}/test/*.cpp)
+find_package(GTest QUIET)
+if(test_sources AND GTest_FOUND)
+  add_executable(tests EXCLUDE_FROM_ALL ${{test_sources}})
+  target_compile_options(tests PRIVATE -Wall -Wextra)
+  target_link_libraries(tests PRIVATE system GTest::gtest_main)
+endif()
+)",
+                                        project.banner("#"), project.model.system, sources)};
+}
+
+File format_style() {
+  return {".clang-format", R"(BasedOnStyle: Google
+ColumnLimit: 110
+DerivePointerAlignment: false
+PointerAlignment: Left
+)"};
+}
+
+}  // namespace tessera::codegen

@@ -1,0 +1,212 @@
+#include "codegen/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "codegen/cpp_text.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+bool conditional(const spec::Behaviour& behaviour) {
+  return behaviour.next.front().when.kind != spec::When::Kind::always;
+}
+
+bool decided(const spec::Behaviour& behaviour) {
+  return behaviour.terminal.kind != spec::Condition::Kind::never ||
+         behaviour.error.kind != spec::Condition::Kind::never;
+}
+
+std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
+  return next.behaviour == spec::none ? "end" : subsystem.behaviours[next.behaviour].name;
+}
+
+/// The expression at its column in the specification; further lines of a block text at the same one.
+std::string at_column(const spec::Expression& expression) {
+  const std::string indent(std::max(expression.span.column, 1U) - 1, ' ');
+  std::string out;
+  for (std::size_t begin = 0; begin <= expression.text.size();) {
+    const std::size_t end = std::min(expression.text.find('\n', begin), expression.text.size());
+    if (begin > 0) out += '\n';
+    if (end > begin) out += indent + expression.text.substr(begin, end - begin);
+    begin = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+Conditions::Conditions(const Project& project, const Unit& unit)
+    : project_(project), subsystem_(*unit.subsystem) {
+  for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
+    Asked asked;
+    asked.error = add_all(behaviour, behaviour.error, "error");
+    asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
+    asked.next.resize(behaviour.next.size());
+    for (std::size_t entry = 0; entry < behaviour.next.size(); ++entry) {
+      const spec::Next& next = behaviour.next[entry];
+      if (next.when.kind == spec::When::Kind::expression)
+        asked.next[entry] = add(fmt::format("{}_next_{}", behaviour.name, entry + 1), next.when.text,
+                                fmt::format("{} -> {}", behaviour.name, goal(subsystem_, next)));
+      if (next.when.kind == spec::When::Kind::terminal)
+        functions_[asked.terminal[next.when.expression]].remembered = true;
+      if (next.when.kind == spec::When::Kind::named_error)
+        functions_[asked.error[next.when.expression]].remembered = true;
+    }
+    asked_.push_back(std::move(asked));
+  }
+}
+
+std::vector<std::size_t> Conditions::add_all(const spec::Behaviour& behaviour,
+                                             const spec::Condition& condition, std::string_view kind) {
+  std::vector<std::size_t> added;
+  if (condition.kind != spec::Condition::Kind::expressions) return added;
+  for (const spec::Expression& expression : condition.expressions) {
+    const std::string suffix = expression.name.empty() ? "" : '_' + expression.name;
+    const std::string says =
+        fmt::format("{}, {}{}{}", behaviour.name, kind, suffix.empty() ? "" : " ", expression.name);
+    added.push_back(add(fmt::format("{}_{}{}", behaviour.name, kind, suffix), expression, says));
+  }
+  return added;
+}
+
+std::size_t Conditions::add(const std::string& name, const spec::Expression& expression, std::string says) {
+  std::string unique = name;
+  for (int number = 2; !names_.insert(unique).second; ++number) unique = fmt::format("{}_{}", name, number);
+  functions_.push_back({std::move(unique), &expression, std::move(says)});
+  return functions_.size() - 1;
+}
+
+std::string Conditions::decide() const {
+  if (std::ranges::none_of(subsystem_.behaviours, decided))
+    return R"(  tessera::Outcome decide(std::uint16_t, bool failed) override {
+    return failed ? tessera::Outcome::error : tessera::Outcome::go_on;
+  }
+)";
+  std::string cases;
+  for (std::size_t behaviour = 0; behaviour < asked_.size(); ++behaviour) cases += decide_case(behaviour);
+  const bool remembers = std::ranges::any_of(functions_, &Function::remembered);
+  return fmt::format(R"(  tessera::Outcome decide(std::uint16_t behaviour, bool failed) override {{
+{}    if (failed) return tessera::Outcome::error;
+    switch (static_cast<Behaviour>(behaviour)) {{
+{}      default:
+        return tessera::Outcome::go_on;
+    }}
+  }}
+)",
+                     remembers ? "    held_ = {};\n" : "", cases);
+}
+
+std::string Conditions::decide_case(std::size_t behaviour) const {
+  const spec::Behaviour& what = subsystem_.behaviours[behaviour];
+  if (!decided(what)) return {};
+  std::string out = fmt::format("      case Behaviour::{}:\n", what.name);
+  if (what.error.kind == spec::Condition::Kind::always)
+    return out + "        return tessera::Outcome::error;\n";
+  out += ask(asked_[behaviour].error, "error");
+  if (what.terminal.kind == spec::Condition::Kind::always)
+    return out + "        return tessera::Outcome::terminal;\n";
+  out += ask(asked_[behaviour].terminal, "terminal");
+  return out += "        return tessera::Outcome::go_on;\n";
+}
+
+/// Those asked for by name are evaluated first: several may hold.
+std::string Conditions::ask(const std::vector<std::size_t>& functions, std::string_view outcome) const {
+  std::string out;
+  for (const std::size_t function : functions)
+    if (const std::string& name = functions_[function].name; functions_[function].remembered)
+      out += fmt::format("        held_.{0} = {0}();\n", name);
+  for (const std::size_t function : functions)
+    out += fmt::format("        if ({}) return tessera::Outcome::{};\n",
+                       functions_[function].remembered ? "held_." + functions_[function].name
+                                                       : functions_[function].name + "()",
+                       outcome);
+  return out;
+}
+
+std::string Conditions::route() const {
+  if (std::ranges::none_of(subsystem_.behaviours, conditional))
+    return "  int route(std::uint16_t, bool) override { return 0; }\n";
+  std::string cases;
+  for (std::size_t behaviour = 0; behaviour < asked_.size(); ++behaviour) cases += route_case(behaviour);
+  return fmt::format(R"(  int route(std::uint16_t behaviour, [[maybe_unused]] bool failed) override {{
+    switch (static_cast<Behaviour>(behaviour)) {{
+{}      default:
+        return 0;
+    }}
+  }}
+)",
+                     cases);
+}
+
+std::string Conditions::route_case(std::size_t behaviour) const {
+  const spec::Behaviour& what = subsystem_.behaviours[behaviour];
+  if (!conditional(what)) return {};
+  std::vector<Declaration> lines;
+  bool ends = false;  // by an entry without condition
+  for (std::size_t entry = 0; entry < what.next.size() && !ends; ++entry) {
+    const std::string when = asks(behaviour, entry);
+    ends = when.empty();
+    lines.push_back({fmt::format("{}return {};", when, entry), goal(subsystem_, what.next[entry])});
+  }
+  if (!ends) lines.push_back({"return -1;", ""});
+  return fmt::format("      case Behaviour::{}:\n{}", what.name, declarations(lines, 8));
+}
+
+/// "if (failed) ", or nothing for an entry without condition.
+std::string Conditions::asks(std::size_t behaviour, std::size_t entry) const {
+  const spec::When& when = subsystem_.behaviours[behaviour].next[entry].when;
+  const Asked& asked = asked_[behaviour];
+  switch (when.kind) {
+    case spec::When::Kind::always:
+      return {};
+    case spec::When::Kind::error:
+      return "if (failed) ";
+    case spec::When::Kind::terminal:
+      return fmt::format("if (!failed && held_.{}) ", functions_[asked.terminal[when.expression]].name);
+    case spec::When::Kind::named_error:
+      return fmt::format("if (held_.{}) ", functions_[asked.error[when.expression]].name);
+    case spec::When::Kind::expression:
+      return fmt::format("if ({}()) ", functions_[asked.next[entry]].name);
+  }
+  return {};
+}
+
+std::string Conditions::members() const {
+  std::string functions, held;
+  for (const Function& function : functions_) {
+    functions += fmt::format("  [[nodiscard]] bool {}() const;\n", function.name);
+    if (function.remembered) held += fmt::format("    bool {} = false;\n", function.name);
+  }
+  if (held.empty()) return functions;
+  return fmt::format(R"({}
+  /// The named conditions that held when the iteration was decided; `route` asks for them.
+  struct Held {{
+{}  }} held_;
+)",
+                     functions, held);
+}
+
+std::string Conditions::definitions() const {
+  if (functions_.empty()) return {};
+  std::string out = R"(
+// The conditions, as the specification states them: lines and columns from here on are its own.
+namespace {
+// clang-format off
+)";
+  for (const Function& function : functions_) {
+    const std::string head = fmt::format("bool Subsystem::{}() const {{ return static_cast<bool>(  // {}\n",
+                                         function.name, comment_text(function.says));
+    const std::uint32_t line = std::max(function.expression->span.line, 1U);
+    const auto marker = [&](std::uint32_t number) {
+      return fmt::format("#line {} {}\n", number, quoted(project_.spec_path));
+    };
+    // There is no line 0 for the head of an expression on line 1.
+    out += line > 1 ? marker(line - 1) + head : head + marker(line);
+    out += at_column(*function.expression) + "); }\n";
+  }
+  return out += "// clang-format on\n}  // namespace\n";
+}
+
+}  // namespace tessera::codegen

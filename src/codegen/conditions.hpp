@@ -1,0 +1,54 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "codegen/project.hpp"
+
+namespace tessera::codegen {
+
+/// The conditions of one unit as member functions of its class: the expressions, each compiled under the line
+/// and column it has in the specification, and the two functions that ask them.
+class Conditions {
+ public:
+  Conditions(const Project& project, const Unit& unit);
+
+  /// tessera::Subsystem::decide and ::route.
+  [[nodiscard]] std::string decide() const;
+  [[nodiscard]] std::string route() const;
+  /// Private members: declarations of the functions, and what `decide` remembers for `route`. Empty: none.
+  [[nodiscard]] std::string members() const;
+  /// The functions. Their lines count as lines of the specification, so nothing else may follow them in the
+  /// file.
+  [[nodiscard]] std::string definitions() const;
+
+ private:
+  struct Function {
+    std::string name;  ///< "follow_terminal_lost"
+    const spec::Expression* expression;
+    std::string says;  ///< for the reader: "follow ends when lost"
+    bool remembered = false;
+  };
+  /// What one behaviour asks, as indices into functions_, parallel to the specification.
+  struct Asked {
+    std::vector<std::size_t> error, terminal;
+    std::vector<std::size_t> next;  ///< per entry; only meaningful for expressions
+  };
+
+  std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
+  std::vector<std::size_t> add_all(const spec::Behaviour& behaviour, const spec::Condition& condition,
+                                   std::string_view kind);
+  [[nodiscard]] std::string decide_case(std::size_t behaviour) const;
+  [[nodiscard]] std::string ask(const std::vector<std::size_t>& functions, std::string_view outcome) const;
+  [[nodiscard]] std::string route_case(std::size_t behaviour) const;
+  [[nodiscard]] std::string asks(std::size_t behaviour, std::size_t entry) const;
+
+  const Project& project_;
+  const spec::Subsystem& subsystem_;
+  std::vector<Function> functions_;
+  std::vector<Asked> asked_;  ///< per behaviour
+  std::set<std::string> names_;
+};
+
+}  // namespace tessera::codegen

@@ -1,0 +1,181 @@
+#include "codegen/net_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "codegen/cpp_text.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+/// One row of a table, cell by cell; empty cells at the end are left out.
+struct Row {
+  std::string group;  ///< the behaviour it belongs to; empty: the subsystem itself
+  std::vector<std::string> cells;
+};
+
+std::string list(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + quoted(name);
+  return '{' + out + '}';
+}
+
+std::string group_of(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string::npos ? "" : name.substr(0, dot);
+}
+
+Row row(const LocalNet::Place& place) { return {group_of(place.name), {quoted(place.name), place.does}}; }
+
+Row row(const LocalNet::Transition& transition) {
+  return {group_of(transition.name),
+          {quoted(transition.name), list(transition.inputs), list(transition.outputs), transition.guard}};
+}
+
+Row row(const LocalNet::Port& port) {
+  return {"",
+          {quoted(port.name), port.sends ? "tessera::Side::send" : "tessera::Side::receive",
+           quoted(port.buffer)}};
+}
+
+/// Rows of one group stand together, groups in the order of the specification.
+template <class Element>
+std::vector<Row> grouped(const std::vector<Element>& elements, const spec::Subsystem& subsystem) {
+  std::vector<std::vector<Row>> groups(1 + subsystem.behaviours.size());
+  for (const Element& element : elements) {
+    Row made = row(element);
+    const auto behaviour = std::ranges::find(subsystem.behaviours, made.group, &spec::Behaviour::name);
+    const bool own = behaviour != subsystem.behaviours.end();
+    groups[own ? static_cast<std::size_t>(behaviour - subsystem.behaviours.begin()) + 1 : 0].push_back(
+        std::move(made));
+  }
+  std::vector<Row> rows;
+  for (std::vector<Row>& group : groups) std::ranges::move(group, std::back_inserter(rows));
+  return rows;
+}
+
+using Widths = std::array<std::size_t, 4>;
+using Rows = std::span<const Row>;
+
+/// Of a group, so that one long name does not spread all rows.
+Widths widths_of(Rows rows) {
+  Widths widths{};
+  for (const Row& each : rows)
+    for (std::size_t cell = 0; cell < each.cells.size(); ++cell)
+      widths[cell] = std::max(widths[cell], each.cells[cell].size());
+  return widths;
+}
+
+std::size_t cells_used(const Row& row) {
+  std::size_t last = row.cells.size();
+  while (row.cells[last - 1].empty()) --last;
+  return last;
+}
+
+std::string line(const Row& row, const Widths& widths) {
+  std::string out = "    {";
+  const std::size_t last = cells_used(row) - 1;
+  for (std::size_t cell = 0; cell < last; ++cell)
+    out += fmt::format("{:<{}} ", row.cells[cell] + ',', widths[cell] + 1);
+  return out += row.cells[last] + "},\n";
+}
+
+/// Rows of a single cell share lines.
+std::string packed(const std::vector<Row>& rows) {
+  std::string out, current;
+  for (const Row& each : rows) {
+    const std::string cell = fmt::format(" {{{}}},", each.cells.front());
+    if (!current.empty() && 3 + current.size() + cell.size() > column_limit) {
+      out += "   " + current + '\n';
+      current.clear();
+    }
+    current += cell;
+  }
+  return current.empty() ? out : out + "   " + current + '\n';
+}
+
+std::string group_lines(Rows rows) {
+  std::vector<Row> full, bare;
+  for (const Row& each : rows) (cells_used(each) > 1 ? full : bare).push_back(each);
+  std::string out;
+  for (const Row& each : full) out += line(each, widths_of(full));
+  return out + packed(bare);
+}
+
+std::string table(const Project& project, const spec::Subsystem& subsystem, std::string_view head,
+                  Rows rows) {
+  if (rows.empty()) return {};
+  std::string out = fmt::format("{}[] = {{\n", head);
+  for (std::size_t begin = 0; begin < rows.size();) {
+    const std::string& group = rows[begin].group;
+    std::size_t end = begin;
+    while (end < rows.size() && rows[end].group == group) ++end;
+    const auto behaviour = std::ranges::find(subsystem.behaviours, group, &spec::Behaviour::name);
+    if (behaviour != subsystem.behaviours.end())
+      out += fmt::format("    // {}, {}\n", group, project.at(behaviour->span));
+    out += group_lines(rows.subspan(begin, end - begin));
+    begin = end;
+  }
+  return out += "};\n";
+}
+
+std::string behaviours_table(const spec::Subsystem& subsystem) {
+  std::vector<Row> rows;
+  for (const spec::Behaviour& behaviour : subsystem.behaviours)
+    rows.push_back(
+        {"", {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+  return fmt::format("constexpr tessera::Behaviour behaviours[] = {{\n{}}};\n", group_lines(rows));
+}
+
+/// Which agents execute a variant: the first by name, the rest by number.
+std::string executed_by(const Project& project, const Unit& unit, const NetVariants& variants,
+                        std::size_t variant) {
+  std::size_t count = 0;
+  std::string first;
+  for (std::size_t at = 0; at < unit.instances.size(); ++at)
+    if (variants.of_instance[at] == variant && count++ == 0)
+      first = project.model.instance_path(unit.instances[at]);
+  return count == 1 ? first : fmt::format("{} and {} more", first, count - 1);
+}
+
+}  // namespace
+
+std::string variant_suffix(std::size_t variant) {
+  return variant == 0 ? "" : fmt::format("_{}", variant + 1);
+}
+
+std::string net_tables(const Project& project, const Unit& unit, const NetVariants& variants) {
+  std::string out = "// clang-format off\n" + behaviours_table(*unit.subsystem);
+  for (std::size_t variant = 0; variant < variants.nets.size(); ++variant) {
+    const LocalNet& net = variants.nets[variant];
+    const std::string suffix = variant_suffix(variant);
+    if (variants.nets.size() > 1)
+      out += fmt::format("\n// The net of {}.\n", executed_by(project, unit, variants, variant));
+    std::vector<Row> ports;
+    for (const LocalNet::Port& port : net.ports) ports.push_back(row(port));
+    out += table(project, *unit.subsystem, "constexpr tessera::Port ports" + suffix, ports);
+    out += table(project, *unit.subsystem, "constexpr tessera::Place places" + suffix,
+                 grouped(net.places, *unit.subsystem));
+    // Not constexpr: GCC 12 rejects constant initializer_lists in aggregates.
+    out += table(project, *unit.subsystem, "const tessera::Transition transitions" + suffix,
+                 grouped(net.transitions, *unit.subsystem));
+  }
+  return out += "// clang-format on\n";
+}
+
+std::string net_definitions(const NetVariants& variants) {
+  std::string out;
+  for (std::size_t variant = 0; variant < variants.nets.size(); ++variant) {
+    const std::string suffix = variant_suffix(variant);
+    const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
+    out += fmt::format(
+        "const tessera::SubsystemNet Part::net{0}{{behaviours, {1}, places{0}, transitions{0}}};\n", suffix,
+        ports);
+  }
+  return out;
+}
+
+}  // namespace tessera::codegen

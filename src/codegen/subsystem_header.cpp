@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+using spec::SubsystemKind;
+
+/// Writes the header of one unit.
+class Header {
+ public:
+  Header(const Project& project, const Unit& unit)
+      : project_(project),
+        unit_(unit),
+        subsystem_(*unit.subsystem),
+        parameters_(parameters_of(project.model, unit)) {
+    for (const spec::Behaviour& behaviour : subsystem_.behaviours) hidden_.insert(behaviour.name);
+    for (const auto* fields : {&subsystem_.inputs, &subsystem_.outputs, &subsystem_.memory, &subsystem_.real})
+      for (const spec::Field& field : *fields) {
+        hidden_.insert(field.name);
+        add_headers(field.type, headers_);
+      }
+    for (const spec::Parameter* parameter : parameters_) add_headers(parameter->type, headers_);
+  }
+
+  std::string text() {
+    return fmt::format(R"({}#pragma once
+
+{}#include "types.hpp"
+
+/// {}
+namespace {} {{
+
+{}struct Context : tessera::Context {{
+  explicit Context(const Parameters& values) : parameters(values) {{}}
+  const Parameters& parameters;
+}};
+
+// The transition functions, eq. (1) of the paper. They are yours: {}.
+{}
+}}  // namespace {}
+)",
+                       project_.banner(), include_block(headers_), title(), space(), structures(),
+                       user_file(project_.units, unit_), functions(), space());
+  }
+
+ private:
+  [[nodiscard]] std::string space() const { return unit_namespace(project_.model, unit_); }
+
+  [[nodiscard]] std::string title() const {
+    constexpr std::array kinds{"Control subsystem", "Virtual receptor", "Virtual effector"};
+    const std::string every = subsystem_.period ? ", every " + duration(*subsystem_.period) : "";
+    return fmt::format("{} {}{}; {}", kinds[static_cast<std::size_t>(subsystem_.kind)], unit_path(unit_),
+                       every, project_.at(subsystem_.span));
+  }
+
+  /// Empty ones stand together.
+  [[nodiscard]] std::string structures() const {
+    std::string out;
+    for (const std::string& each : {inputs(), outputs(), memory(), parameters()}) {
+      const bool empty = std::ranges::count(each, '\n') == 1;
+      if (empty && out.ends_with("{};\n\n")) out.pop_back();
+      out += each + '\n';
+    }
+    return out;
+  }
+
+  void add_buffers(const std::vector<spec::Field>& fields, std::string_view template_name,
+                   std::vector<Declaration>& members) const {
+    for (const spec::Field& field : fields)
+      members.push_back({fmt::format("tessera::{}<{}> {};", template_name,
+                                     type_name(project_.model, field.type, hidden_), field.name),
+                         comment_text(field.type.unit)});
+  }
+
+  [[nodiscard]] std::string inputs() const {
+    std::vector<Declaration> members;
+    if (subsystem_.kind == SubsystemKind::receptor) add_buffers(subsystem_.real, "Input", members);
+    add_buffers(subsystem_.inputs, "Input", members);
+    return structure("Inputs", members);
+  }
+
+  [[nodiscard]] std::string outputs() const {
+    std::vector<Declaration> members;
+    if (subsystem_.kind == SubsystemKind::effector) add_buffers(subsystem_.real, "Output", members);
+    add_buffers(subsystem_.outputs, "Output", members);
+    return structure("Outputs", members);
+  }
+
+  [[nodiscard]] std::string memory() const {
+    std::vector<Declaration> members;
+    for (const spec::Field& field : subsystem_.memory)
+      members.push_back({fmt::format("{} {}{{{}}};", type_name(project_.model, field.type, hidden_),
+                                     field.name, field.initial),
+                         comment_text(field.type.unit)});
+    return structure("Memory", members);
+  }
+
+  [[nodiscard]] std::string parameters() const {
+    std::vector<Declaration> members;
+    for (const spec::Parameter* parameter : parameters_)
+      members.push_back({fmt::format("{} {}{{{}}};", type_name(project_.model, parameter->type),
+                                     parameter->name, parameter->initial),
+                         comment_text(parameter->type.unit)});
+    return structure("Parameters", members);
+  }
+
+  [[nodiscard]] std::string functions() const {
+    std::string out;
+    for (const spec::Behaviour& behaviour : subsystem_.behaviours)
+      out += fmt::format("void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out);\n",
+                         behaviour.name);
+    return out;
+  }
+
+  const Project& project_;
+  const Unit& unit_;
+  const spec::Subsystem& subsystem_;
+  std::vector<const spec::Parameter*> parameters_;
+  std::set<std::string> headers_{"<tessera/buffer.hpp>", "<tessera/context.hpp>"};
+  std::set<std::string_view> hidden_{"Inputs", "Outputs", "Memory", "Parameters", "Context"};
+};
+
+}  // namespace
+
+File subsystem_header(const Project& project, const Unit& unit) {
+  return {unit_header(unit), Header(project, unit).text()};
+}
+
+}  // namespace tessera::codegen

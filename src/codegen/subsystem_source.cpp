@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "codegen/conditions.hpp"
+#include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
+#include "codegen/net_tables.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+using spec::SubsystemKind;
+
+std::string bound(const std::optional<double>& value, std::string_view absent) {
+  return value ? fmt::format("{}", *value) : std::string(absent);
+}
+
+std::string bind_parameter(const spec::Parameter& parameter) {
+  std::string range;
+  if (parameter.minimum || parameter.maximum)
+    range =
+        fmt::format(", {}, {}", bound(parameter.minimum, "-infinity"), bound(parameter.maximum, "infinity"));
+  return fmt::format("bindings.parameter(\"{0}\", parameters.{0}{1});", parameter.name, range);
+}
+
+std::string bind_real(const Project& project, const spec::Subsystem& subsystem, std::size_t at) {
+  const spec::Field& field = subsystem.real[at];
+  if (subsystem.kind == SubsystemKind::receptor)
+    return fmt::format("bindings.real_input(\"{0}\", in.{0});", field.name);
+  // Qualified, since the class around it has types of its own.
+  std::set<std::string_view> hidden;
+  if (field.type.kind == spec::Type::Kind::structure)
+    hidden.insert(project.model.structures[field.type.structure].name);
+  const std::string safe = at < subsystem.safe.size() ? subsystem.safe[at] : "";
+  return fmt::format("bindings.real_output(\"{0}\", out.{0}, {1}{{{2}}});", field.name,
+                     type_name(project.model, field.type, hidden), safe);
+}
+
+std::string bind(const Project& project, const Unit& unit) {
+  const spec::Subsystem& subsystem = *unit.subsystem;
+  std::vector<std::string> lines;
+  const auto parameters = parameters_of(project.model, unit);
+  const auto half_open = [](const spec::Parameter* parameter) {
+    return parameter->minimum.has_value() != parameter->maximum.has_value();
+  };
+  if (std::ranges::any_of(parameters, half_open))
+    lines.emplace_back("constexpr double infinity = std::numeric_limits<double>::infinity();");
+  for (std::size_t at = 0; at < subsystem.real.size(); ++at)
+    lines.push_back(bind_real(project, subsystem, at));
+  for (const spec::Field& field : subsystem.inputs)
+    lines.push_back(fmt::format("bindings.input(\"{0}\", in.{0});", field.name));
+  for (const spec::Field& field : subsystem.outputs)
+    lines.push_back(fmt::format("bindings.output(\"{0}\", out.{0});", field.name));
+  for (const spec::Parameter* parameter : parameters) lines.push_back(bind_parameter(*parameter));
+  return member_function(lines.empty() ? "void bind(tessera::Bindings&) override"
+                                       : "void bind(tessera::Bindings& bindings) override",
+                         lines);
+}
+
+std::string call(const Unit& unit) {
+  std::string cases;
+  for (const spec::Behaviour& behaviour : unit.subsystem->behaviours)
+    cases += fmt::format("      case Behaviour::{1}:\n        return {0}::{1}(context_, in, memory, out);\n",
+                         unit.subsystem->name, behaviour.name);
+  return fmt::format(R"(  void call(std::uint16_t behaviour) override {{
+    switch (static_cast<Behaviour>(behaviour)) {{
+{}    }}
+  }}
+)",
+                     cases);
+}
+
+std::string behaviours_enumeration(const spec::Subsystem& subsystem) {
+  std::vector<std::string_view> names;
+  for (const spec::Behaviour& behaviour : subsystem.behaviours) names.push_back(behaviour.name);
+  return enumeration("enum class Behaviour : std::uint16_t", names);
+}
+
+std::string subsystem_class(const Project& project, const Unit& unit, const Conditions& conditions) {
+  const std::string members = conditions.members();
+  return fmt::format(R"({}
+/// The user's functions and the conditions of {}, by number.
+class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Parameters, Context> {{
+ public:
+{}
+{}
+{}
+{}{}}};
+)",
+                     behaviours_enumeration(*unit.subsystem), unit_path(unit), bind(project, unit),
+                     call(unit), conditions.decide(), conditions.route(),
+                     members.empty() ? "" : "\n private:\n" + members);
+}
+
+/// Durations stand in the table of behaviours and in conditions.
+bool needs_literals(const spec::Subsystem& subsystem, const Conditions& conditions) {
+  return !conditions.members().empty() ||
+         std::ranges::any_of(subsystem.behaviours,
+                             [](const auto& behaviour) { return behaviour.takes.count() > 0; });
+}
+
+}  // namespace
+
+std::string source_name(const Unit& unit) { return unit_path(unit) + ".cpp"; }
+
+File subsystem_source(const Project& project, const Unit& unit, const NetVariants& variants) {
+  const Conditions conditions(project, unit);
+  std::set<std::string> headers{"<cstdint>", "<memory>", "<tessera/tables.hpp>"};
+  const std::string body = subsystem_class(project, unit, conditions);
+  if (body.find("numeric_limits") != std::string::npos) headers.insert("<limits>");
+  const bool times = needs_literals(*unit.subsystem, conditions);
+  if (times) headers.insert("<chrono>");
+  const std::string space = unit_namespace(project.model, unit);
+  return {source_name(unit), fmt::format(R"({}{}{}namespace {} {{
+namespace {{
+
+{}{}
+{}
+}}  // namespace
+
+{}std::unique_ptr<tessera::Subsystem> Part::make() {{ return std::make_unique<Subsystem>(); }}
+{}
+}}  // namespace {}
+)",
+                                         project.banner(), include_block(headers),
+                                         include_block({quoted("subsystems.hpp"), quoted(unit_header(unit))}),
+                                         space, times ? "using namespace std::chrono_literals;\n\n" : "",
+                                         body, net_tables(project, unit, variants), net_definitions(variants),
+                                         conditions.definitions(), space)};
+}
+
+}  // namespace tessera::codegen

@@ -1,0 +1,216 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
+#include "codegen/net_tables.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+using spec::Mode;
+
+constexpr std::array kinds{"control", "receptor", "effector"};
+constexpr std::array verdicts{"holds", "violated", "unknown"};
+
+/// A table of rows that may be long: columns are not aligned, the formatter keeps off.
+std::string table(std::string_view type, std::string_view name, const std::string& rows) {
+  if (rows.empty()) return fmt::format("constexpr std::span<const tessera::{}> {};\n", type, name);
+  return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
+}
+
+std::string instance_row(const Project& project, const Unit& unit, spec::Index instance,
+                         std::uint32_t variant) {
+  const spec::Subsystem& subsystem = *unit.subsystem;
+  const std::string part = fmt::format("{}::{}::Part", unit.definition->name, subsystem.name);
+  std::string times;
+  if (subsystem.period || subsystem.stale)
+    times = ", " + duration(subsystem.period.value_or(spec::Duration{0}));
+  if (subsystem.stale) times += ", " + duration(*subsystem.stale);
+  return fmt::format("    {{\"{}\", \"{}\", tessera::Kind::{}, &{}::net{}, {}::make{}}},\n",
+                     project.model.agents[project.model.instances[instance].agent].path, subsystem.name,
+                     kinds[static_cast<std::size_t>(subsystem.kind)], part, variant_suffix(variant), part,
+                     times);
+}
+
+/// Units go definition by definition, instances agent by agent.
+std::string instance_rows(const Project& project) {
+  std::vector<std::string> rows(project.model.instances.size());
+  for (std::size_t unit = 0; unit < project.units.size(); ++unit)
+    for (std::size_t at = 0; at < project.units[unit].instances.size(); ++at) {
+      const spec::Index instance = project.units[unit].instances[at];
+      rows[instance] =
+          instance_row(project, project.units[unit], instance, project.nets[unit].of_instance[at]);
+    }
+  return fmt::to_string(fmt::join(rows, ""));
+}
+
+std::string memory_of(const spec::Channel& channel) {
+  if (channel.send == Mode::blocking) return "tessera::acknowledged";
+  return channel.receive == Mode::blocking ? "tessera::buffered" : "tessera::asynchronous";
+}
+
+/// A channel that no behaviour uses has no places and no row.
+std::string channel_rows(const spec::Model& model, const std::vector<ChannelPorts>& ports) {
+  std::string rows;
+  for (std::size_t at = 0; at < model.channels.size(); ++at) {
+    const spec::Channel& channel = model.channels[at];
+    if (ports[at].from.empty() && ports[at].to.empty()) continue;
+    std::string times;
+    if (channel.send_timeout || channel.receive_timeout)
+      times = ", " + duration(channel.send_timeout.value_or(spec::Duration{0}));
+    if (channel.receive_timeout) times += ", " + duration(*channel.receive_timeout);
+    rows += fmt::format("    {{\"{}\", {{{}, \"{}\"}}, {{{}, \"{}\"}}, {}{}}},\n",
+                        model.channel_name(channel), channel.from.instance, ports[at].from,
+                        channel.to.instance, ports[at].to, memory_of(channel), times);
+  }
+  return rows;
+}
+
+std::string verdict_rows(const verify::Report& report) {
+  std::string rows;
+  for (const verify::PropertyResult& property : report.properties)
+    rows += fmt::format("    {{{}, \"{}\", {}}},\n", quoted(property.name),
+                        verdicts[static_cast<std::size_t>(property.verdict)], quoted(property.method));
+  return rows;
+}
+
+/// The C++ drivers of the real robot, then those of the simulation for buffers that have no other.
+std::vector<std::pair<std::string, const spec::Driver*>> cpp_drivers(const spec::Model& model) {
+  std::vector<std::pair<std::string, const spec::Driver*>> drivers;
+  const auto add = [&](const std::vector<spec::Driver>& from) {
+    for (const spec::Driver& driver : from) {
+      if (driver.kind != "cpp") continue;
+      std::string path = model.instance_path(driver.instance) + '.' +
+                         model.subsystem(driver.instance).real[driver.real].name;
+      drivers.emplace_back(std::move(path), &driver);
+    }
+  };
+  add(model.drivers);
+  if (model.simulation) add(model.simulation->drivers);
+  std::ranges::stable_sort(drivers, {}, [](const auto& driver) { return driver.first; });
+  const auto repeated = std::ranges::unique(drivers, {}, [](const auto& driver) { return driver.first; });
+  drivers.erase(repeated.begin(), repeated.end());
+  return drivers;
+}
+
+std::string driver_rows(const spec::Model& model) {
+  std::string rows;
+  for (const auto& [path, driver] : cpp_drivers(model)) {
+    const bool reads = model.subsystem(driver->instance).kind == spec::SubsystemKind::receptor;
+    rows += fmt::format("    {{\"{}\", {}}},\n", path,
+                        reads ? fmt::format("device<tessera::RealReceptor, {}>, nullptr", driver->target)
+                              : fmt::format("nullptr, device<tessera::RealEffector, {}>", driver->target));
+  }
+  return rows;
+}
+
+constexpr std::string_view device_maker = R"(
+template <class Base, class Device>
+std::unique_ptr<Base> device() {
+  return std::make_unique<Device>();
+}
+)";
+
+}  // namespace
+
+File subsystems_header(const Project& project) {
+  std::string parts;
+  for (std::size_t at = 0; at < project.units.size(); ++at) {
+    std::string nets;
+    for (std::size_t variant = 0; variant < project.nets[at].nets.size(); ++variant)
+      nets += fmt::format("  static const tessera::SubsystemNet net{};\n", variant_suffix(variant));
+    const std::string space = unit_namespace(project.model, project.units[at]);
+    parts += fmt::format(R"(
+namespace {0} {{
+struct Part {{
+{1}  static std::unique_ptr<tessera::Subsystem> make();
+}};
+}}  // namespace {0}
+)",
+                         space, nets);
+  }
+  return {"subsystems.hpp", fmt::format(R"({}#pragma once
+
+#include <memory>
+#include <tessera/tables.hpp>
+
+// What each subsystem executes, and how to make one: {}.cpp.
+{})",
+                                        project.banner(), unit_path(project.units.front()), parts)};
+}
+
+File system_header(const Project& project) {
+  const std::string& system = project.model.system;
+  return {"system.hpp", fmt::format(R"({0}#pragma once
+
+#include <tessera/tables.hpp>
+
+namespace {1} {{
+
+/// The whole controller, for tessera::execute and tests.
+[[nodiscard]] const tessera::System& system();
+
+}}  // namespace {1}
+)",
+                                    project.banner(), system)};
+}
+
+File system_source(const Project& project, const std::vector<ChannelPorts>& ports) {
+  const spec::Model& model = project.model;
+  const verify::Report& report = project.net.report();
+  const std::string drivers = driver_rows(model);
+  std::set<std::string> project_headers{quoted("subsystems.hpp")};
+  if (!drivers.empty()) project_headers.insert(quoted("drivers.hpp"));
+  return {"system.cpp", fmt::format(R"({0}#include "system.hpp"
+
+#include <chrono>
+#include <memory>
+#include <span>
+
+{1}static_assert(tessera::tables_version == {2}, "made for another version of Tessera: generate it again");
+
+namespace {3} {{
+namespace {{
+
+using namespace std::chrono_literals;
+{4}
+// clang-format off
+{5}
+{6}
+{7}
+{8}
+constexpr tessera::System whole{{
+    .tables_version = {2}, .name = "{3}",
+    .net_hash = "{9}", .verification_hash = "{10}",
+    .verdicts = verdicts, .instances = instances, .channels = channels, .drivers = drivers}};
+// clang-format on
+
+}}  // namespace
+
+const tessera::System& system() {{ return whole; }}
+
+}}  // namespace {3}
+)",
+                                    project.banner(), include_block(project_headers), tables_version_made,
+                                    model.system, drivers.empty() ? "" : device_maker,
+                                    table("Instance", "instances", instance_rows(project)),
+                                    table("Channel", "channels", channel_rows(model, ports)),
+                                    table("CppDriver", "drivers", drivers),
+                                    table("VerifiedProperty", "verdicts", verdict_rows(report)),
+                                    report.net_hash, report.verification_hash)};
+}
+
+File main_source(const Project& project) {
+  return {"main.cpp", fmt::format(R"({}#include <tessera/controller.hpp>
+
+#include "system.hpp"
+
+int main(int argc, char** argv) {{ return tessera::controller_main({}::system(), argc, argv); }}
+)",
+                                  project.banner(), project.model.system)};
+}
+
+}  // namespace tessera::codegen

@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+std::string definition(const Project& project, const spec::Structure& structure_) {
+  std::set<std::string_view> hidden{structure_.name};
+  for (const spec::Field& field : structure_.fields) hidden.insert(field.name);
+  std::vector<Declaration> fields;
+  for (const spec::Field& field : structure_.fields)
+    fields.push_back({fmt::format("{} {}{{}};", type_name(project.model, field.type, hidden), field.name),
+                      comment_text(field.type.unit)});
+  const std::string equality =
+      fmt::format("\n  bool operator==(const {}&) const = default;\n", structure_.name);
+  return fmt::format("\n/// {}\n{}", project.at(structure_.span),
+                     structure(structure_.name, fields, equality));
+}
+
+}  // namespace
+
+File types_header(const Project& project) {
+  std::set<std::string> headers;
+  std::string structures;
+  for (const spec::Structure& structure_ : project.model.structures) {
+    for (const spec::Field& field : structure_.fields) add_headers(field.type, headers);
+    structures += definition(project, structure_);
+  }
+  const std::string& system = project.model.system;
+  return {"types.hpp", fmt::format(R"({}#pragma once
+
+{}/// The types of system {}.
+namespace {} {{{}}}  // namespace {}
+)",
+                                   project.banner(), include_block(headers), system, system,
+                                   structures.empty() ? "" : '\n' + structures + '\n', system)};
+}
+
+}  // namespace tessera::codegen

@@ -1,0 +1,191 @@
+#include "explore/units.hpp"
+
+#include <algorithm>
+
+namespace tessera::explore {
+namespace {
+
+/// Whether a firing may take a token out of a unit for good.
+enum class Losses : std::uint8_t { forbidden, allowed };
+
+/// Looks for a set of places whose tokens no firing adds to: every transition that gives to the set takes
+/// from it, one token each (and the other way round, unless losses are allowed). Places are decided one by
+/// one, consequences follow, and wrong guesses are taken back (the trail). A set of at most one initial token
+/// is kept.
+class UnitSearch {
+ public:
+  UnitSearch(const PtNet& net, const std::vector<char>& covered)
+      : net_(net), covered_(covered), state_(net.places(), State::open) {
+    for (std::uint32_t place = 0; place < net.places(); ++place) {
+      if (net.initial()[place] == 1) marked_.push_back(place);
+      const bool heavy = std::ranges::any_of(
+          net.of_place(place), [](const Touch& touch) { return touch.consumes > 1 || touch.produces > 1; });
+      if (heavy || net.initial()[place] > 1) state_[place] = State::never;
+    }
+  }
+
+  /// The set around `place`; empty if none was found.
+  std::vector<std::uint32_t> around(std::uint32_t place, Losses losses) {
+    losses_ = losses;
+    guesses_left_ = guesses_per_place;
+    std::vector<std::uint32_t> unit;
+    if (state_[place] == State::open && decide(place, State::in) && complete())
+      std::ranges::copy_if(trail_, std::back_inserter(unit),
+                           [&](std::uint32_t member) { return state_[member] == State::in; });
+    take_back(0);
+    return unit;
+  }
+
+ private:
+  enum class State : std::uint8_t { open, in, out, never };
+  static constexpr int guesses_per_place = 256;
+
+  bool decide(std::uint32_t place, State state) {
+    if (state_[place] != State::open) return (state_[place] == State::in) == (state == State::in);
+    state_[place] = state;
+    trail_.push_back(place);
+    return true;
+  }
+
+  void take_back(std::size_t length) {
+    for (; trail_.size() > length; trail_.pop_back()) state_[trail_.back()] = State::open;
+    settled_ = std::min(settled_, length);
+  }
+
+  /// Consequences of all decisions not yet settled; false: they contradict each other.
+  bool settle() {
+    while (settled_ < trail_.size()) {
+      const std::uint32_t place = trail_[settled_++];
+      const bool in = state_[place] == State::in;
+      if (in && net_.initial()[place] == 1 && !keep_out(marked_, place)) return false;
+      for (const Touch& touch : net_.of_place(place)) {
+        if (in && !keep_rivals_out(touch, place)) return false;
+        if (!balance(touch.node)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool keep_out(const std::vector<std::uint32_t>& places, std::uint32_t but) {
+    return std::ranges::all_of(
+        places, [&](std::uint32_t place) { return place == but || decide(place, State::out); });
+  }
+
+  bool keep_rivals_out(const Touch& touch, std::uint32_t place) {
+    return std::ranges::all_of(net_.of_transition(touch.node), [&](const Touch& other) {
+      const bool rival =
+          (other.consumes > 0 && touch.consumes > 0) || (other.produces > 0 && touch.produces > 0);
+      return other.node == place || !rival || decide(other.node, State::out);
+    });
+  }
+
+  struct Sides {
+    bool takes = false, gives = false;   // from, to a place in the set
+    unsigned takers = 0, givers = 0;     // open places that could
+    std::uint32_t taker = 0, giver = 0;  // the last of them
+  };
+  [[nodiscard]] bool uneven(const Sides& sides) const {
+    return losses_ == Losses::allowed ? sides.gives && !sides.takes : sides.takes != sides.gives;
+  }
+  [[nodiscard]] Sides sides(std::uint32_t transition) const {
+    Sides sides;
+    for (const Touch& touch : net_.of_transition(transition)) {
+      const State state = state_[touch.node];
+      sides.takes |= state == State::in && touch.consumes > 0;
+      sides.gives |= state == State::in && touch.produces > 0;
+      if (state != State::open) continue;
+      if (touch.consumes > 0) ++sides.takers, sides.taker = touch.node;
+      if (touch.produces > 0) ++sides.givers, sides.giver = touch.node;
+    }
+    return sides;
+  }
+
+  bool balance(std::uint32_t transition) {
+    const Sides now = sides(transition);
+    if (!uneven(now)) return true;
+    const unsigned choices = now.takes ? now.givers : now.takers;
+    if (choices == 0) return false;
+    if (choices == 1) return decide(now.takes ? now.giver : now.taker, State::in);
+    return true;
+  }
+
+  /// A guess that can be replaced by the next of its candidates.
+  struct Guess {
+    std::size_t trail;
+    std::vector<std::uint32_t> candidates;  // the next one last
+  };
+
+  bool complete() {
+    std::vector<Guess> guesses;
+    bool consistent = settle();
+    while (true) {
+      if (!consistent) {
+        while (!guesses.empty() && guesses.back().candidates.empty()) guesses.pop_back();
+        if (guesses.empty() || --guesses_left_ < 0) return false;
+        take_back(guesses.back().trail);
+      } else {
+        Guess next = next_guess();
+        if (next.candidates.empty()) return true;
+        guesses.push_back(std::move(next));
+      }
+      const std::uint32_t place = guesses.back().candidates.back();
+      guesses.back().candidates.pop_back();
+      consistent = decide(place, State::in) && settle();
+    }
+  }
+
+  /// The ways to balance some uneven transition, none if all are even. Places of no unit yet are tried first.
+  Guess next_guess() {
+    for (const std::uint32_t member : trail_) {
+      if (state_[member] != State::in) continue;
+      for (const Touch& touch : net_.of_place(member)) {
+        const Sides now = sides(touch.node);
+        if (uneven(now)) return {trail_.size(), candidates(touch.node, now.takes)};
+      }
+    }
+    return {};
+  }
+
+  std::vector<std::uint32_t> candidates(std::uint32_t transition, bool giving) const {
+    std::vector<std::uint32_t> open;
+    for (const Touch& touch : net_.of_transition(transition))
+      if (state_[touch.node] == State::open && (giving ? touch.produces : touch.consumes) > 0)
+        open.push_back(touch.node);
+    std::ranges::stable_sort(open,
+                             [&](std::uint32_t a, std::uint32_t b) { return covered_[a] > covered_[b]; });
+    return open;
+  }
+
+  const PtNet& net_;
+  const std::vector<char>& covered_;
+  std::vector<State> state_;
+  std::vector<std::uint32_t> marked_;  // initially
+  std::vector<std::uint32_t> trail_;
+  std::size_t settled_ = 0;
+  Losses losses_ = Losses::forbidden;
+  int guesses_left_ = 0;
+};
+
+}  // namespace
+
+std::vector<Unit> find_units(const PtNet& net) {
+  std::vector<Unit> units;
+  std::vector<char> covered(net.places(), 0);
+  const auto has_token = [&](std::uint32_t place) { return net.initial()[place] > 0; };
+  UnitSearch search(net, covered);
+  // Units without losses first: they are larger.
+  for (const Losses losses : {Losses::forbidden, Losses::allowed})
+    for (std::uint32_t place = 0; place < net.places(); ++place) {
+      if (covered[place] != 0) continue;
+      Unit unit{search.around(place, losses)};
+      const std::size_t whole = unit.places.size();
+      unit.always_one = losses == Losses::forbidden && std::ranges::any_of(unit.places, has_token);
+      std::erase_if(unit.places, [&](std::uint32_t member) { return covered[member] != 0; });
+      if (unit.places.size() < whole) unit.always_one = false;
+      for (const std::uint32_t member : unit.places) covered[member] = 1;
+      if (!unit.places.empty()) units.push_back(std::move(unit));
+    }
+  return units;
+}
+
+}  // namespace tessera::explore

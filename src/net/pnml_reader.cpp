@@ -1,0 +1,381 @@
+#include "net/pnml_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <pugixml.hpp>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "diagnostics/utf8.hpp"
+
+namespace tessera::net {
+namespace {
+
+using diagnostics::quoted;
+using pugi::xml_node;
+
+/// The name without a namespace prefix.
+std::string_view local_name(const xml_node& node) {
+  const std::string_view name = node.name();
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+xml_node child(const xml_node& node, std::string_view name) {
+  for (const xml_node candidate : node.children())
+    if (local_name(candidate) == name) return candidate;
+  return {};
+}
+
+bool contains_ignoring_case(std::string_view text, std::string_view word) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::search(text, word, {}, lower, lower).begin() != text.end();
+}
+
+/// Lines and columns of byte offsets.
+class Positions {
+ public:
+  explicit Positions(std::string_view text) : size_(text.size()) {
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
+      starts_.push_back(end + 1);
+  }
+  [[nodiscard]] Span at(std::ptrdiff_t offset, std::size_t length) const {
+    if (offset < 0) return {};
+    const std::size_t position = std::min(static_cast<std::size_t>(offset), size_);
+    const auto line = std::prev(std::ranges::upper_bound(starts_, position));
+    return {static_cast<std::uint32_t>(line - starts_.begin() + 1),
+            static_cast<std::uint32_t>(position - *line + 1),
+            static_cast<std::uint32_t>(std::max<std::size_t>(1, length))};
+  }
+  [[nodiscard]] Span of(const xml_node& node) const {
+    const bool element = node.type() == pugi::node_element;
+    return at(node.offset_debug(),
+              element ? std::string_view(node.name()).size() : std::string_view(node.value()).size());
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<std::size_t> starts_{0};
+};
+
+/// What an id of the document stands for.
+struct Element {
+  enum class Kind : std::uint8_t { place, transition, reference_place, reference_transition, other } kind;
+  std::uint32_t index = 0;  ///< of the place or transition, or into the references
+};
+
+struct Reference {
+  std::string target;
+  Span span;
+};
+
+class Reader {
+ public:
+  explicit Reader(diagnostics::Diagnostics& out) : out_(out), positions_(out.text()) {}
+
+  std::optional<Net> result() {
+    const std::size_t before = out_.error_count();
+    pugi::xml_document document;
+    if (!parse(document)) return std::nullopt;
+    const xml_node net = only_net(document);
+    if (!net || !is_place_transition_net(net)) return std::nullopt;
+    collect(net);
+    name_apart();
+    for (const auto& [id, element] : elements_)
+      if (is_reference(element)) static_cast<void>(resolved(element));
+    for (const xml_node& arc : arcs_) connect(arc);
+    if (out_.error_count() > before) return std::nullopt;
+    return build();
+  }
+
+ private:
+  bool parse(pugi::xml_document& document) {
+    const std::string& text = out_.text();
+    const unsigned options = pugi::parse_default | pugi::parse_doctype | pugi::parse_trim_pcdata;
+    const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size(), options);
+    if (!result) {
+      out_.error("E420", positions_.at(result.offset, 1),
+                 std::string("this is not well-formed XML: ") + lowered(result.description()),
+                 result.status == pugi::status_no_document_element ? "the file has no element at all" : "");
+      return false;
+    }
+    for (const xml_node node : document.children())
+      if (node.type() == pugi::node_doctype &&
+          std::string_view(node.value()).find('[') != std::string_view::npos) {
+        out_.error("E421", positions_.at(node.offset_debug(), 1),
+                   "the document type declares entities or elements of its own",
+                   "PNML needs no DOCTYPE; remove it");
+        return false;
+      }
+    return true;
+  }
+
+  static std::string lowered(std::string text) {
+    if (!text.empty() && text.front() >= 'A' && text.front() <= 'Z')
+      text.front() = static_cast<char>(text.front() - 'A' + 'a');
+    return text;
+  }
+
+  xml_node only_net(const pugi::xml_document& document) {
+    const xml_node root = document.document_element();
+    if (local_name(root) != "pnml") {
+      out_.error("E422", positions_.of(root), "this is not PNML: the root element is " + quoted(root.name()),
+                 "a PNML file starts with <pnml>");
+      return {};
+    }
+    xml_node found;
+    for (const xml_node candidate : root.children()) {
+      if (local_name(candidate) != "net") continue;
+      if (found) {
+        out_.error("E422", positions_.of(candidate), "the file has more than one net",
+                   "keep one net per file");
+        return {};
+      }
+      found = candidate;
+    }
+    if (!found) out_.error("E422", positions_.of(root), "the file has no net");
+    return found;
+  }
+
+  bool is_place_transition_net(const xml_node& net) {
+    const std::string_view type = net.attribute("type").value();
+    if (type.empty() || contains_ignoring_case(type, "ptnet") || contains_ignoring_case(type, "p/t"))
+      return true;
+    const bool coloured = contains_ignoring_case(type, "symmetric") || contains_ignoring_case(type, "hlpn") ||
+                          contains_ignoring_case(type, "highlevel") ||
+                          contains_ignoring_case(type, "coloured");
+    out_.error("E423", positions_.of(net),
+               std::string(coloured ? "this is a coloured net" : "this is not a place/transition net") +
+                   ": its type is " + quoted(type),
+               coloured ? "unfold it to a place/transition net first" : "");
+    return false;
+  }
+
+  /// Walks the pages in document order. An explicit stack: a file may nest pages as deep as it likes.
+  void collect(const xml_node& net) {
+    std::vector<xml_node> stack{net.first_child()};
+    while (!stack.empty()) {
+      const xml_node node = stack.back();
+      if (!node) {
+        stack.pop_back();
+        continue;
+      }
+      stack.back() = node.next_sibling();
+      const std::string_view kind = local_name(node);
+      if (kind == "page") {
+        enter(node, {Element::Kind::other, 0});
+        stack.push_back(node.first_child());
+      } else {
+        add(node, kind);
+      }
+    }
+  }
+
+  void add(const xml_node& node, std::string_view kind) {
+    if (kind == "place") {
+      enter(node, {Element::Kind::place, static_cast<std::uint32_t>(places_.size())});
+      Place place;
+      place.name = label(node, "name");
+      place.tokens = marking(node);
+      place.span = positions_.of(node);
+      places_.push_back(std::move(place));
+      place_ids_.emplace_back(node.attribute("id").value());
+    } else if (kind == "transition") {
+      enter(node, {Element::Kind::transition, static_cast<std::uint32_t>(transitions_.size())});
+      Transition transition;
+      transition.name = label(node, "name");
+      transition.span = positions_.of(node);
+      transitions_.push_back(std::move(transition));
+      transition_ids_.emplace_back(node.attribute("id").value());
+    } else if (kind == "referencePlace" || kind == "referenceTransition") {
+      enter(node,
+            {kind == "referencePlace" ? Element::Kind::reference_place : Element::Kind::reference_transition,
+             static_cast<std::uint32_t>(references_.size())});
+      references_.push_back({node.attribute("ref").value(), positions_.of(node)});
+    } else if (kind == "arc") {
+      enter(node, {Element::Kind::other, 0});
+      arcs_.push_back(node);
+    }
+  }
+
+  void enter(const xml_node& node, Element element) {
+    const std::string_view id = node.attribute("id").value();
+    if (id.empty()) {
+      // Arcs and pages are never referred to, so that a missing id of theirs harms nobody.
+      if (element.kind != Element::Kind::other)
+        out_.error("E424", positions_.of(node), "this " + std::string(local_name(node)) + " has no id");
+      return;
+    }
+    if (!elements_.emplace(id, element).second)
+      out_.error("E424", positions_.of(node), "the id " + quoted(id) + " is given twice");
+  }
+
+  static std::string label(const xml_node& node, std::string_view name) {
+    return child(child(node, name), "text").text().get();
+  }
+
+  std::uint32_t marking(const xml_node& place) {
+    return number(child(place, "initialMarking"), "marking", 0, 0);
+  }
+
+  std::uint32_t number(const xml_node& holder, const char* what, std::uint32_t missing, std::uint32_t least) {
+    const xml_node text = child(holder, "text");
+    if (!text) return missing;
+    const std::string_view digits = text.text().get();
+    std::uint32_t value = 0;
+    const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (problem == std::errc{} && end == digits.data() + digits.size() && value >= least &&
+        value <= largest_pnml_number)
+      return value;
+    const xml_node at = text.first_child() ? text.first_child() : text;
+    out_.error("E425", positions_.of(at),
+               std::string(what) + " " + quoted(digits) + " is not a whole number from " +
+                   std::to_string(least) + " to " + std::to_string(largest_pnml_number));
+    return missing;
+  }
+
+  /// Names are kept where they are there and nobody else's; else the id, which is.
+  void name_apart() {
+    std::unordered_map<std::string, int> uses;
+    for (const Place& place : places_) ++uses[place.name];
+    for (const Transition& transition : transitions_) ++uses[transition.name];
+    const auto choose = [&](auto& elements, const std::vector<std::string>& ids) {
+      for (std::size_t index = 0; index < elements.size(); ++index) {
+        std::string& name = elements[index].name;
+        // The id must not be what another element is called, or the two would be one in every trace.
+        const bool unclear =
+            name.empty() || uses[name] > 1 || (name != ids[index] && elements_.contains(name));
+        if (unclear) name = ids[index];
+      }
+    };
+    choose(places_, place_ids_);
+    choose(transitions_, transition_ids_);
+  }
+
+  void connect(const xml_node& arc) {
+    if (const xml_node type = child(arc, "type")) {
+      const std::string_view value = type.attribute("value").value();
+      if (!value.empty() && value != "normal") {
+        out_.error("E423", positions_.of(type), "place/transition nets have no " + quoted(value) + " arcs");
+        return;
+      }
+    }
+    const std::uint32_t weight = number(child(arc, "inscription"), "weight", 1, 1);
+    const std::optional<Element> source = end_of(arc, "source"), target = end_of(arc, "target");
+    if (!source || !target) return;
+    if (source->kind == target->kind) {
+      const char* kind = source->kind == Element::Kind::place ? "places" : "transitions";
+      out_.error("E426", positions_.of(arc), std::string("this arc joins two ") + kind);
+      return;
+    }
+    const bool consumes = source->kind == Element::Kind::place;
+    const std::uint32_t place = (consumes ? source : target)->index;
+    const std::uint32_t transition = (consumes ? target : source)->index;
+    std::uint32_t& sum = weights_[{transition, !consumes, place}];
+    if (sum > largest_pnml_number - weight) {
+      out_.error("E425", positions_.of(arc), "the weights of parallel arcs are too large in sum");
+      return;
+    }
+    sum += weight;
+  }
+
+  std::optional<Element> end_of(const xml_node& arc, const char* side) {
+    const std::string_view id = arc.attribute(side).value();
+    const auto found = elements_.find(std::string(id));
+    if (found == elements_.end() || found->second.kind == Element::Kind::other) {
+      out_.error("E426", positions_.of(arc),
+                 "the " + std::string(side) + " of this arc, " + quoted(id) + ", is no place or transition");
+      return std::nullopt;
+    }
+    return resolved(found->second);
+  }
+
+  static bool is_reference(const Element& element) {
+    return element.kind == Element::Kind::reference_place ||
+           element.kind == Element::Kind::reference_transition;
+  }
+
+  /// What a chain of references ends in. A chain is followed once: every link then remembers its end.
+  std::optional<Element> resolved(Element element) {
+    std::vector<std::uint32_t> chain;
+    std::unordered_set<std::uint32_t> seen;
+    std::optional<Element> end = element;
+    while (end && is_reference(*end)) {
+      if (const auto known = resolutions_.find(end->index); known != resolutions_.end()) {
+        end = known->second;
+        break;
+      }
+      chain.push_back(end->index);
+      end = seen.insert(end->index).second ? target_of(*end) : circular(end->index);
+    }
+    for (const std::uint32_t link : chain) resolutions_.emplace(link, end);
+    return end;
+  }
+
+  std::optional<Element> circular(std::uint32_t reference) {
+    out_.error("E427", references_[reference].span, "this reference leads back to itself");
+    return std::nullopt;
+  }
+
+  std::optional<Element> target_of(const Element& element) {
+    const Reference& reference = references_[element.index];
+    const auto target = elements_.find(reference.target);
+    if (target == elements_.end() || target->second.kind == Element::Kind::other) {
+      out_.error("E427", reference.span,
+                 "this reference leads to " + quoted(reference.target) + ", which is no place or transition");
+      return std::nullopt;
+    }
+    const auto of_place = [](const Element& one) {
+      return one.kind == Element::Kind::place || one.kind == Element::Kind::reference_place;
+    };
+    if (of_place(element) != of_place(target->second)) {
+      out_.error("E427", reference.span,
+                 of_place(element) ? "this reference place refers to a transition"
+                                   : "this reference transition refers to a place");
+      return std::nullopt;
+    }
+    return target->second;
+  }
+
+  Net build() {
+    Net net;
+    for (Place& place : places_) net.add(std::move(place));
+    auto arc = weights_.begin();
+    for (std::uint32_t transition = 0; transition < transitions_.size(); ++transition) {
+      std::vector<Arc> ends[2];
+      for (; arc != weights_.end() && arc->first.transition == transition; ++arc)
+        ends[arc->first.produces].push_back({PlaceId{arc->first.place}, arc->second});
+      net.add(std::move(transitions_[transition]), ends[0], ends[1]);
+    }
+    return net;
+  }
+
+  struct ArcKey {
+    std::uint32_t transition;
+    bool produces;
+    std::uint32_t place;
+    auto operator<=>(const ArcKey&) const = default;
+  };
+
+  diagnostics::Diagnostics& out_;
+  Positions positions_;
+  std::unordered_map<std::string, Element> elements_;
+  std::vector<Place> places_;
+  std::vector<Transition> transitions_;
+  std::vector<std::string> place_ids_, transition_ids_;
+  std::vector<Reference> references_;
+  // Of references that have been followed; empty where that led nowhere, which has been said.
+  std::unordered_map<std::uint32_t, std::optional<Element>> resolutions_;
+  std::vector<xml_node> arcs_;
+  std::map<ArcKey, std::uint32_t> weights_;
+};
+
+}  // namespace
+
+std::optional<Net> read_pnml(diagnostics::Diagnostics& out) { return Reader(out).result(); }
+
+}  // namespace tessera::net

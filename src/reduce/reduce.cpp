@@ -1,0 +1,138 @@
+#include "reduce/reduce.hpp"
+
+#include <algorithm>
+
+#include "reduce/draft.hpp"
+
+namespace tessera::reduce {
+namespace {
+
+/// Not a rule: every rule takes the transitions that it sees for real ones.
+void drop_impossible(const net::Net& net, Work& work) {
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    if (net.transitions()[index].condition.truth != net::Condition::Truth::never) continue;
+    work.draft.remove_transition(index);
+    ++work.count.impossible_transitions;
+  }
+}
+
+/// Transitions first: they are cheap, and what is left of them decides about the places.
+void exhaust(Work& work) {
+  for (;;) {
+    if (const std::uint32_t transition = work.draft.next_transition(); transition != UINT32_MAX) {
+      if (work.draft.transitions()[transition].alive) reduce_transition(work, transition);
+      continue;
+    }
+    const std::uint32_t place = work.draft.next_place();
+    if (place == UINT32_MAX) return;
+    if (work.draft.places()[place].alive && !reduce_place(work, place)) agglomerate(work, place);
+  }
+}
+
+/// The name of a transition that stands for several says where it begins and ends.
+std::string joined_name(const std::string& first, const std::string& last) {
+  return first == last ? first : first + " .. " + last;
+}
+
+}  // namespace
+
+Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on) {
+  Reduced result;
+  Draft draft(net, what);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sequences(net.transitions().size(), {0, UINT32_MAX});
+  Work work{draft, what, on, result.statistics, sequences, result.start_, result.delayed_};
+  drop_impossible(net, work);
+  exhaust(work);
+
+  result.original_ = &net;
+  result.place_of_.assign(net.places().size(), UINT32_MAX);
+  for (std::uint32_t index = 0; index < net.places().size(); ++index) {
+    if (!draft.places()[index].alive) continue;
+    net::Place place = net.places()[index];
+    place.tokens = draft.places()[index].tokens;
+    result.place_of_[index] = result.net.add(std::move(place)).value;
+  }
+  // Sequences are made of earlier ones, so their ends can be found in order.
+  std::vector<std::uint32_t> first(sequences.size()), last(sequences.size());
+  for (std::uint32_t index = 0; index < sequences.size(); ++index) {
+    const auto [before, after] = sequences[index];
+    result.sequences_.push_back({before, after});
+    first[index] = after == UINT32_MAX ? index : first[before];
+    last[index] = after == UINT32_MAX ? index : last[after];
+  }
+  result.sets.resize(what.sets.size());
+  for (const Draft::Transition& transition : draft.transitions()) {
+    if (!transition.alive) continue;
+    Arcs inputs = transition.inputs, outputs = transition.outputs;
+    for (Arcs* arcs : {&inputs, &outputs})
+      for (Arc& arc : *arcs) arc.place.value = result.place_of_[arc.place.value];
+    net::Transition made = net.transitions()[first[transition.sequence]];
+    made.name = joined_name(made.name, net.transitions()[last[transition.sequence]].name);
+    const net::TransitionId id = result.net.add(std::move(made), inputs, outputs);
+    result.fires_.push_back(transition.sequence);
+    for (const std::uint32_t set : transition.sets) result.sets[set].push_back(id);
+  }
+  result.statistics.places_before = net.places().size();
+  result.statistics.transitions_before = net.transitions().size();
+  result.statistics.places_after = result.net.places().size();
+  result.statistics.transitions_after = result.net.transitions().size();
+  return result;
+}
+
+std::optional<net::PlaceId> Reduced::find(net::PlaceId original) const {
+  const std::uint32_t place = place_of_[original.value];
+  if (place == UINT32_MAX) return std::nullopt;
+  return net::PlaceId{place};
+}
+
+void Reduced::append(std::uint32_t sequence, std::vector<net::TransitionId>& to) const {
+  std::vector<std::uint32_t> open{sequence};
+  while (!open.empty()) {
+    const std::uint32_t at = open.back();
+    open.pop_back();
+    if (sequences_[at].second == UINT32_MAX) {
+      to.push_back({at});
+      continue;
+    }
+    open.push_back(sequences_[at].second);
+    open.push_back(sequences_[at].first);
+  }
+}
+
+/// Fires what was put off, so that a marking that is dead in the reduced net becomes dead in the original
+/// one: undoes the rules from the last to the first.
+void Reduced::settle(std::vector<net::TransitionId>& trace) const {
+  std::vector<std::int64_t> tokens;
+  for (const net::Place& place : original_->places()) tokens.push_back(place.tokens);
+  const auto fire = [&](net::TransitionId id, std::int64_t sign) {
+    bool enabled = true;
+    for (const Arc& arc : original_->preset(id))
+      enabled = (tokens[arc.place.value] -= sign * arc.weight) >= 0 && enabled;
+    for (const Arc& arc : original_->postset(id)) tokens[arc.place.value] += sign * arc.weight;
+    return enabled;
+  };
+  for (const net::TransitionId id : trace) fire(id, 1);
+  for (auto sequence = delayed_.rbegin(); sequence != delayed_.rend(); ++sequence) {
+    std::vector<net::TransitionId> parts;
+    append(*sequence, parts);
+    for (bool enabled = true; enabled;) {
+      std::size_t fired = 0;
+      while (enabled && fired < parts.size()) enabled = fire(parts[fired++], 1);
+      if (enabled) {
+        trace.insert(trace.end(), parts.begin(), parts.end());
+        continue;
+      }
+      while (fired > 0) fire(parts[--fired], -1);
+    }
+  }
+}
+
+std::vector<net::TransitionId> Reduced::lift(std::span<const net::TransitionId> trace) const {
+  std::vector<net::TransitionId> lifted;
+  for (const std::uint32_t sequence : start_) append(sequence, lifted);
+  for (const net::TransitionId id : trace) append(fires_[id.value], lifted);
+  settle(lifted);
+  return lifted;
+}
+
+}  // namespace tessera::reduce

@@ -1,0 +1,209 @@
+#include "spec/drivers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/names.hpp"
+#include "spec/paths.hpp"
+#include "spec/quantities.hpp"
+#include "spec/section.hpp"
+#include "spec/subsystems.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// What stands behind real buffers.
+struct DriverKind {
+  std::string_view name;
+  bool receptors, effectors;
+  bool simulated_only;  ///< a part of the simulated world, which reads or takes one floating-point number
+  std::string_view target;
+};
+
+constexpr std::array kinds = {DriverKind{"cpp", true, true, false, "a C++ class"},
+                              DriverKind{"reflectance", true, false, true, "a site of the world"},
+                              DriverKind{"velocity", false, true, true, "an actuator of the world"}};
+
+constexpr const char* driver_hint = "for example { reflectance: eye_left, noise: 0.01 }";
+
+const DriverKind* find_kind(std::string_view name) {
+  const auto* const found =
+      std::find_if(kinds.begin(), kinds.end(), [name](const DriverKind& one) { return one.name == name; });
+  return found == kinds.end() ? nullptr : found;
+}
+
+bool is_plain_float(const Type& type) {
+  return type.kind == Type::Kind::scalar && type.extent == 0 &&
+         (type.scalar == Scalar::float32 || type.scalar == Scalar::float64);
+}
+
+/// `text` with every {i} replaced by the number.
+std::string with_number(std::string text, Index number) {
+  constexpr std::string_view mark = "{i}";
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at)) {
+    text.replace(at, mark.size(), std::to_string(number));
+  }
+  return text;
+}
+
+/// A::B::C
+bool is_class_name(std::string_view text) {
+  for (;;) {
+    const std::size_t colons = text.find("::");
+    if (!is_identifier(text.substr(0, colons))) return false;
+    if (colons == std::string_view::npos) return true;
+    text.remove_prefix(colons + 2);
+  }
+}
+
+class Reader {
+ public:
+  Reader(Devices devices, const Model& model, const Groups& groups, Diagnostics& out)
+      : devices_(devices), lookup_(model, groups), out_(out) {}
+
+  std::vector<Driver> read(const Entry& section) {
+    for (const Entry& entry : entries_of(*section.value, section.span, "drivers", out_)) read_one(entry);
+    return std::move(drivers_);
+  }
+
+ private:
+  void read_one(const Entry& entry) {
+    Driver driver;
+    driver.span = entry.span;
+    const DriverKind* kind = read_body(entry, driver);
+    Node key;
+    key.kind = Node::Kind::scalar;
+    key.span = entry.span;
+    key.text = entry.key;
+    key.verbatim = entry.span.length == entry.key.size();
+    const auto path = split_path(key, 0, key.text.size(), out_);
+    Place place;
+    Known known = Known::nothing;
+    if (!path || !lookup_.find(*path, place, known, out_)) return;
+    driver.real = lookup_.find_buffer(*path, place, lookup_.subsystem(place).real, "real buffer", out_);
+    if (driver.real == none || kind == nullptr || !fits(*kind, place, driver)) return;
+    add(*path, place, driver);
+  }
+
+  const DriverKind* read_body(const Entry& entry, Driver& driver) {
+    const DriverKind* kind = nullptr;
+    const Entry* stranger = nullptr;
+    if (!entry.value->is_map()) {
+      out_.error("E104", entry.span, "a driver must be a map", driver_hint);
+      return nullptr;
+    }
+    for (const Entry& key : entry.value->entries) {
+      if (const DriverKind* found = find_kind(key.key)) {
+        if (kind != nullptr)
+          out_.error("E107", key.span, "a driver has one kind",
+                     "keep one of " + driver.kind + ", " + key.key);
+        kind = found;
+        read_target(key, *found, driver);
+      } else if (key.value->is_scalar() && split_quantity(key.value->text)) {
+        read_option(key, driver);
+      } else {
+        stranger = &key;
+      }
+    }
+    if (stranger != nullptr) complain_about(*stranger, kind != nullptr);
+    if (kind == nullptr && stranger == nullptr)
+      out_.error("E103", entry.span, "a driver needs a kind", driver_hint);
+    return kind;
+  }
+
+  void complain_about(const Entry& key, bool has_kind) {
+    if (has_kind) {
+      out_.error("E104", key.span, "option " + quoted(key.key) + " must be a number", driver_hint);
+      return;
+    }
+    std::vector<std::string> names;
+    for (const DriverKind& kind : kinds) names.emplace_back(kind.name);
+    const std::string guess = diagnostics::did_you_mean(key.key, names);
+    out_.error("E101", key.span, "unknown driver " + quoted(key.key),
+               guess.empty() ? "there are cpp, reflectance and velocity" : guess);
+  }
+
+  void read_target(const Entry& key, const DriverKind& kind, Driver& driver) {
+    driver.kind = kind.name;
+    const Node* text =
+        text_of(*key.value, key.span, quoted(key.key), out_, "name " + std::string(kind.target));
+    if (text == nullptr) return;
+    driver.target = text->text;
+    if (kind.name == "cpp" && !is_class_name(text->text)) {
+      out_.error("E105", text->span, quoted(text->text) + " does not name a C++ class",
+                 "for example LightSensor or robot::LightSensor");
+    }
+  }
+
+  void read_option(const Entry& key, Driver& driver) {
+    check_name(key.key, key.span, "option", out_);
+    if (const auto value = read_number(*key.value, key.span, "option " + quoted(key.key), out_)) {
+      driver.options.emplace(key.key, *value);
+    }
+  }
+
+  bool fits(const DriverKind& kind, const Place& place, const Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(place);
+    const Field& buffer = subsystem.real[driver.real];
+    std::string problem;
+    const bool right_side = subsystem.kind == SubsystemKind::effector ? kind.effectors : kind.receptors;
+    if (devices_ == Devices::real && kind.simulated_only) {
+      problem = "driver " + quoted(kind.name) + " is part of the simulated world";
+    } else if (!right_side) {
+      problem = "driver " + quoted(kind.name) + " does not fit " +
+                (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
+    } else if (kind.simulated_only && !is_plain_float(buffer.type)) {
+      problem = "driver " + quoted(kind.name) + " needs a real buffer of type float64 or float32";
+    } else {
+      return true;
+    }
+    out_.error("E210", driver.span, problem,
+               devices_ == Devices::real && kind.simulated_only
+                   ? "move it to simulation: drivers:, or write { cpp: CLASS }"
+                   : "");
+    return false;
+  }
+
+  void add(const BufferPath& path, const Place& place, const Driver& driver) {
+    using Kind = Selector::Kind;
+    if (path.selector.kind == Kind::variable) {
+      out_.error("E112", path.index_span, "a driver stands behind one agent or all", "write [3] or [*]");
+      return;
+    }
+    const bool all = path.selector.kind == Kind::all;
+    const Index first = path.selector.kind == Kind::constant ? static_cast<Index>(path.selector.number) : 0;
+    const Index last = all ? place.group->count : first + 1;
+    for (Index number = first; number < last; ++number) {
+      Driver one = driver;
+      one.instance = lookup_.instance(place, number);
+      if (place.group->fleet) one.target = with_number(one.target, number);
+      const auto [taken, added] = lines_.emplace(std::pair(one.instance, one.real), driver.span.line);
+      if (!added) {
+        out_.error("E308", driver.span,
+                   "a second driver for " + lookup_.model().instance_path(one.instance) + "." + path.buffer,
+                   "the first is on line " + std::to_string(taken->second));
+        return;
+      }
+      drivers_.push_back(std::move(one));
+    }
+  }
+
+  Devices devices_;
+  Lookup lookup_;
+  Diagnostics& out_;
+  std::vector<Driver> drivers_;
+  std::map<std::pair<Index, Index>, std::uint32_t> lines_;  ///< (instance, real buffer) -> line of its driver
+};
+
+}  // namespace
+
+std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
+                                 const Groups& groups, Diagnostics& out) {
+  return entry == nullptr ? std::vector<Driver>() : Reader(devices, model, groups, out).read(*entry);
+}
+
+}  // namespace tessera::spec

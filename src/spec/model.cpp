@@ -1,0 +1,39 @@
+#include "spec/model.hpp"
+
+#include <algorithm>
+
+namespace tessera::spec {
+
+bool always_continues(const Behaviour& behaviour) {
+  const auto asks = [&behaviour](When::Kind kind, Index expression) {
+    return std::any_of(behaviour.next.begin(), behaviour.next.end(), [&](const Next& entry) {
+      return entry.when.kind == kind && (expression == none || entry.when.expression == expression);
+    });
+  };
+  if (asks(When::Kind::always, none)) return true;
+  // Any behaviour may end by an exception, so errors must be asked for even where no error condition is
+  // given.
+  if (!asks(When::Kind::error, none) || behaviour.terminal.kind == Condition::Kind::always) return false;
+  for (Index i = 0; i < behaviour.terminal.expressions.size(); ++i) {
+    if (!asks(When::Kind::terminal, i)) return false;
+  }
+  return true;
+}
+
+const Subsystem& Model::subsystem(Index instance) const {
+  const Instance& one = instances[instance];
+  return definition_of(agents[one.agent]).subsystems[one.subsystem];
+}
+
+std::string Model::instance_path(Index instance) const {
+  return agents[instances[instance].agent].path + "." + subsystem(instance).name;
+}
+
+std::string Model::channel_name(const Channel& channel) const {
+  return instance_path(channel.from.instance) + "." +
+         subsystem(channel.from.instance).outputs[channel.from.buffer].name + "->" +
+         instance_path(channel.to.instance) + "." +
+         subsystem(channel.to.instance).inputs[channel.to.buffer].name;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,80 @@
+#include "spec/parser.hpp"
+
+#include "diagnostics/utf8.hpp"
+#include "spec/buffers.hpp"
+#include "spec/channels.hpp"
+#include "spec/document.hpp"
+#include "spec/drivers.hpp"
+#include "spec/fleets.hpp"
+#include "spec/names.hpp"
+#include "spec/section.hpp"
+#include "spec/simulation.hpp"
+#include "spec/text_checks.hpp"
+#include "spec/types.hpp"
+#include "spec/wiring.hpp"
+
+namespace tessera::spec {
+namespace {
+
+void check_version(const Section& file, Diagnostics& out) {
+  const Entry* version = file.require("tessera", "begin the file with 'tessera: 1'");
+  if (version == nullptr) return;
+  const Node* text = text_of(*version->value, version->span, "'tessera'", out, "write tessera: 1");
+  if (text != nullptr && (text->text != "1" || text->quoted)) {
+    out.error("E108", text->span, "version " + diagnostics::quoted(text->text) + " of the format is unknown",
+              "this program reads version 1: write tessera: 1");
+  }
+}
+
+std::string read_system(const Section& file, Diagnostics& out) {
+  const Entry* system = file.require("system", "for example system: line_follower");
+  if (system == nullptr) return {};
+  const Node* text = text_of(*system->value, system->span, "the name of the system", out);
+  if (text == nullptr) return {};
+  check_name(text->text, text->span, "system", out);
+  return text->text;
+}
+
+void refuse_models(const Section& file, Diagnostics& out) {
+  if (const Entry* models = file.find("models")) {
+    out.error("E113", models->span, "communication models of your own are not supported yet",
+              "use the blocks that 'send' and 'receive' of a channel choose from");
+  }
+}
+
+Model read_model(const Document& document, Diagnostics& out) {
+  const Section file(document.root(), document.root().span, "a specification",
+                     {"tessera", "system", "types", "parameters", "templates", "agents", "channels",
+                      "drivers", "properties", "simulation", "models"},
+                     out);
+  Model model;
+  if (!file.readable()) return model;
+  check_version(file, out);
+  refuse_models(file, out);
+  model.system = read_system(file, out);
+  Types types;
+  types.read(file.find("types"), out);
+  model.parameters = read_parameters(file.find("parameters"), types, out);
+  const Entry* agents = file.require("agents", "a system is made of agents");
+  const Groups groups = read_agents(file.find("templates"), agents, {types, model.parameters}, model, out);
+  const Excuses excuses = read_channels(file.find("channels"), types, groups, model, out);
+  check_wiring(model, excuses, out);
+  model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
+  model.properties = read_properties(file.find("properties"), out);
+  model.simulation = read_simulation(file.find("simulation"), model, groups, out);
+  model.structures = types.structures();
+  return model;
+}
+
+}  // namespace
+
+std::optional<Model> parse(diagnostics::Diagnostics& out) {
+  if (out.has_errors() || !check_text(out)) return std::nullopt;
+  const auto document = read_document(out);
+  if (!document) return std::nullopt;
+  Model model = read_model(*document, out);
+  if (out.has_errors()) return std::nullopt;
+  return model;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+
+/// Who communicates with whom, read off the flat net that is executed.
+namespace tessera::verify {
+
+enum class Side : std::uint8_t { send, receive };
+
+/// One block: one side of one channel in one behaviour.
+struct Communication {
+  std::uint32_t channel = 0;
+  Side side = Side::send;
+  bool blocking = false;
+  bool timeout = false;  ///< only of a blocking side
+  bool operator==(const Communication&) const = default;
+};
+
+/// Blocks that run side by side, between a fork and a join; a sequential transfer has one block per stage.
+using Stage = std::vector<Communication>;
+
+struct BehaviourFlow {
+  std::string name;           ///< "robot.control.follow"
+  std::vector<Stage> stages;  ///< those of snd, then those of rcv
+  bool repeats = false;       ///< t4 may fire
+  bool leaves = false;        ///< t5 or t6 may fire
+  /// Once left, one of its initial conditions holds for certain: there is one without a condition, or a last
+  /// one for all other cases.
+  bool complete = true;
+  std::vector<std::uint32_t> next;  ///< behaviours that may follow once it was left; into SubsystemFlow
+  bool ends = false;                ///< the subsystem may end once it was left
+};
+
+struct SubsystemFlow {
+  std::uint32_t id = 0;  ///< Place::subsystem
+  std::string name;      ///< "robot.control"
+  /// Those that conditions known to be constant let it reach; the first is the start.
+  std::vector<BehaviourFlow> behaviours;
+};
+
+/// The two ends of a channel that some reachable behaviour uses.
+struct ChannelFlow {
+  std::uint32_t id = 0;  ///< Place::channel
+  std::string name;      ///< "robot.control.motion->robot.motor.velocity"
+  /// Index into CommunicationStructure::subsystems; nullopt: no reachable behaviour uses this end.
+  std::optional<std::uint32_t> sender, receiver;
+  bool send_blocks = false, send_timeout = false;
+  bool receive_blocks = false, receive_timeout = false;
+  bool always_readable =
+      false;  ///< both sides non-blocking: reading never depends on a value having been sent
+};
+
+/// Communication::channel is an index into channels.
+struct CommunicationStructure {
+  std::vector<SubsystemFlow> subsystems;
+  std::vector<ChannelFlow> channels;
+};
+
+/// Which conditions may hold.
+enum class Assume : std::uint8_t {
+  conditions,  ///< as given: constants are known, the rest are free choices
+  exceptions   ///< also every error condition (t6) is a free choice, as user code may throw
+};
+
+struct CommunicationResult {
+  std::optional<CommunicationStructure> structure;
+  std::string why_not;  ///< if there is none: the first thing that is not of the shape of the five layers
+};
+
+/// Reads off the net what each subsystem communicates, in which order. The net itself is read, not the
+/// specification, so that what is judged is what is executed: every transition of a subsystem must be
+/// accounted for by the blocks and pages of the five layers, or there is no result.
+///
+/// Threads: pure. Linear in the net.
+/// Source: Figat & Zielinski, ICRA 2019, sec. IV.
+[[nodiscard]] CommunicationResult communication_structure(const net::Net& net,
+                                                          Assume assume = Assume::conditions);
+
+}  // namespace tessera::verify

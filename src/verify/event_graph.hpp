@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace tessera::verify {
+
+/// A directed graph whose edges may hold tokens: a marked graph, some of whose edges lose tokens
+/// (docs/circuits.md). Build it with node() and edge(), then close().
+class EventGraph {
+ public:
+  struct Edge {
+    std::uint32_t from = 0, to = 0;
+    bool token = false;  ///< initially
+    bool lossy = false;
+    std::uint32_t channel = UINT32_MAX;  ///< UINT32_MAX: the two events are of one subsystem, in its order
+  };
+
+  std::uint32_t node(std::uint32_t subsystem);
+  void edge(Edge edge) { edges_.push_back(edge); }
+  /// Sorts the edges by their origin; edge numbers are valid from here on.
+  void close();
+
+  [[nodiscard]] std::size_t size() const { return subsystem_.size(); }
+  [[nodiscard]] std::uint32_t subsystem(std::uint32_t node) const { return subsystem_[node]; }
+  [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+  [[nodiscard]] std::span<const Edge> from(std::uint32_t node) const {
+    return std::span(edges_).subspan(starts_[node], starts_[node + 1] - starts_[node]);
+  }
+
+  using Filter = std::function<bool(const Edge&)>;
+  /// Per node the number of its strongly connected component, over the edges that pass the filter. Linear.
+  /// Source: Tarjan, SIAM J. Comput. 1(2), 1972.
+  [[nodiscard]] std::vector<std::uint32_t> components(const Filter& filter) const;
+  /// The nodes that the sources reach, themselves included, over all edges.
+  [[nodiscard]] std::vector<bool> reached(const std::vector<std::uint32_t>& sources) const;
+  /// A shortest path of edges over those that pass the filter; empty if there is none, or from == to.
+  [[nodiscard]] std::vector<Edge> path(std::uint32_t from, std::uint32_t to, const Filter& filter) const;
+
+ private:
+  std::vector<std::uint32_t> subsystem_;  // per node
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> starts_;
+};
+
+}  // namespace tessera::verify

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tessera/controller.hpp>
+
+#include "drivers.hpp"
+#include "system.hpp"
+
+namespace features {
+namespace {
+
+using namespace std::chrono_literals;
+
+// execute() computes the hash of the net from the generated tables and refuses another one than was verified.
+TEST(System, ExecutesTheVerifiedNetForASecond) {
+  tessera::RunOptions options;
+  options.duration = 1s;
+  std::string error;
+  const std::optional<tessera::RunSummary> summary = tessera::execute(system(), options, error);
+  ASSERT_TRUE(summary) << error;
+  EXPECT_FALSE(summary->failed) << summary->ended;
+  EXPECT_EQ(summary->simulated, 1s);
+  ASSERT_EQ(summary->subsystems.size(), 10U);
+  for (const tessera::RunSummary::PerSubsystem& each : summary->subsystems) {
+    EXPECT_GT(each.iterations, 10U) << each.path;
+    EXPECT_EQ(each.errors, 0U) << each.path;
+  }
+}
+
+TEST(System, MovesValuesOfAllTypesThroughItsChannels) {
+  tessera::RunOptions options;
+  options.duration = 500ms;
+  std::string error;
+  devices::PoseSink::commands.clear();
+  ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
+  const std::vector<Pose>& poses = devices::PoseSink::commands;
+  EXPECT_GT(poses.size(), 15U);
+  // x from the lidar through an array, y from the parameter of a walker through its report.
+  EXPECT_TRUE(std::ranges::any_of(poses, [](const Pose& pose) { return pose.x > 9 && pose.x < 10 && pose.y == 0.1F; }));
+}
+
+TEST(System, EndsWithTheSafeCommands) {
+  tessera::RunOptions options;
+  options.duration = 500ms;
+  std::string error;
+  ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
+  ASSERT_FALSE(devices::PoseSink::commands.empty() || devices::Grip::commands.empty());
+  EXPECT_EQ(devices::Grip::commands.back(), 0.1F) << "the safe command of the specification";
+  EXPECT_EQ(devices::PoseSink::commands.back(), Pose{}) << "zero, where the specification gives no safe command";
+}
+
+TEST(System, RefusesTablesOfAnotherNet) {
+  tessera::System other = system();
+  const auto shorter = other.channels.first(other.channels.size() - 1);
+  other.channels = shorter;
+  std::string error;
+  EXPECT_FALSE(tessera::execute(other, {}, error));
+  EXPECT_FALSE(error.empty());
+}
+
+}  // namespace
+}  // namespace features

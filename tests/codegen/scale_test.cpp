@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "generated.hpp"
+
+namespace tessera::test {
+namespace {
+
+std::size_t lines_of_cpp(const Generated& generated) {
+  std::size_t lines = 0;
+  for (const codegen::File& file : generated.files)
+    if (file.path.ends_with("pp")) lines += static_cast<std::size_t>(std::ranges::count(file.text, '\n'));
+  return lines;
+}
+
+/// What the paper spends: 6 lines on a place, 6 on a transition, 1 on an arc, 48 on a page (sec. V).
+std::size_t lines_of_the_paper(const Generated& generated) {
+  const std::size_t pages = generated.pages.pages.size() - 1;  // the root is no page of another net
+  return 6 * generated.net.places().size() + 6 * generated.net.transitions().size() +
+         generated.net.arc_count() + 48 * pages;
+}
+
+void expect_short(const char* name, const Generated& generated) {
+  const std::size_t ours = lines_of_cpp(generated), paper = lines_of_the_paper(generated);
+  std::printf("%-32s %8zu lines, the paper's way %8zu (%.1f %%)\n", name, ours, paper,
+              100.0 * static_cast<double>(ours) / static_cast<double>(paper));
+  EXPECT_LT(3 * ours, paper) << name;
+}
+
+const std::string body = R"(
+    control:
+      rate: 20 Hz
+      inputs:  { line: bool, ahead: float64 }
+      outputs: { motion: float64, behind: float64 }
+      behaviours: { init: { terminal: true, next: follow }, follow: {} }
+    receptors:
+      sensor: { rate: 50 Hz, outputs: { line: bool }, behaviours: { watch: {} } }
+    effectors:
+      motor: { rate: 50 Hz, inputs: { velocity: float64 }, behaviours: { drive: {} } }
+)";
+const std::string head = "tessera: 1\nsystem: fleet\n";
+
+std::string from_template(int count) {
+  return head + "templates:\n  follower:" + body +
+         "agents:\n  robot: { use: follower, count: " + std::to_string(count) +
+         ", ring: true }\nchannels:\n"
+         "  - \"robot[i].sensor.line -> robot[i].control.line\"\n"
+         "  - { from: \"robot[i].control.motion\", to: \"robot[i].motor.velocity\", receive: blocking, "
+         "timeout: 200 ms }\n"
+         "  - robot[i].control.behind -> robot[i+1].control.ahead\n";
+}
+
+std::string written_out(int count) {
+  std::string agents = "agents:\n", channels = "channels:\n";
+  for (int i = 0; i < count; ++i) {
+    const std::string robot = "r" + std::to_string(i);
+    agents += "  " + robot + ":" + body;
+    channels += "  - " + robot + ".sensor.line -> " + robot + ".control.line\n  - { from: " + robot +
+                ".control.motion, to: " + robot +
+                ".motor.velocity, receive: blocking, timeout: 200 ms }\n  - " + robot +
+                ".control.behind -> r" + std::to_string((i + 1) % count) + ".control.ahead\n";
+  }
+  return head + agents + channels;
+}
+
+Generated timed(const char* name, const std::string& text) {
+  const auto start = std::chrono::steady_clock::now();
+  Generated generated = generate(text);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%-32s %8.3f s from YAML to %zu files, peak memory so far %ld MB\n", name, taken.count(),
+              generated.files.size(), usage.ru_maxrss / 1024);
+  return generated;
+}
+
+TEST(Scale, ExamplesTakeLessThanAThirdOfThePapersLines) {
+  expect_short("01_line_follower", generate_file(line_follower_spec));
+  expect_short("02_gap", generate_file(gap_spec));
+}
+
+TEST(Scale, FleetsTakeLessThanAThirdOfThePapersLines) {
+  for (const int count : {10, 1000})
+    expect_short(("template x " + std::to_string(count)).c_str(), generate(from_template(count)));
+  expect_short("1000 written out", timed("1000 written out", written_out(1000)));
+}
+
+TEST(Scale, OneMoreAgentOfATemplateIsOneLinePerInstanceAndChannel) {
+  const std::size_t first = lines_of_cpp(generate(from_template(10)));
+  const std::size_t second = lines_of_cpp(generate(from_template(1000)));
+  EXPECT_EQ(second - first, 990U * (3 + 3));
+}
+
+TEST(Scale, AgentsWrittenOutAreLinear) {
+  const std::size_t ten = lines_of_cpp(generate(written_out(10)));
+  const std::size_t twenty = lines_of_cpp(generate(written_out(20)));
+  const std::size_t hundred = lines_of_cpp(timed("100 written out", written_out(100)));
+  EXPECT_EQ(hundred - twenty, 8 * (twenty - ten));
+}
+
+TEST(Scale, AThousandAgentsOfATemplateShareTheirNet) {
+  const Generated generated = timed("template x 1000", from_template(1000));
+  EXPECT_EQ(generated.files.size(), 13U);
+  EXPECT_GT(generated.net.places().size(), 50000U);
+}
+
+}  // namespace
+}  // namespace tessera::test

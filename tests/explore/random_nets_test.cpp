@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "naive.hpp"
+#include "random_net.hpp"
+
+namespace tessera::explore {
+namespace {
+
+using Kind = Answer::Kind;
+constexpr std::size_t most_naive_markings = 300;
+
+Kind yes_if(bool truth) { return truth ? Kind::yes : Kind::no; }
+
+/// Every question about one net, asked of the explorer and of the oracle.
+class Comparison {
+ public:
+  Comparison(const net::Net& net, const NaiveGraph& naive, Random& random)
+      : net_(net), compiled_(net), naive_(naive), random_(random) {}
+
+  void run() {
+    counts();
+    finds();
+    deadlocks();
+    always_reaches();
+    leads();
+    obligations();
+  }
+
+ private:
+  Formula formula() { return random_formula(random_, net_, 2); }
+
+  /// The marking that the run leads to, fired on the net itself.
+  std::size_t end_of(const Answer& answer) {
+    Marking marking = naive_.marking(0);
+    for (const TransitionId transition : answer.trace.firings) {
+      const auto next = fired(net_, transition, marking);
+      EXPECT_TRUE(next) << "the trace does not replay";
+      if (!next) return 0;
+      marking = *next;
+    }
+    EXPECT_EQ(marking, answer.trace.end);
+    const auto index = naive_.index_of(marking);
+    EXPECT_TRUE(index);
+    return index.value_or(0);
+  }
+
+  void counts() {
+    const Count counted = count(compiled_, limits_);
+    EXPECT_TRUE(counted.complete) << counted.why;
+    EXPECT_EQ(counted.markings, naive_.size());
+    EXPECT_EQ(counted.edges, naive_.edges());
+    EXPECT_EQ(counted.most_tokens, naive_.most_tokens());
+  }
+
+  void finds() {
+    const Formula goal = formula();
+    const Answer answer = find(compiled_, goal, limits_);
+    const auto nearest = naive_.nearest(goal);
+    ASSERT_EQ(answer.kind, yes_if(nearest.has_value()));
+    if (answer.kind != Kind::yes) return;
+    EXPECT_TRUE(naive_.holds(goal, end_of(answer)));
+    EXPECT_EQ(answer.trace.firings.size(), *nearest);
+  }
+
+  void deadlocks() {
+    const Formula is_final = below(random_, 2) == 0 ? Formula::never() : formula();
+    const Formula unwanted = Formula::all({Formula::dead(), Formula::negation(is_final)});
+    const Answer answer = find_deadlock(compiled_, is_final, limits_);
+    const auto nearest = naive_.nearest(unwanted);
+    ASSERT_EQ(answer.kind, yes_if(nearest.has_value()));
+    if (answer.kind != Kind::yes) return;
+    EXPECT_TRUE(naive_.holds(unwanted, end_of(answer)));
+    if (answer.shortest) {
+      EXPECT_EQ(answer.trace.firings.size(), *nearest);
+    }
+  }
+
+  void always_reaches() {
+    const Formula goal = formula();
+    const Answer answer = always_reachable(compiled_, goal, limits_);
+    ASSERT_EQ(answer.kind, yes_if(naive_.always_reachable(goal)));
+    if (answer.kind == Kind::no) {
+      EXPECT_FALSE(naive_.can_reach(end_of(answer), goal, Formula::never()));
+    }
+  }
+
+  void leads() {
+    const Formula p = formula(), q = formula();
+    const Answer answer = leads_to(compiled_, p, q, limits_);
+    ASSERT_EQ(answer.kind, yes_if(naive_.leads_to(p, q)));
+    if (answer.kind != Kind::no) return;
+    EXPECT_FALSE(naive_.can_reach(end_of(answer), q, Formula::never()));
+    ASSERT_LE(answer.turn, answer.trace.firings.size());
+    Marking marking = naive_.marking(0);
+    for (std::size_t at = 0; at <= answer.trace.firings.size(); ++at) {
+      const std::size_t index = naive_.index_of(marking).value();
+      if (at == answer.turn) {
+        EXPECT_TRUE(naive_.holds(p, index));
+      }
+      if (at >= answer.turn) {
+        EXPECT_FALSE(naive_.holds(q, index));
+      }
+      if (at < answer.trace.firings.size()) marking = fired(net_, answer.trace.firings[at], marking).value();
+    }
+  }
+
+  void obligations() {
+    std::vector<Obligation> wanted(2);
+    for (Obligation& obligation : wanted) {
+      if (below(random_, 2) == 0) obligation.unless = formula();
+      const auto transitions = static_cast<std::uint32_t>(net_.transitions().size());
+      for (std::uint32_t more = below(random_, 3); more > 0 && transitions > 0; --more)
+        obligation.any_of.push_back(TransitionId{below(random_, transitions)});
+    }
+    const std::vector<Answer> answers = can_always_fire(compiled_, wanted, limits_);
+    ASSERT_EQ(answers.size(), wanted.size());
+    for (std::size_t at = 0; at < wanted.size(); ++at) {
+      std::vector<Formula> ways{wanted[at].unless};
+      for (const TransitionId transition : wanted[at].any_of) ways.push_back(Formula::enabled(transition));
+      const Formula goal = Formula::any(std::move(ways));
+      ASSERT_EQ(answers[at].kind, yes_if(naive_.always_reachable(goal)));
+      if (answers[at].kind == Kind::no) {
+        EXPECT_FALSE(naive_.can_reach(end_of(answers[at]), goal, Formula::never()));
+      }
+    }
+  }
+
+  const net::Net& net_;
+  const PtNet compiled_;
+  const NaiveGraph& naive_;
+  Random& random_;
+  const Limits limits_;
+};
+
+struct Family {
+  const char* name;
+  net::Net (*draw)(Random&);
+};
+
+class RandomNets : public testing::TestWithParam<std::tuple<Family, std::uint32_t>> {};
+
+TEST_P(RandomNets, EveryAnswerIsThatOfTheOracle) {
+  const auto& [family, part] = GetParam();
+  constexpr std::uint32_t nets = 1000;
+  std::uint32_t compared = 0;
+  for (std::uint32_t seed = part * nets; seed < (part + 1) * nets; ++seed) {
+    SCOPED_TRACE(testing::Message() << family.name << " net of seed " << seed);
+    Random random(seed);
+    const net::Net net = family.draw(random);
+    if (const auto naive = NaiveGraph::of(net, most_naive_markings)) {
+      Comparison(net, *naive, random).run();
+      ++compared;
+    } else {
+      Limits few;
+      few.markings = most_naive_markings / 2;
+      EXPECT_FALSE(count(PtNet(net), few).complete);
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, nets / 4);
+}
+
+constexpr Family machines{"machines", random_machines}, weighted{"weighted", random_weighted},
+    wild{"wild", random_wild};
+
+std::string name_of(const testing::TestParamInfo<RandomNets::ParamType>& info) {
+  return std::string(std::get<0>(info.param).name) + "_" + std::to_string(std::get<1>(info.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Explorer, RandomNets,
+                         testing::Combine(testing::Values(machines, weighted, wild), testing::Range(0U, 10U)),
+                         name_of);
+
+}  // namespace
+}  // namespace tessera::explore

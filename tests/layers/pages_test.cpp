@@ -1,0 +1,72 @@
+#include <gmock/gmock.h>
+
+#include "layers/layers.hpp"
+#include "layers/models.hpp"
+
+namespace tessera::test {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Pages, OfTheLineFollowerAreDrawnAsInThePaper) {
+  const Built built = build(line_follower());
+  EXPECT_THAT(transitions_of(built.pages, ""), ElementsAre("t_in: in -> robot", "t_out: robot -> out"));
+  EXPECT_THAT(transitions_of(built.pages, "robot"),
+              ElementsAre("t_in: in -> control + sensor + motor", "t_out: control + sensor + motor -> out"));
+  EXPECT_THAT(transitions_of(built.pages, "robot.control"),
+              ElementsAre("t_in: in -> init", "t_init_1: init -> follow", "t_follow_1: follow -> out"));
+  EXPECT_THAT(transitions_of(built.pages, "robot.motor.drive"),
+              ElementsAre("t1: in -> snd", "t2: snd -> 2", "t3: 2 -> rcv", "t4: rcv -> in",
+                          "t5: rcv -> out [never]", "t6: rcv -> out [never]"));
+  EXPECT_THAT(places_of(built.pages, "robot.control.follow"), ElementsAre("in", "2", "out"));
+}
+
+TEST(Pages, ComeAfterTheirParents) {
+  const Built built = build(fleet(3));
+  for (std::uint32_t page = 1; page < built.pages.pages.size(); ++page)
+    EXPECT_LT(built.pages.pages[page].parent.value, page);
+}
+
+TEST(Pages, NameTheInstanceThatExecutesThem) {
+  const Built built = build(fleet(2));
+  const auto instance = [&](const char* path) {
+    return built.pages.pages[built.pages.find(path).value].subsystem;
+  };
+  EXPECT_EQ(instance(""), net::no_subsystem);
+  EXPECT_EQ(instance("robot[1]"), net::no_subsystem);
+  EXPECT_EQ(instance("robot[0].motor"), 2U);
+  EXPECT_EQ(instance("robot[1].control"), 3U);
+  EXPECT_EQ(instance("robot[1].sensor.watch.snd"), 4U);
+}
+
+TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {
+  const Built built = build(line_follower());
+  const net::Page& follow = built.pages.pages[built.pages.find("robot.control.follow").value];
+  EXPECT_EQ(follow.nodes[follow.input].operation,
+            (net::Operation{net::Operation::Kind::transition_function, 1}));
+  EXPECT_EQ(follow.nodes[2].operation.kind, net::Operation::Kind::next_iteration);
+}
+
+TEST(Pages, BeginWithTheStartBehaviour) {
+  spec::Model model = line_follower();
+  model.definitions[0].subsystems[0].start = 1;
+  EXPECT_EQ(transitions_of(build(model).pages, "robot.control").front(), "t_in: in -> follow");
+}
+
+TEST(Pages, AreRefusedWhereNothingWouldRun) {
+  spec::Model model;
+  diagnostics::Diagnostics out("m.yaml", "");
+  EXPECT_FALSE(layers::build(model, out));
+  ASSERT_EQ(out.sorted().size(), 1U);
+  EXPECT_EQ(out.sorted()[0].code, "E410");
+
+  model = line_follower();
+  model.definitions[0].subsystems[1].behaviours.clear();
+  diagnostics::Diagnostics more("m.yaml", "");
+  EXPECT_FALSE(layers::build(model, more));
+  ASSERT_EQ(more.sorted().size(), 1U);
+  EXPECT_EQ(more.sorted()[0].message, "subsystem 'sensor' has no behaviours");
+}
+
+}  // namespace
+}  // namespace tessera::test

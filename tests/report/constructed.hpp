@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "tessera/recording.hpp"
+
+/// Builds recordings event by event.
+class Constructed {
+ public:
+  tessera::Recording recording;
+
+  explicit Constructed(std::vector<std::string> subsystems) { recording.instances = std::move(subsystems); }
+
+  /// `transition` is local to the subsystem: "follow.t1".
+  Constructed& fire(double at_s, std::uint32_t subsystem, const std::string& transition) {
+    const std::string name = recording.instances.at(subsystem) + "." + transition;
+    std::uint32_t subject = 0;
+    while (subject < recording.transitions.size() && recording.transitions[subject].name != name) ++subject;
+    if (subject == recording.transitions.size()) recording.transitions.push_back({name, subsystem});
+    return add(at_s, subsystem, tessera::Event::Kind::firing, subject, 0, {});
+  }
+  Constructed& log(double at_s, std::uint32_t subsystem, std::uint32_t level, const std::string& text) {
+    return add(at_s, subsystem, tessera::Event::Kind::log, static_cast<std::uint32_t>(text.size()), level,
+               text);
+  }
+
+ private:
+  Constructed& add(double at_s, std::uint32_t subsystem, tessera::Event::Kind kind, std::uint32_t subject,
+                   std::uint32_t version, const std::string& text) {
+    recording.entries.push_back({{.time_ns = std::llround(at_s * 1e9),
+                                  .subject = subject,
+                                  .version = version,
+                                  .origin = subsystem * 256 + static_cast<std::uint32_t>(kind)},
+                                 text});
+    return *this;
+  }
+};

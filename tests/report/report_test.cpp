@@ -1,0 +1,158 @@
+#include "report/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "constructed.hpp"
+#include "report/charts.hpp"
+
+// fontconfig, which cairo asks for a font, keeps what it read until the process ends and counts as leaking
+// it.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
+
+using namespace tessera::report;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+ReportInput run_without_a_track() {
+  Constructed run({"robot.control", "robot.motor"});
+  run.recording.system = "tester";
+  run.recording.net_hash = "0123abcd";
+  run.recording.clock = "simulated";
+  for (std::uint32_t s : {0U, 1U}) run.fire(0, s, "t_in");
+  for (int i = 0; i < 40; ++i) run.fire(i * 0.05, 0, "follow.t1").fire(i * 0.05, 1, "drive.t1");
+  run.fire(2, 0, "follow.t6");
+  run.log(1.5, 0, 1, "careful");
+  return {.recording = run.recording,
+          .simulated_s = 2,
+          .wall_s = 0.01,
+          .firings = 1234567,
+          .ended = "time is up",
+          .verdicts = {{"safe", "holds", "by invariants"}}};
+}
+
+ReportInput run_on_a_track() {
+  ReportInput input = run_without_a_track();
+  std::string error;
+  const auto floor =
+      tessera::sim::Track::load(TESSERA_SOURCE_DIR "/share/tessera/tracks/oval.png", 0.005, error);
+  if (!floor) throw std::runtime_error(error);
+  tessera::sim::Trace trace;
+  for (int i = 0; i < 30'000; ++i) {
+    const double angle = i * 0.002;
+    trace.points.push_back({.t_s = i * 0.01,
+                            .x_m = 1.2 + 0.7 * std::cos(angle),
+                            .y_m = 0.6 + 0.4 * std::sin(angle),
+                            .heading_rad = angle,
+                            .eye_x_m = 1.2 + 0.8 * std::cos(angle),
+                            .eye_y_m = 0.6 + 0.5 * std::sin(angle),
+                            .on_line = i % 1000 > 30});
+  }
+  const auto line = skeleton(*floor);
+  input.drive = Drive{*floor, line, trace, measure(line, trace)};
+  return input;
+}
+
+TEST(Report, WithATrackIsAPageAndAPicture) {
+  const auto files = render(run_on_a_track());
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].name, "index.html");
+  EXPECT_EQ(files[1].name, "path.png");
+  EXPECT_EQ(files[1].bytes.substr(1, 3), "PNG");
+  for (const char* part : {"<h2>Path</h2>", "<h2>Lateral error</h2>", "<h2>Behaviours</h2>", "laps",
+                           "line lost", "data:image/png;base64,iVBOR"}) {
+    EXPECT_THAT(files[0].bytes, HasSubstr(part));
+  }
+}
+
+TEST(Report, WithoutATrackHasTimelineAndSummary) {
+  const auto files = render(run_without_a_track());
+  ASSERT_EQ(files.size(), 1U);
+  const std::string& page = files[0].bytes;
+  EXPECT_THAT(page, Not(HasSubstr("<h2>Path</h2>")));
+  for (const char* part : {"<h2>Behaviours</h2>", "robot.control", "follow", "drive", "0123abcd", "careful",
+                           "time is up", "by invariants", "1\u2009234\u2009567", "200 \u00d7"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+}
+
+TEST(Report, OfNothingIsStillAPage) {
+  const auto files = render({});
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_THAT(files[0].bytes, HasSubstr("</html>"));
+}
+
+TEST(Report, WithoutALineOrAPathIsStillAPage) {
+  ReportInput no_line = run_on_a_track();
+  no_line.drive->line = {};
+  no_line.drive->metrics = measure({}, no_line.drive->trace);
+  EXPECT_THAT(render(no_line)[0].bytes, Not(HasSubstr("<h2>Lateral error</h2>")));
+  ReportInput no_path = run_on_a_track();
+  no_path.drive->trace = {};
+  no_path.drive->metrics = {};
+  EXPECT_EQ(render(no_path).size(), 2U);
+}
+
+TEST(Report, NeedsNothingButItself) {
+  const std::string page = render(run_on_a_track())[0].bytes;
+  for (const char* part : {"http:", "https:", "<script", "url(", "<link"})
+    EXPECT_THAT(page, Not(HasSubstr(part)));
+}
+
+TEST(Report, TheSameInputGivesTheSameBytes) {
+  const auto first = render(run_on_a_track());
+  const auto second = render(run_on_a_track());
+  EXPECT_EQ(first[0].bytes, second[0].bytes);
+  EXPECT_EQ(first[1].bytes, second[1].bytes);
+}
+
+TEST(Report, TextFromOutsideIsEscaped) {
+  const std::string evil = "<img src=x onerror=\"alert('1')\">&";
+  Constructed run({evil});
+  run.recording.system = evil;
+  run.recording.net_hash = evil;
+  run.fire(0, 0, "t_in").fire(0, 0, evil + ".t1").fire(1, 0, "t_" + evil + "_1").log(1, 0, 2, evil);
+  const ReportInput input{.recording = run.recording,
+                          .ended = evil,
+                          .subsystems = {{evil, 1, 2, 3}},
+                          .verdicts = {{evil, evil, evil}}};
+  const std::string page = render(input)[0].bytes;
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_THAT(page, HasSubstr("&lt;img src=x onerror=&quot;alert(&#39;1&#39;)&quot;&gt;&amp;"));
+}
+
+TEST(Report, ControlCharactersDoNotReachThePage) {
+  EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)),
+            "a\xef\xbf\xbd"
+            "b\xef\xbf\xbd");
+}
+
+TEST(Report, DataUrisAreBase64) {
+  EXPECT_EQ(data_uri("text/plain", ""), "data:text/plain;base64,");
+  EXPECT_EQ(data_uri("text/plain", "f"), "data:text/plain;base64,Zg==");
+  EXPECT_EQ(data_uri("text/plain", "fo"), "data:text/plain;base64,Zm8=");
+  EXPECT_EQ(data_uri("text/plain", "foob"), "data:text/plain;base64,Zm9vYg==");
+  EXPECT_EQ(data_uri("a/b", "\xff\xfe\xfd"), "data:a/b;base64,//79");
+}
+
+TEST(Report, OfALongRunStaysSmall) {
+  ReportInput input = run_on_a_track();
+  Constructed run({"a.b"});
+  run.fire(0, 0, "t_in");
+  for (int i = 0; i < 100'000; ++i)
+    run.fire(i * 0.01, 0, "one.t1")
+        .fire(i * 0.01, 0, "one.t6")
+        .fire(i * 0.01, 0, "t_one_1")
+        .log(i * 0.01, 0, 0, "again and again");
+  input.recording = run.recording;
+  const std::string page = render(input)[0].bytes;
+  EXPECT_LT(page.size(), 1'500'000U);
+  EXPECT_THAT(page, HasSubstr("more messages are in the recording"));
+}
+
+}  // namespace

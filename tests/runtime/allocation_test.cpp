@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "nets.hpp"
+#include "test_system.hpp"
+
+// Counts every allocation of this program, so this test is a program of its own.
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+void* counted(std::size_t size, std::size_t alignment) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  void* memory = alignment <= alignof(std::max_align_t)
+                     ? std::malloc(size)
+                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, 0); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+/// Allocations of a run of that length, with a recording, log lines, timeouts and a device.
+[[nodiscard]] std::uint64_t allocations_of_a_run(RunOptions::Clock clock, Duration duration) {
+  TestSystem system;
+  Script sender, receiver;
+  sender.call = [](ScriptState& state) {
+    state.out_x = 1;
+    if (state.context.iteration % 10 == 0) state.context.log("iteration {}", state.context.iteration);
+  };
+  std::vector<double>& commands = system.devices.commands;
+  commands.reserve(100'000);
+  receiver.acts = true;
+  receiver.call = [](ScriptState& state) { state.command = state.x.value(); };
+  const auto a = system.add("robot.a", nets::nb_sender, sender, 3ms);
+  const auto b = system.add("robot.b", nets::b_receiver_timed, receiver, 1ms, 20ms, Kind::effector);
+  system.connect(a, "x", b, "x", buffered, 0ms, 1ms);
+  RunOptions options = simulated(duration);
+  options.clock = clock;
+  options.recording = scratch_file("run");
+  const std::uint64_t before = allocations.load();
+  EXPECT_GT(run(system, options).firings, 10u);
+  return allocations.load() - before;
+}
+
+TEST(FiringPath, AllocatesNothingUnderTheSimulatedClock) {
+  EXPECT_EQ(allocations_of_a_run(RunOptions::Clock::simulated, 10ms),
+            allocations_of_a_run(RunOptions::Clock::simulated, 5s));
+}
+
+TEST(FiringPath, AllocatesNothingUnderTheSteadyClock) {
+  EXPECT_EQ(allocations_of_a_run(RunOptions::Clock::steady, 50ms),
+            allocations_of_a_run(RunOptions::Clock::steady, 200ms));
+}
+
+}  // namespace
+}  // namespace tessera::testing

@@ -1,0 +1,129 @@
+#include "command_line.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "nets.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+/// Exit code of a controller with those arguments.
+int control(TestSystem& system, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "controller");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  return controller_main(system.system(), static_cast<int>(argv.size()), argv.data());
+}
+
+struct CommandLineOf : ::testing::Test {
+  TestSystem system;
+  Script script;
+  double gain = 0;
+  CommandLineOf() {
+    script.call = [this](ScriptState& state) { gain = state.gain; };
+    system.add("robot.a", nets::alone, script, 10ms);
+  }
+};
+
+TEST_F(CommandLineOf, SimulateRunsAndSummarises) {
+  const std::string summary = scratch_file("summary.json");
+  const std::string recording = scratch_file("run");
+  EXPECT_EQ(control(system, {"simulate", "--for", "2s", "--set", "robot.a.gain=3", "--summary", summary,
+                             "--record", recording}),
+            0);
+  EXPECT_EQ(gain, 3);
+  const auto json = nlohmann::json::parse(bytes_of(summary));
+  EXPECT_EQ(json.at("simulated_s"), 2.0);
+  EXPECT_EQ(json.at("ended"), "duration");
+  EXPECT_EQ(json.at("failed"), false);
+  EXPECT_EQ(json.at("recording"), recording);
+  EXPECT_EQ(json.at("subsystems").at(0).at("path"), "robot.a");
+  EXPECT_EQ(json.at("subsystems").at(0).at("iterations"), 200);
+  EXPECT_GT(json.at("real_time_factor"), 0);
+}
+
+TEST_F(CommandLineOf, ParameterFileComesBeforeSet) {
+  const std::string file = scratch_file("params");
+  std::ofstream(file) << "gain = 2\n";
+  EXPECT_EQ(control(system, {"simulate", "--for", "10ms", "--parameters", file}), 0);
+  EXPECT_EQ(gain, 2);
+  EXPECT_EQ(control(system, {"simulate", "--for", "10ms", "--set", "gain=4", "--parameters", file}), 0);
+  EXPECT_EQ(gain, 4);
+}
+
+TEST_F(CommandLineOf, ConfigFileHoldsOptions) {
+  const std::string file = scratch_file("config.toml");
+  std::ofstream(file) << "[simulate]\nfor = \"10ms\"\nset = [\"gain=5\"]\n";
+  EXPECT_EQ(control(system, {"--config", file, "simulate"}), 0);
+  EXPECT_EQ(gain, 5);
+}
+
+TEST_F(CommandLineOf, WrongUsageIsTwo) {
+  EXPECT_EQ(control(system, {}), 2);
+  EXPECT_EQ(control(system, {"fly"}), 2);
+  EXPECT_EQ(control(system, {"simulate", "--for", "soon"}), 2);
+  EXPECT_EQ(control(system, {"simulate", "--set", "gain"}), 2);
+  EXPECT_EQ(control(system, {"simulate", "--driver", "robot.a.x"}), 2);
+  EXPECT_EQ(control(system, {"simulate", "--nonsense"}), 2);
+  EXPECT_EQ(control(system, {"run", "--realtime"}), 2);
+}
+
+TEST_F(CommandLineOf, WhatCannotStartIsOne) {
+  EXPECT_EQ(control(system, {"simulate", "--for", "1s", "--set", "unknown=1"}), 1);
+  EXPECT_EQ(control(system, {"simulate", "--for", "1s", "--parameters", "/nonexistent"}), 1);
+  EXPECT_EQ(control(system, {"simulate", "--for", "1s", "--record", "/nonexistent/run"}), 1);
+  EXPECT_EQ(control(system, {"simulate", "--for", "10ms", "--summary", "/nonexistent/summary"}), 1);
+}
+
+TEST_F(CommandLineOf, HelpIsZero) { EXPECT_EQ(control(system, {"simulate", "--help"}), 0); }
+
+TEST(CommandLine, FailedRunIsOne) {
+  TestSystem system;
+  Script script;
+  script.decide = [](const ScriptState&) { return Outcome::error; };
+  system.add("robot.a", nets::alone, script, 10ms);
+  EXPECT_EQ(control(system, {"simulate", "--for", "1s"}), 1);
+}
+
+TEST(CommandLine, InterruptedRunIs130) {
+  TestSystem system;
+  Script script;
+  script.call = [](ScriptState&) { kill(getpid(), SIGINT); };  // more than once before it stops
+  system.add("robot.a", nets::alone, script, 1ms);
+  EXPECT_EQ(control(system, {"run"}), 130);
+}
+
+TEST(CommandLine, DurationsHaveUnits) {
+  EXPECT_EQ(parse_duration("60s"), Duration(60s));
+  EXPECT_EQ(parse_duration("90"), Duration(90s));
+  EXPECT_EQ(parse_duration("1.5 min"), Duration(90s));
+  EXPECT_EQ(parse_duration("200ms"), Duration(200ms));
+  EXPECT_EQ(parse_duration("1e3ms"), Duration(1s));
+  EXPECT_EQ(parse_duration("2h"), Duration(2h));
+  for (const char* wrong : {"", "s", "-1s", "1parsec", "1s1", "nan", "inf", "1e30h"})
+    EXPECT_EQ(parse_duration(wrong), std::nullopt) << wrong;
+}
+
+TEST(CommandLine, DriversHaveAKindATargetAndOptions) {
+  std::string error;
+  const auto request =
+      parse_driver("robot.sensor.left=reflectance:eye_left,noise=0.01,footprint=0.02", error);
+  ASSERT_TRUE(request) << error;
+  EXPECT_EQ(request->path, "robot.sensor.left");
+  EXPECT_EQ(request->kind, "reflectance");
+  EXPECT_EQ(request->target, "eye_left");
+  EXPECT_EQ(request->options, (std::map<std::string, double>{{"noise", 0.01}, {"footprint", 0.02}}));
+  for (const char* wrong : {"robot.sensor.left", "=a:b", "x=a", "x=:b", "x=a:b,noise", "x=a:b,noise=much"})
+    EXPECT_FALSE(parse_driver(wrong, error)) << wrong;
+}
+
+}  // namespace
+}  // namespace tessera::testing

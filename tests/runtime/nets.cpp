@@ -1,0 +1,159 @@
+#include "nets.hpp"
+
+#include "blocks.hpp"
+
+namespace tessera::testing::nets {
+namespace {
+
+constexpr Behaviour run_only[] = {{"run"}};
+constexpr Behaviour first_second[] = {{"first"}, {"second"}};
+constexpr Port sends_x[] = {{"x", Side::send, "x"}};
+constexpr Port receives_x[] = {{"x", Side::receive, "x"}};
+constexpr Port sends_x_y[] = {{"x", Side::send, "x"}, {"y", Side::send, "y"}};
+
+constexpr Place alone_places[] = {{"in"}, {"out"}, BEHAVIOUR_PLACES("run")};
+const Transition alone_transitions[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NO_SEND("run"),
+                                        NO_RECEIVE("run"), NEXT_END("run", 0)};
+
+constexpr Place two_places[] = {{"in"}, {"out"}, BEHAVIOUR_PLACES("first"), BEHAVIOUR_PLACES("second")};
+const Transition two_transitions[] = {ENTER("first"),
+                                      BEHAVIOUR_TRANSITIONS("first"),
+                                      NO_SEND("first"),
+                                      NO_RECEIVE("first"),
+                                      BEHAVIOUR_TRANSITIONS("second"),
+                                      NO_SEND("second"),
+                                      NO_RECEIVE("second"),
+                                      NEXT("first", 0, "second"),
+                                      NEXT_END("first", 1),
+                                      NEXT("second", 0, "first")};
+
+constexpr Place sender_places[] = {{"in"}, {"out"}, BEHAVIOUR_PLACES("run"), SEND_PLACES("run", "x")};
+constexpr Place waiting_sender_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("run"), SEND_PLACES("run", "x"), WAIT_PLACE("run", "x")};
+constexpr Place receiver_places[] = {{"in"}, {"out"}, BEHAVIOUR_PLACES("run"), RECEIVE_PLACES("run", "x")};
+
+#define SENDER ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NO_RECEIVE("run"), NEXT_END("run", 0)
+#define RECEIVER ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NO_SEND("run"), NEXT_END("run", 0)
+#define SND "run", "x", "run.snd.in", "run.snd.out"
+#define RCV "run", "x", "run.rcv.in", "run.rcv.out"
+#define EXPAND(x) x
+#define B2(block, ...) EXPAND(block(__VA_ARGS__))
+
+const Transition async_send[] = {SENDER, B2(ASYNC_SEND, SND)};
+const Transition async_receive[] = {RECEIVER, B2(ASYNC_RECEIVE, RCV)};
+const Transition nb_send[] = {SENDER, B2(NB_SEND, SND)};
+const Transition nb_send_persistent[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NO_RECEIVE("run"),
+                                         NEXT("run", 0, "run"), B2(NB_SEND, SND)};
+const Transition b_send[] = {SENDER, B2(B_SEND, SND)};
+const Transition b_send_timed[] = {SENDER, B2(B_SEND, SND), B2(B_SEND_TIMEOUT, SND)};
+const Transition b_receive[] = {RECEIVER, B2(B_RECEIVE, RCV)};
+const Transition b_receive_timed[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_TIMEOUT, RCV)};
+const Transition nb_receive[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_SKIP, RCV)};
+const Transition b_receive_ack[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV)};
+const Transition b_receive_ack_timed[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV), B2(RECEIVE_TIMEOUT, RCV)};
+const Transition nb_receive_ack[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV), B2(RECEIVE_SKIP, RCV)};
+
+constexpr Place parallel_places[] = {{"in"},
+                                     {"out"},
+                                     BEHAVIOUR_PLACES("run"),
+                                     SEND_PLACES("run", "x"),
+                                     WAIT_PLACE("run", "x"),
+                                     {"run.snd.x.in"},
+                                     {"run.snd.x.out"},
+                                     SEND_PLACES("run", "y"),
+                                     WAIT_PLACE("run", "y"),
+                                     {"run.snd.y.in"},
+                                     {"run.snd.y.out"}};
+const Transition parallel_send[] = {SENDER,
+                                    {"run.snd.fork", {"run.snd.in"}, {"run.snd.x.in", "run.snd.y.in"}},
+                                    B_SEND("run", "x", "run.snd.x.in", "run.snd.x.out"),
+                                    B_SEND("run", "y", "run.snd.y.in", "run.snd.y.out"),
+                                    {"run.snd.join", {"run.snd.x.out", "run.snd.y.out"}, {"run.snd.out"}}};
+
+constexpr Port relay_ports[] = {{"in", Side::receive, "x"}, {"out", Side::send, "x"}};
+constexpr Place relay_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("run"), SEND_PLACES("run", "out"), RECEIVE_PLACES("run", "in")};
+const Transition relay_transitions[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NEXT_END("run", 0),
+                                        ASYNC_SEND("run", "out", "run.snd.in", "run.snd.out"),
+                                        ASYNC_RECEIVE("run", "in", "run.rcv.in", "run.rcv.out")};
+
+constexpr Behaviour watch_only[] = {{"watch"}}, drive_only[] = {{"drive"}},
+                    init_follow[] = {{"init"}, {"follow"}};
+constexpr Port line_out[] = {{"line", Side::send, "x"}}, velocity_in[] = {{"velocity", Side::receive, "x"}};
+constexpr Port control_ports[] = {{"line", Side::receive, "x"}, {"motion", Side::send, "x"}};
+constexpr Place paper_sensor_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("watch"), SEND_PLACES("watch", "line")};
+constexpr Place paper_motor_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("drive"), RECEIVE_PLACES("drive", "velocity")};
+constexpr Place paper_control_places[] = {{"in"},
+                                          {"out"},
+                                          BEHAVIOUR_PLACES("init"),
+                                          SEND_PLACES("init", "motion"),
+                                          RECEIVE_PLACES("init", "line"),
+                                          BEHAVIOUR_PLACES("follow"),
+                                          SEND_PLACES("follow", "motion"),
+                                          RECEIVE_PLACES("follow", "line")};
+const Transition paper_sensor_transitions[] = {ENTER("watch"), BEHAVIOUR_TRANSITIONS("watch"),
+                                               NO_RECEIVE("watch"), NEXT_END("watch", 0),
+                                               ASYNC_SEND("watch", "line", "watch.snd.in", "watch.snd.out")};
+const Transition paper_motor_transitions[] = {
+    ENTER("drive"),
+    BEHAVIOUR_TRANSITIONS("drive"),
+    NO_SEND("drive"),
+    NEXT_END("drive", 0),
+    B_RECEIVE("drive", "velocity", "drive.rcv.in", "drive.rcv.out"),
+    RECEIVE_TIMEOUT("drive", "velocity", "drive.rcv.in", "drive.rcv.out")};
+const Transition paper_control_transitions[] = {
+    ENTER("init"),
+    BEHAVIOUR_TRANSITIONS("init"),
+    NEXT("init", 0, "follow"),
+    ASYNC_RECEIVE("init", "line", "init.rcv.in", "init.rcv.out"),
+    NB_SEND("init", "motion", "init.snd.in", "init.snd.out"),
+    BEHAVIOUR_TRANSITIONS("follow"),
+    NEXT_END("follow", 0),
+    ASYNC_RECEIVE("follow", "line", "follow.rcv.in", "follow.rcv.out"),
+    NB_SEND("follow", "motion", "follow.snd.in", "follow.snd.out")};
+
+// Two items in store: the lock and a free slot are taken together, or the lock and an item.
+constexpr FusedPlace store[] = {{"lock", 1}, {"free1", 1}, {"free2", 1}, {"item1", 0}, {"item2", 0}};
+constexpr Place store_send_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("run"), {"run.put1", writes("x")}, {"run.put2", writes("x")}};
+const Transition store_send[] = {SENDER,
+                                 {"run.take1", {"run.snd.in", "x/lock", "x/free1"}, {"run.put1"}},
+                                 {"run.take2", {"run.snd.in", "x/lock", "x/free2"}, {"run.put2"}},
+                                 {"run.give1", {"run.put1"}, {"run.snd.out", "x/lock", "x/item1"}},
+                                 {"run.give2", {"run.put2"}, {"run.snd.out", "x/lock", "x/item2"}}};
+constexpr Place store_receive_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("run"), {"run.get1", reads("x")}, {"run.get2", reads("x")}};
+const Transition store_receive[] = {RECEIVER,
+                                    {"run.take1", {"run.rcv.in", "x/lock", "x/item1"}, {"run.get1"}},
+                                    {"run.take2", {"run.rcv.in", "x/lock", "x/item2"}, {"run.get2"}},
+                                    {"run.free1", {"run.get1"}, {"run.rcv.out", "x/lock", "x/free1"}},
+                                    {"run.free2", {"run.get2"}, {"run.rcv.out", "x/lock", "x/free2"}}};
+
+}  // namespace
+
+const SubsystemNet alone{run_only, {}, alone_places, alone_transitions};
+const SubsystemNet two_behaviours{first_second, {}, two_places, two_transitions};
+const SubsystemNet async_sender{run_only, sends_x, sender_places, async_send};
+const SubsystemNet async_receiver{run_only, receives_x, receiver_places, async_receive};
+const SubsystemNet nb_sender{run_only, sends_x, sender_places, nb_send};
+const SubsystemNet nb_sender_persistent{run_only, sends_x, sender_places, nb_send_persistent};
+const SubsystemNet b_sender{run_only, sends_x, waiting_sender_places, b_send};
+const SubsystemNet b_sender_timed{run_only, sends_x, waiting_sender_places, b_send_timed};
+const SubsystemNet b_receiver{run_only, receives_x, receiver_places, b_receive};
+const SubsystemNet b_receiver_timed{run_only, receives_x, receiver_places, b_receive_timed};
+const SubsystemNet nb_receiver{run_only, receives_x, receiver_places, nb_receive};
+const SubsystemNet b_receiver_ack{run_only, receives_x, receiver_places, b_receive_ack};
+const SubsystemNet b_receiver_ack_timed{run_only, receives_x, receiver_places, b_receive_ack_timed};
+const SubsystemNet nb_receiver_ack{run_only, receives_x, receiver_places, nb_receive_ack};
+const SubsystemNet parallel_sender{run_only, sends_x_y, parallel_places, parallel_send};
+const SubsystemNet async_relay{run_only, relay_ports, relay_places, relay_transitions};
+const SubsystemNet paper_sensor{watch_only, line_out, paper_sensor_places, paper_sensor_transitions};
+const SubsystemNet paper_control{init_follow, control_ports, paper_control_places, paper_control_transitions};
+const SubsystemNet paper_motor{drive_only, velocity_in, paper_motor_places, paper_motor_transitions};
+const SubsystemNet store_sender{run_only, sends_x, store_send_places, store_send};
+const SubsystemNet store_receiver{run_only, receives_x, store_receive_places, store_receive};
+const std::span<const FusedPlace> two_slots{store};
+
+}  // namespace tessera::testing::nets

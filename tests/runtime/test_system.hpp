@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tessera/bounded_string.hpp"
+#include "tessera/controller.hpp"
+#include "tessera/tables.hpp"
+
+namespace tessera::testing {
+
+/// What a Script subsystem has and does. Values are doubles; x is what channels carry.
+struct ScriptState {
+  Input<double> x, y;
+  Output<double> out_x, out_y;
+  Input<double> sensed;
+  Output<double> command;
+  double gain = 1;
+  std::int32_t level = 3;
+  bool flag = false;
+  BoundedString<8> label;
+  Context context;
+  std::uint16_t behaviour = 0;
+};
+
+struct Script {
+  std::function<void(ScriptState&)> call = [](ScriptState&) {};
+  std::function<Outcome(const ScriptState&)> decide = [](const ScriptState&) { return Outcome::go_on; };
+  std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
+  bool senses = false, acts = false;  ///< has a real receptor, a real effector
+  double safe = -1;
+};
+
+/// A device that remembers.
+struct Devices {
+  std::vector<double> commands;        ///< of effectors, in order
+  std::function<bool(double&)> sense;  ///< of receptors
+  std::function<bool(double)> accept;  ///< of effectors; unset: yes
+};
+
+/// A system written by hand. Owns what the tables point to; one at a time.
+class TestSystem {
+ public:
+  TestSystem();
+  TestSystem(const TestSystem&) = delete;
+  TestSystem& operator=(const TestSystem&) = delete;
+  ~TestSystem();
+
+  /// Returns its index. Agents in order: "robot", then others.
+  std::uint32_t add(std::string path, const SubsystemNet& net, Script script, Duration period = Duration{0},
+                    Duration stale = Duration{0}, Kind kind = Kind::control);
+  void connect(std::uint32_t from, std::string_view out_port, std::uint32_t to, std::string_view in_port,
+               std::span<const FusedPlace> places, Duration send_timeout = Duration{0},
+               Duration receive_timeout = Duration{0});
+  /// Made up from what was added; valid until the next change.
+  [[nodiscard]] const System& system();
+
+  Devices devices;
+
+ private:
+  std::vector<std::unique_ptr<std::string>> names_;
+  std::vector<Instance> instances_;
+  std::vector<Channel> channels_;
+  std::vector<CppDriver> drivers_;
+  std::string hash_;
+  System system_{};
+};
+
+/// Runs it; fails the test when it cannot start.
+[[nodiscard]] RunSummary run(TestSystem& system, const RunOptions& options);
+
+[[nodiscard]] inline RunOptions simulated(Duration duration) {
+  RunOptions options;
+  options.duration = duration;
+  return options;
+}
+[[nodiscard]] inline RunOptions steady(Duration duration) {
+  RunOptions options = simulated(duration);
+  options.clock = RunOptions::Clock::steady;
+  return options;
+}
+
+/// A name for a file of this test in a fresh directory.
+[[nodiscard]] std::string scratch_file(const std::string& name);
+[[nodiscard]] std::string bytes_of(const std::string& file);
+
+}  // namespace tessera::testing

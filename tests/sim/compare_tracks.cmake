@@ -1,0 +1,10 @@
+# Draws the tracks into FRESH and compares them with those in SHIPPED.
+file(MAKE_DIRECTORY ${FRESH})
+execute_process(COMMAND ${DRAW} ${FRESH} COMMAND_ERROR_IS_FATAL ANY)
+foreach(track oval curves gap)
+  file(SHA256 ${FRESH}/${track}.png fresh)
+  file(SHA256 ${SHIPPED}/${track}.png shipped)
+  if(NOT fresh STREQUAL shipped)
+    message(FATAL_ERROR "${track}.png differs: run draw_tracks ${SHIPPED}")
+  endif()
+endforeach()

@@ -1,0 +1,326 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "drawing.hpp"
+#include "sim/trace.hpp"
+#include "tessera/device.hpp"
+#include "world_library.hpp"
+
+using tessera::DriverRequest;
+using tessera::Time;
+using tessera::World;
+namespace sim = tessera::sim;
+using tessera::WorldOptions;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+namespace {
+
+const DriverRequest eye{"robot.sensor.left", "reflectance", "eye_left", {}};
+const DriverRequest wheel{"robot.motor.left", "velocity", "wheel_left", {}};
+
+std::unique_ptr<World> open(const WorldOptions& options) {
+  std::string error;
+  auto world = open_world(options, error);
+  if (!world) throw std::runtime_error(error);
+  return world;
+}
+
+double read(tessera::RealReceptor& receptor) {
+  std::array<std::byte, 8> bytes{};
+  EXPECT_TRUE(receptor.read(bytes));
+  double value = 0;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return value;
+}
+
+bool write(tessera::RealEffector& effector, double value) {
+  return effector.write(std::as_bytes(std::span(&value, 1)));
+}
+
+std::string temporary(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("tessera_world_" + name);
+}
+
+std::string file_with(const std::string& name, const std::string& text) {
+  std::ofstream(temporary(name)) << text;
+  return temporary(name);
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// Drives with those wheel speeds for that time; returns the trace's file.
+std::string driven(double left, double right, std::chrono::milliseconds time, const std::string& name) {
+  const WorldOptions options{.world = line_world(),
+                             .track = {},
+                             .start_x_m = 1,
+                             .start_y_m = 2,
+                             .start_heading_rad = 0.5,
+                             .trace = temporary(name)};
+  const auto world = open(options);
+  std::string error;
+  const auto left_wheel = world->effector(wheel, error);
+  const auto right_wheel = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
+  EXPECT_TRUE(write(*left_wheel, left));
+  EXPECT_TRUE(write(*right_wheel, right));
+  world->advance_to(Time(time));
+  EXPECT_TRUE(world->finish(error)) << error;
+  return options.trace;
+}
+
+TEST(World, WheelSpeedsMoveTheRobotAsTheyShould) {
+  std::string error;
+  const auto straight = sim::read_trace(driven(5, 5, 10s, "straight.csv"), error);
+  ASSERT_TRUE(straight) << error;
+  const auto& last = straight->points.back();
+  EXPECT_NEAR(std::hypot(last.x_m - 1, last.y_m - 2), 5 * 0.03 * 10, 0.02);
+  EXPECT_NEAR(last.heading_rad, 0.5, 0.01);
+  const auto turning = sim::read_trace(driven(-2, 2, 1s, "turning.csv"), error);
+  ASSERT_TRUE(turning) << error;
+  EXPECT_NEAR(turning->points.back().heading_rad, 0.5 + 2 * 2 * 0.03 / 0.16, 0.05);
+}
+
+TEST(World, TheTraceStartsAtTheStartAndHasAPointEveryTenMilliseconds) {
+  std::string error;
+  const auto trace = sim::read_trace(driven(0, 0, 1s, "start.csv"), error);
+  ASSERT_TRUE(trace) << error;
+  ASSERT_EQ(trace->points.size(), 101U);
+  EXPECT_NEAR(trace->points[0].x_m, 1, 1e-6);
+  EXPECT_NEAR(trace->points[0].y_m, 2, 1e-6);
+  EXPECT_NEAR(trace->points[0].heading_rad, 0.5, 1e-6);
+  EXPECT_NEAR(trace->points[57].t_s, 0.57, 1e-9);
+}
+
+TEST(World, AStartPoseSaidInPartKeepsTheRest) {
+  const WorldOptions options{.world = line_world(), .start_y_m = 3, .trace = temporary("partial.csv")};
+  const auto world = open(options);
+  world->advance_to(Time(10ms));
+  std::string error;
+  ASSERT_TRUE(world->finish(error));
+  const auto trace = sim::read_trace(options.trace, error);
+  EXPECT_NEAR(trace->points[0].x_m, 0, 1e-6);
+  EXPECT_NEAR(trace->points[0].y_m, 3, 1e-6);
+}
+
+TEST(World, TheSameRunWritesTheSameBytes) {
+  const std::string first = bytes_of(driven(3, 4, 3s, "first.csv"));
+  EXPECT_EQ(first, bytes_of(driven(3, 4, 3s, "second.csv")));
+  EXPECT_GT(first.size(), 10'000U);
+}
+
+TEST(World, HowOftenTheClockStopsDoesNotMatterToThePath) {
+  const auto path_in_steps_of = [](std::chrono::milliseconds step) {
+    const WorldOptions options{.world = line_world(), .trace = temporary("steps.csv")};
+    const auto world = open(options);
+    std::string error;
+    const auto left = world->effector(wheel, error);
+    EXPECT_TRUE(write(*left, 4));
+    for (auto t = 0ms; t <= 2s; t += step) world->advance_to(Time(t));
+    EXPECT_TRUE(world->finish(error));
+    return bytes_of(options.trace);
+  };
+  EXPECT_EQ(path_in_steps_of(5ms), path_in_steps_of(500ms));
+}
+
+TEST(World, NoiseComesFromTheSeedAndTheDevice) {
+  const auto readings = [](std::uint64_t seed, const std::string& path) {
+    const std::string grey = write_png(std::vector<std::uint8_t>(100, 128), 10, "grey");
+    const auto world = open({
+        .world = line_world(),
+        .track = grey,
+        .start_x_m = -0.07,
+        .start_y_m = 0.025,
+        .seed = seed,
+    });
+    std::filesystem::remove(grey);
+    std::string error;
+    const auto receptor = world->receptor({path, "reflectance", "eye_middle", {}}, error);
+    std::vector<double> values;
+    for (int i = 0; i < 1000; ++i) values.push_back(read(*receptor));
+    return values;
+  };
+  const auto one = readings(1, "a.b.c");
+  EXPECT_EQ(one, readings(1, "a.b.c"));
+  EXPECT_NE(one, readings(2, "a.b.c"));
+  EXPECT_NE(one, readings(1, "a.b.d"));
+  double mean = 0;
+  double squares = 0;
+  for (const double v : one) mean += v / 1000, squares += v * v / 1000;
+  EXPECT_NEAR(mean, 128 / 255.0, 0.002);
+  EXPECT_NEAR(std::sqrt(squares - mean * mean), 0.01, 0.002);
+}
+
+TEST(World, NoiseIsAnOption) {
+  const auto world = open({.world = line_world()});
+  std::string error;
+  const auto quiet = world->receptor({"a", "reflectance", "eye_left", {{"noise", 0}}}, error);
+  EXPECT_EQ(read(*quiet), 1);
+}
+
+TEST(World, SaysWhatItHasWhenAskedForWhatItHasNot) {
+  const auto world = open({.world = line_world()});
+  struct Case {
+    DriverRequest request;
+    bool receptor;
+    std::string message;
+  };
+  for (const Case& c : {
+           Case{{"a.b.c", "reflectance", "eye_lef", {}},
+                true,
+                "a.b.c: no site 'eye_lef' (did you mean 'eye_left'?); there are eye_left, eye_middle, "
+                "eye_right"},
+           Case{{"a.b.c", "velocity", "xyzzy", {}},
+                false,
+                "a.b.c: no actuator 'xyzzy'; there are wheel_left, wheel_right"},
+           Case{{"a.b.c", "reflectence", "eye_left", {}},
+                true,
+                "a.b.c: no receptor 'reflectence' (did you mean 'reflectance'?); there is reflectance"},
+           Case{{"a.b.c", "torque", "wheel_left", {}},
+                false,
+                "a.b.c: no effector 'torque'; there is velocity"},
+           Case{{"a.b.c", "reflectance", "eye_left", {{"nois", 1}}},
+                true,
+                "a.b.c: no option 'nois' (did you mean 'noise'?); there are noise, footprint"},
+           Case{{"a.b.c", "reflectance", "eye_left", {{"noise", -1}}},
+                true,
+                "a.b.c: option 'noise' must be a number from 0 up"},
+           Case{{"a.b.c", "velocity", "wheel_left", {{"gain", 1}}},
+                false,
+                "a.b.c: no option 'gain'; there is none at all"},
+       }) {
+    std::string error;
+    EXPECT_TRUE(c.receptor ? world->receptor(c.request, error) == nullptr
+                           : world->effector(c.request, error) == nullptr);
+    EXPECT_EQ(error, c.message);
+  }
+}
+
+TEST(World, SaysWhyItDoesNotOpen) {
+  const std::string broken = file_with("broken.xml", "<mujoco><worldbody><body></mujoco>");
+  const std::string unknown = file_with("unknown.xml", "<mujoco><worldbody><blob/></worldbody></mujoco>");
+  const std::string fixed =
+      file_with("fixed.xml", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>");
+  struct Case {
+    WorldOptions options;
+    std::string part;
+  };
+  for (const Case& c :
+       {Case{{.world = "/nowhere/world.xml"}, "/nowhere/world.xml: "}, Case{{.world = broken}, "XML"},
+        Case{{.world = unknown}, "blob"},
+        Case{{.world = line_world(), .track = "/nowhere/track.png"}, "/nowhere/track.png"},
+        Case{{.world = line_world(), .track = shipped_track("oval.png"), .metres_per_pixel = 0}, "positive"},
+        Case{{.world = line_world(), .start_x_m = std::nan("")}, "finite"},
+        Case{{.world = line_world(), .footprint_m = -1}, "footprint"},
+        Case{{.world = fixed, .start_x_m = 1}, "free joint"}}) {
+    std::string error;
+    EXPECT_EQ(open_world(c.options, error), nullptr);
+    EXPECT_THAT(error, HasSubstr(c.part));
+  }
+}
+
+TEST(World, ATraceThatCannotBeWrittenIsSaidAtTheEnd) {
+  for (const std::string path : {"/nowhere/trace.csv", "/dev/full"}) {
+    const auto world = open({.world = line_world(), .trace = path});
+    world->advance_to(Time(2s));
+    std::string error;
+    EXPECT_FALSE(world->finish(error));
+    EXPECT_THAT(error, HasSubstr(path));
+  }
+}
+
+TEST(World, ABufferOfAnotherSizeIsRefused) {
+  const auto world = open({.world = line_world()});
+  std::string error;
+  std::array<std::byte, 4> four{};
+  const auto receptor = world->receptor(eye, error);
+  const auto effector = world->effector(wheel, error);
+  EXPECT_THROW(static_cast<void>(receptor->read(four)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(effector->write(four)), std::invalid_argument);
+}
+
+TEST(World, AWheelRefusesWhatIsNotFinite) {
+  const auto world = open({.world = line_world()});
+  std::string error;
+  const auto effector = world->effector(wheel, error);
+  EXPECT_FALSE(write(*effector, std::nan("")));
+  EXPECT_FALSE(write(*effector, -INFINITY));
+  EXPECT_TRUE(write(*effector, 1));
+}
+
+/// A world whose physics fails once it runs.
+void expect_failure(const std::string& mjcf, const std::string& part) {
+  const auto world = open({.world = mjcf});
+  std::string error;
+  const auto receptor = world->receptor({"a", "reflectance", "s", {}}, error);
+  ASSERT_NE(receptor, nullptr) << error;
+  world->advance_to(Time(2s));
+  EXPECT_FALSE(world->finish(error));
+  EXPECT_THAT(error, HasSubstr("the physics failed at"));
+  EXPECT_THAT(error, HasSubstr(part));
+  std::array<std::byte, 8> value{};
+  EXPECT_THROW(static_cast<void>(receptor->read(value)), std::runtime_error);
+}
+
+TEST(World, AnUnstableSimulationIsAnError) {
+  expect_failure(
+      file_with("unstable.xml", R"(<mujoco><option timestep="0.05"/><worldbody><body><site name="s"/>
+    <joint type="slide" stiffness="1e9"/><geom size="0.1" mass="0.001"/></body></worldbody></mujoco>)"),
+      "unstable");
+}
+
+/// Falls on the floor: contacts need more of the engine's stack than there is in the end.
+std::string falling_with_stack(int numbers) {
+  return file_with("stack.xml",
+                   "<mujoco><size nstack='" + std::to_string(numbers) + R"('/><worldbody><site name="s"/>
+    <geom type="plane" size="1 1 1"/><body pos="0 0 0.5"><freejoint/><geom type="box" size="0.1 0.1 0.1"/></body>
+    </worldbody></mujoco>)");
+}
+
+TEST(World, AnErrorOfTheEngineDoesNotEndTheProcess) {
+  expect_failure(falling_with_stack(150), "tack overflow");
+}
+
+TEST(World, AnErrorOfTheEngineWhileLoadingDoesNotEndTheProcess) {
+  std::string error;
+  EXPECT_EQ(open_world({.world = falling_with_stack(1)}, error), nullptr);
+  EXPECT_THAT(error, HasSubstr("tack overflow"));
+}
+
+TEST(World, DevicesOutliveIt) {
+  auto world = open({.world = line_world()});
+  std::string error;
+  const auto receptor = world->receptor(eye, error);
+  world.reset();
+  EXPECT_GT(read(*receptor), 0.9);
+}
+
+TEST(World, DevicesMayBeUsedWhileItMoves) {
+  const auto world = open({.world = line_world(), .track = shipped_track("oval.png")});
+  std::string error;
+  const auto receptor = world->receptor(eye, error);
+  const auto effector = world->effector(wheel, error);
+  std::thread sensor([&] {
+    for (int i = 0; i < 2000; ++i) EXPECT_GE(read(*receptor), 0);
+  });
+  std::thread motor([&] {
+    for (int i = 0; i < 2000; ++i) EXPECT_TRUE(write(*effector, i % 5));
+  });
+  for (int i = 0; i < 200; ++i) world->advance_to(Time(std::chrono::milliseconds(5 * i)));
+  sensor.join();
+  motor.join();
+  EXPECT_TRUE(world->finish(error)) << error;
+}
+
+}  // namespace

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "spec/model.hpp"
+
+namespace tessera::test {
+
+/// A small system: two to four subsystems and up to six channels of all modes, with and without timeouts. Most
+/// subsystems repeat one sequence of communications, in one behaviour or in several; some have a start-up, some may
+/// end, some transfer in parallel, and a few have behaviours that do not fold. The same seed gives the same system.
+[[nodiscard]] spec::Model random_system(std::uint64_t seed);
+
+/// For systems built by hand.
+class SystemBuilder {
+ public:
+  struct Ends {
+    bool send_blocks = false, receive_blocks = false, send_timeout = false, receive_timeout = false;
+  };
+
+  /// Subsystems come each in an agent of its own, or with the one before. Returns the instance.
+  spec::Index subsystem(bool own_agent = true);
+  /// Returns the index of the channel.
+  spec::Index channel(spec::Index from, spec::Index to, Ends ends);
+  /// A behaviour that sends and receives on the given channels, in this order. Returns its index.
+  spec::Index behaviour(spec::Index instance, const std::vector<spec::Index>& sends,
+                        const std::vector<spec::Index>& receives,
+                        spec::Transfer transfer = spec::Transfer::sequential);
+  /// How a behaviour ends: always after one round, or whenever it likes; and what may follow (none: `end`).
+  void leave(spec::Index instance, spec::Index behaviour, bool always, const std::vector<spec::Index>& next);
+  void may_fail(spec::Index instance, spec::Index behaviour);
+
+  [[nodiscard]] spec::Model result() const { return model_; }
+
+ private:
+  spec::Subsystem& at(spec::Index instance);
+  spec::Model model_;
+};
+
+}  // namespace tessera::test

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/launch.hpp"
@@ -55,11 +56,37 @@ int simulate_command(const SimulateOptions& options) {
   return launch(*controller, launching, command, options.json, options.report);
 }
 
+// On the steady clock without a world, every real buffer needs a device of its own.
+std::vector<std::string> buffers_without_driver(const spec::Model& model) {
+  std::set<std::pair<spec::Index, spec::Index>> driven;
+  for (const spec::Driver& driver : model.drivers) driven.emplace(driver.instance, driver.real);
+  std::vector<std::string> missing;
+  for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
+    const std::vector<spec::Field>& real = model.subsystem(instance).real;
+    for (spec::Index buffer = 0; buffer < real.size(); ++buffer)
+      if (!driven.contains({instance, buffer}))
+        missing.push_back(model.instance_path(instance) + "." + real[buffer].name);
+  }
+  return missing;
+}
+
+int complain_of_drivers(const std::vector<std::string>& missing) {
+  for (const std::string& buffer : missing) complain(fmt::format("the real buffer {} has no driver", buffer));
+  fmt::print(stderr,
+             "hint: name a class of src/drivers.hpp under `drivers:` of the specification, e.g. `{}: {{ cpp: "
+             "Class }}`,\n"
+             "      or add --world to drive the simulated world in real time\n",
+             missing.front());
+  return failed;
+}
+
 int run_command(const RunCommandOptions& options) {
   const std::optional<Controller> controller = make_controller(options.spec, {options.debug, "controller"});
   if (!controller) return failed;
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is no world to drive");
+  const std::vector<std::string> missing = buffers_without_driver(controller->specification.model);
+  if (!options.world && !missing.empty()) return complain_of_drivers(missing);
   return launch(*controller, options, controller_command(*controller, options, "run", options.world),
                 options.json, "");
 }

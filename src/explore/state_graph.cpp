@@ -1,28 +1,12 @@
 #include "explore/state_graph.hpp"
 
-#include "explore/packed_graph.hpp"
+#include "explore/packed_graphs.hpp"
 
 namespace tessera::explore {
-namespace {
-
-template <bool Counters>
-std::unique_ptr<StateGraph> graph_of_width(const PtNet& net, const Encoding& encoding) {
-  // The widths between are rounded up: one instantiation each is what they cost.
-  const std::uint32_t words = encoding.words();
-  if (words <= 1) return std::make_unique<PackedGraph<1, Counters>>(net, encoding);
-  if (words <= 2) return std::make_unique<PackedGraph<2, Counters>>(net, encoding);
-  if (words <= 3) return std::make_unique<PackedGraph<3, Counters>>(net, encoding);
-  if (words <= 4) return std::make_unique<PackedGraph<4, Counters>>(net, encoding);
-  if (words <= 8) return std::make_unique<PackedGraph<8, Counters>>(net, encoding);
-  if (words <= 32) return std::make_unique<PackedGraph<32, Counters>>(net, encoding);
-  if (words <= 256) return std::make_unique<PackedGraph<256, Counters>>(net, encoding);
-  return nullptr;
-}
-
-}  // namespace
-
 std::unique_ptr<StateGraph> make_state_graph(const PtNet& net, const Encoding& encoding) {
-  return encoding.proves_safe() ? graph_of_width<false>(net, encoding) : graph_of_width<true>(net, encoding);
+  if (encoding.proves_safe())
+    if (auto graph = make_safe_graph(net, encoding)) return graph;
+  return make_counting_graph(net, encoding);
 }
 
 GrowingGraph::GrowingGraph(const PtNet& net) : net_(net), growth_(net) {}

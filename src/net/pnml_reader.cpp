@@ -33,7 +33,8 @@ xml_node child(const xml_node& node, std::string_view name) {
 
 bool contains_ignoring_case(std::string_view text, std::string_view word) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::search(text, word, {}, lower, lower).begin() != text.end();
+  const auto same = [&](char a, char b) { return lower(a) == lower(b); };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
 }
 
 /// Lines and columns of byte offsets.

@@ -55,8 +55,8 @@ class Draft {
   std::vector<bool> place_is_open_, transition_is_open_;
 };
 
-/// Places and transitions with more arcs than this are left alone by the rules that look at their neighbours, so that
-/// the work stays linear in the net: the pages of a fleet all hang on one transition.
+/// Places and transitions with more arcs than this are left alone by the rules that look at their neighbours,
+/// so that the work stays linear in the net: the pages of a fleet all hang on one transition.
 inline constexpr std::size_t most_arcs = 24;
 [[nodiscard]] inline bool is_small(const Draft::Transition& transition) {
   return transition.inputs.size() + transition.outputs.size() <= most_arcs;

@@ -70,7 +70,7 @@ class Reader {
     behaviour.receive = read_buffers(section.find("receive"), inputs_, outputs_, "input");
     behaviour.transfer = read_transfer(section.find("transfer"));
     if (const Entry* takes = section.find("takes")) {
-      behaviour.takes = read_duration(*takes->value, takes->span, "takes", out_).value_or(Duration{0});
+      behaviour.takes = read_duration(*takes->value, takes->span, "takes", out_).value_or(Duration{1});
     }
     return behaviour;
   }

@@ -107,7 +107,10 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   subsystem.kind = kind;
   subsystem.name = entry.key;
   subsystem.span = entry.span;
-  if (const Entry* rate = section.find("rate")) subsystem.period = read_rate(*rate->value, rate->span, out);
+  if (const Entry* rate = section.find("rate")) {
+    // A rate that cannot be read is still a rate: no complaint about standing time follows from it.
+    subsystem.period = read_rate(*rate->value, rate->span, out).value_or(std::chrono::seconds(1));
+  }
   subsystem.inputs = read_buffers(section.find("inputs"), "input", around.types, out);
   subsystem.outputs = read_buffers(section.find("outputs"), "output", around.types, out);
   subsystem.real = read_buffers(section.find("real"), "real buffer", around.types, out);

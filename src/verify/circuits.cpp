@@ -213,8 +213,8 @@ class Judgement {
       if (stuck_[subsystem]) report_.groups[group_of_[subsystem]].stuck.push_back(subsystem);
   }
 
-  /// A subsystem that depends on another one which may end can get stuck; its own end does not count. So it is
-  /// enough to remember two that may end for each event.
+  /// A subsystem that depends on another one which may end can get stuck; its own end does not count. So it
+  /// is enough to remember two that may end for each event.
   void spread_endings() {
     const EventGraph& graph = drawing_.graph;
     std::vector<std::array<std::uint32_t, 2>> endings(graph.size(), {absent, absent});

@@ -13,7 +13,8 @@ namespace tessera::test {
 using Tokens = std::vector<std::uint32_t>;
 
 /// Is the transition enabled? And if so, the marking after it fired.
-[[nodiscard]] std::optional<Tokens> fire(const net::Net& net, const Tokens& marking, net::TransitionId transition);
+[[nodiscard]] std::optional<Tokens> fire(const net::Net& net, const Tokens& marking,
+                                         net::TransitionId transition);
 [[nodiscard]] Tokens initial(const net::Net& net);
 
 /// All markings of a small net, as plainly as possible.

@@ -64,8 +64,7 @@ class RandomNet {
       const bool closed = !chance(3);
       for (std::size_t index = 0; index + (closed ? 0 : 1) < ring.size(); ++index)
         step(ring[index], ring[(index + 1) % ring.size()], buffers);
-      for (std::uint32_t more = between(0, 2); more > 0; --more)
-        step(any_of(ring), any_of(ring), buffers);
+      for (std::uint32_t more = between(0, 2); more > 0; --more) step(any_of(ring), any_of(ring), buffers);
     }
   }
 
@@ -83,7 +82,8 @@ class RandomNet {
     for (std::uint32_t index = 0; index < places; ++index) place(chance(3) ? between(1, 2) : 0);
     for (std::uint32_t count = between(1, 8); count > 0; --count) {
       std::vector<net::Arc> inputs, outputs;
-      for (std::uint32_t arcs = chance(12) ? 0 : between(1, 2); arcs > 0; --arcs) inputs.push_back(arc(places));
+      for (std::uint32_t arcs = chance(12) ? 0 : between(1, 2); arcs > 0; --arcs)
+        inputs.push_back(arc(places));
       for (std::uint32_t arcs = between(0, 2); arcs > 0; --arcs) outputs.push_back(arc(places));
       transition(std::move(inputs), std::move(outputs));
     }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -60,7 +61,8 @@ std::optional<Tokens> replay(const net::Net& net, const std::vector<net::Transit
 
 bool is_dead(const net::Net& net, const Tokens& marking) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-    if (net.transitions()[index].condition.truth != net::Condition::Truth::never && fire(net, marking, {index}))
+    if (net.transitions()[index].condition.truth != net::Condition::Truth::never &&
+        fire(net, marking, {index}))
       return false;
   return true;
 }
@@ -81,9 +83,11 @@ class Comparison {
     if (!after) return reduced_.statistics;
     EXPECT_EQ(before_.deadlock().has_value(), after->deadlock().has_value());
     for (std::size_t set = 0; set < what_.sets.size(); ++set)
-      EXPECT_EQ(before_.can_always_fire(as_set(what_.sets[set])), after->can_always_fire(as_set(reduced_.sets[set])))
+      EXPECT_EQ(before_.can_always_fire(as_set(what_.sets[set])),
+                after->can_always_fire(as_set(reduced_.sets[set])))
           << "set " << set;
     observed(*after);
+    bounds(*after);
     traces(*after);
     return reduced_.statistics;
   }
@@ -96,6 +100,18 @@ class Comparison {
       places.push_back(*reduced_.find(place));
     }
     EXPECT_EQ(before_.reached(what_.observed), after.reached(places));
+  }
+
+  void bounds(const NaiveExplorer& after) const {
+    const auto most = [](const NaiveExplorer& all, net::PlaceId place) {
+      std::uint32_t tokens = 0;
+      for (const Tokens& marking : all.markings()) tokens = std::max(tokens, marking[place.value]);
+      return tokens;
+    };
+    for (std::uint32_t place = 0; place < net_.places().size(); ++place)
+      if (const auto kept = reduced_.find({place})) {
+        EXPECT_EQ(most(before_, {place}), most(after, *kept)) << net_.places()[place].name;
+      }
   }
 
   void traces(const NaiveExplorer& after) const {

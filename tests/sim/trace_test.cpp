@@ -1,6 +1,7 @@
 #include "sim/trace.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,8 @@ namespace {
 constexpr auto head = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line\n";
 
 std::string file_with(const std::string& text) {
-  const std::string path = std::filesystem::temp_directory_path() / "tessera_trace_test.csv";
+  const std::string path =
+      std::filesystem::temp_directory_path() / ("tessera_trace_" + std::to_string(getpid()) + ".csv");
   std::ofstream(path) << text;
   return path;
 }

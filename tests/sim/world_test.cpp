@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -47,7 +48,7 @@ bool write(tessera::RealEffector& effector, double value) {
 }
 
 std::string temporary(const std::string& name) {
-  return std::filesystem::temp_directory_path() / ("tessera_world_" + name);
+  return std::filesystem::temp_directory_path() / ("tessera_world_" + std::to_string(getpid()) + "_" + name);
 }
 
 std::string file_with(const std::string& name, const std::string& text) {

@@ -38,6 +38,17 @@ TEST_P(WrongSpecification, GetsItsDiagnostics) {
 
 INSTANTIATE_TEST_SUITE_P(Golden, WrongSpecification, testing::ValuesIn(specifications("wrong")), name_of);
 
+TEST(Catalogue, ListsEveryCodeThatASpecificationCanGet) {
+  const std::string catalogue = text_of_file(std::string(TESSERA_SOURCE_DIR) + "/docs/diagnostics.md");
+  for (const std::string& name : specifications("wrong")) {
+    diagnostics::Diagnostics out(name, golden("wrong/" + name + ".yaml"));
+    EXPECT_FALSE(parse(out).has_value());
+    for (const auto& one : out.sorted()) {
+      EXPECT_NE(catalogue.find("| " + one.code + " |"), std::string::npos) << one.code << " in " << name;
+    }
+  }
+}
+
 class ValidSpecification : public testing::TestWithParam<std::string> {};
 
 TEST_P(ValidSpecification, HasNoDiagnostics) {

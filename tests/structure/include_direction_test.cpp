@@ -62,8 +62,9 @@ TEST(Structure, RoomsIncludeOnlyRoomsBeforeThem) {
         EXPECT_TRUE(target == room || (room == "runtime" && target == "tessera") ||
                     allowed.at(room).contains(target))
             << relative << " includes " << include;
-        if (target == "tessera")
+        if (target == "tessera") {
           EXPECT_TRUE(only_shared_definition(room, include)) << relative << " includes " << include;
+        }
       }
     }
   EXPECT_GT(files, 50U);

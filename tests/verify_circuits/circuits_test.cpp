@@ -29,30 +29,28 @@ struct Pair {
   spec::Index a = system.subsystem(), b = system.subsystem();
 };
 
-TEST(Circuits, CrossedBlockingReceivesWaitForEachOther) {
+/// Two subsystems that each send and then receive.
+Judged exchange(Ends there, Ends back) {
   Pair pair;
-  const auto there = pair.system.channel(pair.a, pair.b, receiver_blocks);
-  const auto back = pair.system.channel(pair.b, pair.a, receiver_blocks);
-  const auto late = pair.system.channel(pair.b, pair.a, both_block);
-  // a waits for the acknowledgement of nothing; b sends back only after an acknowledged `late`, which a reads last.
-  pair.system.behaviour(pair.a, {there}, {back, late});
-  pair.system.behaviour(pair.b, {late, back}, {there});
-  const Judged judged = judge(pair.system.result());
-  EXPECT_EQ(judged.report.goes_on, Answer::no);
-  EXPECT_EQ(judged.report.deadlock_free, Answer::no);
-  EXPECT_EQ(judged.report.groups.front().cause, Cause::no_token);
-  EXPECT_EQ(story(judged),
-            "a0.s0 waits for a value of a1.s1.y1->a0.s0.x1 from a1.s1; "
-            "a1.s1 waits for the acknowledgement of a1.s1.y2->a0.s0.x2 from a0.s0");
+  const auto x = pair.system.channel(pair.a, pair.b, there), y = pair.system.channel(pair.b, pair.a, back);
+  pair.system.behaviour(pair.a, {x}, {y});
+  pair.system.behaviour(pair.b, {y}, {x});
+  return judge(pair.system.result());
 }
 
-TEST(Circuits, SendingFirstGivesTheTokenThatCrossedReceivesNeed) {
-  Pair pair;
-  const auto there = pair.system.channel(pair.a, pair.b, receiver_blocks);
-  const auto back = pair.system.channel(pair.b, pair.a, receiver_blocks);
-  pair.system.behaviour(pair.a, {there}, {back});
-  pair.system.behaviour(pair.b, {back}, {there});
-  const Judged judged = judge(pair.system.result());
+TEST(Circuits, CrossedSendsThatWaitAreNamedAsWhoWaitsForWhom) {
+  const Judged judged = exchange(both_block, both_block);
+  EXPECT_EQ(judged.report.goes_on, Answer::no);
+  EXPECT_EQ(judged.report.deadlock_free, Answer::no);
+  EXPECT_EQ(judged.report.channels_flow, Answer::no);
+  EXPECT_EQ(judged.report.groups.front().cause, Cause::no_token);
+  EXPECT_EQ(story(judged),
+            "a0.s0 waits for the acknowledgement of a0.s0.y0->a1.s1.x0 from a1.s1; "
+            "a1.s1 waits for the acknowledgement of a1.s1.y1->a0.s0.x1 from a0.s0");
+}
+
+TEST(Circuits, SendingBeforeReceivingIsTheTokenThatCrossedReceivesNeed) {
+  const Judged judged = exchange(receiver_blocks, receiver_blocks);
   EXPECT_EQ(judged.report.goes_on, Answer::yes);
   EXPECT_EQ(judged.report.deadlock_free, Answer::yes);
   EXPECT_EQ(judged.report.channels_flow, Answer::yes);
@@ -70,20 +68,17 @@ TEST(Circuits, ASkipThatLosesTheTokenIsFound) {
   EXPECT_EQ(judged.report.groups.front().stuck.size(), 2U);
 }
 
-TEST(Circuits, ATimeoutAtEitherEndBreaksTheWait) {
-  for (const bool at_sender : {false, true}) {
-    Pair pair;
-    const auto x = pair.system.channel(pair.a, pair.b, {true, true, at_sender, !at_sender});
-    const auto y = pair.system.channel(pair.b, pair.a, {true, true, at_sender, !at_sender});
-    pair.system.behaviour(pair.a, {x}, {y});
-    pair.system.behaviour(pair.b, {y}, {x});
-    EXPECT_EQ(judge(pair.system.result()).report.goes_on, at_sender ? Answer::no : Answer::no);
-  }
+TEST(Circuits, OnlyTimeoutsAtBothEndsBreakACrossedWait) {
+  const Ends sender{true, true, true, false}, receiver{true, true, false, true}, both{true, true, true, true};
+  EXPECT_EQ(exchange(sender, sender).report.goes_on, Answer::no);
+  EXPECT_EQ(exchange(receiver, receiver).report.goes_on, Answer::no);
+  EXPECT_EQ(exchange(both, both).report.goes_on, Answer::yes);
 }
 
 TEST(Circuits, OneStuckAgentAmongRunningOnesIsFoundThoughNothingDeadlocks) {
   Pair pair;
-  const auto x = pair.system.channel(pair.a, pair.b, both_block), y = pair.system.channel(pair.b, pair.a, both_block);
+  const auto x = pair.system.channel(pair.a, pair.b, both_block);
+  const auto y = pair.system.channel(pair.b, pair.a, both_block);
   pair.system.behaviour(pair.a, {x}, {y});
   pair.system.behaviour(pair.b, {y}, {x});
   const auto free = pair.system.subsystem();
@@ -93,30 +88,61 @@ TEST(Circuits, OneStuckAgentAmongRunningOnesIsFoundThoughNothingDeadlocks) {
   EXPECT_EQ(judged.report.deadlock_free, Answer::yes);
 }
 
-TEST(Circuits, AStartUpThatSendsFirstIsTheTokenOfARing) {
+TEST(Circuits, AStartUpThatSendsFirstIsTheMissingToken) {
   for (const bool primed : {false, true}) {
-    SystemBuilder system;
-    std::vector<spec::Index> ring, channels;
-    for (int number = 0; number < 3; ++number) ring.push_back(system.subsystem());
-    for (std::size_t number = 0; number < 3; ++number)
-      channels.push_back(system.channel(ring[number], ring[(number + 1) % 3], both_block));
-    const auto first = system.channel(ring[0], ring[1], receiver_blocks);
-    const auto answer = system.channel(ring[1], ring[0], {true, true, false, true});
-    (void)answer;
-    (void)first;
-    SystemBuilder tokens;
-    std::vector<spec::Index> round;
-    for (int number = 0; number < 2; ++number) round.push_back(tokens.subsystem());
-    const auto there = tokens.channel(round[0], round[1], receiver_blocks);
-    const auto back = tokens.channel(round[1], round[0], receiver_blocks);
-    const auto gate = tokens.channel(round[1], round[0], both_block);
-    spec::Index start = 0;
-    if (primed) start = tokens.behaviour(round[0], {there}, {});
-    const auto main = tokens.behaviour(round[0], {there}, {gate, back});
-    if (primed) tokens.leave(round[0], start, true, {main});
-    tokens.behaviour(round[1], {gate, back}, {there});
-    EXPECT_EQ(judge(tokens.result()).report.goes_on, Answer::yes);
+    Pair pair;
+    const auto x = pair.system.channel(pair.a, pair.b, both_block);
+    const auto y = pair.system.channel(pair.a, pair.b, receiver_blocks);
+    if (primed) pair.system.leave(pair.a, pair.system.behaviour(pair.a, {y}, {}), true, {1});
+    pair.system.behaviour(pair.a, {x, y}, {});
+    pair.system.behaviour(pair.b, {}, {y, x});
+    EXPECT_EQ(judge(pair.system.result()).report.goes_on, primed ? Answer::yes : Answer::no);
   }
+}
+
+TEST(Circuits, AParallelTransferWaitsForAllAtOnce) {
+  for (const auto transfer : {spec::Transfer::sequential, spec::Transfer::parallel}) {
+    Pair pair;
+    const auto x = pair.system.channel(pair.a, pair.b, both_block),
+               y = pair.system.channel(pair.a, pair.b, both_block);
+    pair.system.behaviour(pair.a, {x, y}, {}, transfer);
+    pair.system.behaviour(pair.b, {}, {y, x});
+    EXPECT_EQ(judge(pair.system.result()).report.goes_on,
+              transfer == spec::Transfer::parallel ? Answer::yes : Answer::no);
+  }
+}
+
+TEST(Circuits, WhoWaitsForAPeerThatMayEndOrIsAbsentIsStuck) {
+  Pair pair;
+  const auto x = pair.system.channel(pair.a, pair.b, receiver_blocks);
+  pair.system.leave(pair.a, pair.system.behaviour(pair.a, {x}, {}), false, {spec::none});
+  pair.system.behaviour(pair.b, {}, {x});
+  const Judged ending = judge(pair.system.result());
+  EXPECT_EQ(ending.report.groups.front().cause, Cause::peer_ended);
+  EXPECT_EQ(ending.report.groups.front().stuck, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(ending.report.deadlock_free, Answer::no);
+
+  Pair silent;
+  const auto y = silent.system.channel(silent.a, silent.b, receiver_blocks);
+  silent.system.behaviour(silent.a, {}, {});
+  silent.system.behaviour(silent.b, {}, {y});
+  const Judged absent = judge(silent.system.result());
+  EXPECT_EQ(absent.report.groups.front().cause, Cause::none);
+  EXPECT_EQ(absent.report.groups.back().cause, Cause::peer_absent);
+  EXPECT_EQ(story(absent), "a1.s1 waits for a value of a0.s0.y0->a1.s1.x0 from nobody");
+}
+
+TEST(Circuits, BehavioursWithDifferentChannelsAreLeftToOtherMethods) {
+  Pair pair;
+  const auto x = pair.system.channel(pair.a, pair.b, receiver_blocks),
+             y = pair.system.channel(pair.a, pair.b, receiver_blocks);
+  pair.system.behaviour(pair.a, {x}, {});
+  pair.system.leave(pair.a, 0, false, {pair.system.behaviour(pair.a, {y}, {})});
+  pair.system.leave(pair.a, 1, false, {0});
+  pair.system.behaviour(pair.b, {}, {x, y});
+  const Judged judged = judge(pair.system.result());
+  EXPECT_EQ(judged.report.goes_on, Answer::unknown);
+  EXPECT_EQ(story(judged), "'a0.s0': its behaviours use different channels, or in different orders");
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ TEST(Communication, BlocksOfEveryModeAreRecognised) {
     const auto channel = system.channel(from, to, mode.ends);
     system.behaviour(from, {channel}, {});
     system.behaviour(to, {}, {channel});
-    EXPECT_EQ(in_text(judge(system.result()).structure), std::string("a0.s0.b0: ") + mode.sender +
-                                                             ", repeats\na1.s1.b0: " + mode.receiver +
-                                                             ", repeats\n");
+    EXPECT_EQ(
+        in_text(judge(system.result()).structure),
+        std::string("a0.s0.b0: ") + mode.sender + ", repeats\na1.s1.b0: " + mode.receiver + ", repeats\n");
   }
 }
 

@@ -38,7 +38,8 @@ std::string in_text(const verify::Communication& communication) {
 
 std::string in_text(const verify::Stage& stage) {
   std::string text;
-  for (const verify::Communication& communication : stage) text += (text.empty() ? "" : " | ") + in_text(communication);
+  for (const verify::Communication& communication : stage)
+    text += (text.empty() ? "" : " | ") + in_text(communication);
   return stage.size() > 1 ? "[" + text + "]" : text;
 }
 
@@ -57,7 +58,8 @@ std::string in_text(const verify::SubsystemFlow& subsystem, const verify::Behavi
 std::string in_text(const verify::CommunicationStructure& structure) {
   std::string text;
   for (const verify::SubsystemFlow& subsystem : structure.subsystems)
-    for (const verify::BehaviourFlow& behaviour : subsystem.behaviours) text += in_text(subsystem, behaviour) + "\n";
+    for (const verify::BehaviourFlow& behaviour : subsystem.behaviours)
+      text += in_text(subsystem, behaviour) + "\n";
   return text;
 }
 

@@ -20,8 +20,8 @@ struct Judged {
 [[nodiscard]] Judged judge(const spec::Model& model, verify::Assume assume = verify::Assume::conditions);
 
 /// The structure on a few lines, for the messages of failed tests and for tests of the structure itself:
-/// "a0.s0 b0: !0~ [?1 | ?2] -> b1 end" sends on channel 0, blocking (!) with a timeout (~), then receives from two
-/// channels side by side; "repeats" and what may follow come last.
+/// "a0.s0 b0: !0~ [?1 | ?2] -> b1 end" sends on channel 0, blocking (!) with a timeout (~), then receives
+/// from two channels side by side; "repeats" and what may follow come last.
 [[nodiscard]] std::string in_text(const verify::CommunicationStructure& structure);
 
 }  // namespace tessera::test

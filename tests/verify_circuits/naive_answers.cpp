@@ -4,8 +4,8 @@
 #include <bitset>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <unordered_map>
+#include <utility>
 
 namespace tessera::test {
 namespace {
@@ -133,7 +133,8 @@ class Exploration {
   void judge(std::size_t index, NaiveAnswers& answers) const {
     const Marking& marking = markings_[index];
     for (std::uint32_t subsystem = 0; subsystem < inside_.size(); ++subsystem)
-      if ((facts_[index] >> subsystem & 1) == 0 && !ended(subsystem, marking)) answers.stuck[subsystem] = true;
+      if ((facts_[index] >> subsystem & 1) == 0 && !ended(subsystem, marking))
+        answers.stuck[subsystem] = true;
     for (std::uint32_t channel = 0; channel < readers_.size(); ++channel) {
       if (readers_[channel] == net::no_subsystem) continue;
       if (ended(readers_[channel], marking))
@@ -149,7 +150,7 @@ class Exploration {
   Marking start_, final_;
   std::vector<Marking> inside_;  // per subsystem: where a token says that it has not ended
   std::vector<std::pair<std::string, std::uint32_t>> paths_;  // of subsystems
-  std::vector<std::uint32_t> readers_;  // per channel
+  std::vector<std::uint32_t> readers_;                        // per channel
   std::unordered_map<Marking, std::uint32_t> numbers_;
   std::vector<Marking> markings_;
   std::vector<Facts> facts_;

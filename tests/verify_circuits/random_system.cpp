@@ -23,8 +23,8 @@ spec::Index SystemBuilder::subsystem(bool own_agent) {
   auto& subsystems = model_.definitions.back().subsystems;
   subsystems.emplace_back();
   subsystems.back().name = "s" + std::to_string(model_.instances.size());
-  model_.instances.push_back({static_cast<spec::Index>(model_.agents.size() - 1),
-                              static_cast<spec::Index>(subsystems.size() - 1)});
+  model_.instances.push_back(
+      {static_cast<spec::Index>(model_.agents.size() - 1), static_cast<spec::Index>(subsystems.size() - 1)});
   return static_cast<spec::Index>(model_.instances.size() - 1);
 }
 
@@ -137,8 +137,8 @@ class RandomSystem {
       const auto received = chance(8) ? some(receives_[instance], 2) : std::vector<spec::Index>{};
       builder_.behaviour(instance, sent, received, transfer);
     }
-    const spec::Index main = builder_.behaviour(instance, some(sends_[instance], 40),
-                                                some(receives_[instance], 40), transfer);
+    const spec::Index main =
+        builder_.behaviour(instance, some(sends_[instance], 40), some(receives_[instance], 40), transfer);
     if (start_up) builder_.leave(instance, 0, !chance(3), {main});
     if (second) add_second(instance, main, transfer);
     if (chance(12)) {

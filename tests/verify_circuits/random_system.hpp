@@ -6,9 +6,10 @@
 
 namespace tessera::test {
 
-/// A small system: two to four subsystems and up to six channels of all modes, with and without timeouts. Most
-/// subsystems repeat one sequence of communications, in one behaviour or in several; some have a start-up, some may
-/// end, some transfer in parallel, and a few have behaviours that do not fold. The same seed gives the same system.
+/// A small system: two to four subsystems and up to six channels of all modes, with and without timeouts.
+/// Most subsystems repeat one sequence of communications, in one behaviour or in several; some have a
+/// start-up, some may end, some transfer in parallel, and a few have behaviours that do not fold. The same
+/// seed gives the same system.
 [[nodiscard]] spec::Model random_system(std::uint64_t seed);
 
 /// For systems built by hand.

@@ -111,7 +111,8 @@ TEST(Circuits, AgreeWithExhaustiveSearchOnRandomSystems) {
     ASSERT_FALSE(HasFailure()) << "seed " << seed << "\n" << in_text(judged.structure);
   }
   std::printf(
-      "%llu systems (%llu more too large); all go on %llu, not %llu; deadlock %llu, none %llu; channels flow %llu, "
+      "%llu systems (%llu more too large); all go on %llu, not %llu; deadlock %llu, none %llu; channels flow "
+      "%llu, "
       "dry %llu, unclear %llu; groups refused %llu, causes %llu %llu %llu %llu %llu\n",
       static_cast<unsigned long long>(tally.compared), static_cast<unsigned long long>(tally.too_large),
       static_cast<unsigned long long>(tally.good), static_cast<unsigned long long>(tally.stuck),

@@ -99,7 +99,7 @@ Quote quote(std::string_view line, const Span& span) {
 }
 
 /// A message or hint, which may quote a name of any length.
-std::string brief(const std::string& text) {
+std::string shortened(const std::string& text) {
   constexpr std::size_t longest = 400;
   if (text.size() <= longest) return visible(text);
   std::size_t end = longest;
@@ -141,13 +141,13 @@ std::string render(const Diagnostic& diagnostic, const Diagnostics& source, bool
   const Style shown = style(diagnostic.severity);
   std::string result = paint(bold, location(diagnostic, source.file())) + " " +
                        paint(shown.colour, std::string(shown.word) + " " + diagnostic.code + ":") + " " +
-                       brief(diagnostic.message) + "\n";
+                       shortened(diagnostic.message) + "\n";
   if (diagnostic.span.line != 0) {
     const Quote lines = quote(source.line(diagnostic.span.line), diagnostic.span);
     result += margin(std::to_string(diagnostic.span.line)) + lines.text + "\n";
     result += margin("") + paint(green, lines.caret) + "\n";
   }
-  if (!diagnostic.hint.empty()) result += paint(cyan, "hint:") + " " + brief(diagnostic.hint) + "\n";
+  if (!diagnostic.hint.empty()) result += paint(cyan, "hint:") + " " + shortened(diagnostic.hint) + "\n";
   return result;
 }
 

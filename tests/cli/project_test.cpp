@@ -5,7 +5,6 @@
 namespace tessera::cli_test {
 
 using Project = Command;
-using testing::HasSubstr;
 
 TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
   ASSERT_EQ(tessera("new rover").code, 0);

@@ -49,6 +49,10 @@ class KnownNets : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(KnownNets, DeadlockIsAsKnown) {
+  // Without a deadlock the search ends only with the reduced graph, which may be all of it.
+  if (!expected_.at("deadlock").get<bool>() &&
+      expected_.at("states").get<std::uint64_t>() > most_markings_counted)
+    GTEST_SKIP() << "too many markings for an unoptimised build";
   const PtNet net(*net_);
   Limits limits;
   limits.time = std::chrono::seconds(300);

@@ -36,7 +36,8 @@ TEST(System, MovesValuesOfAllTypesThroughItsChannels) {
   const std::vector<Pose>& poses = devices::PoseSink::commands;
   EXPECT_GT(poses.size(), 15U);
   // x from the lidar through an array, y from the parameter of a walker through its report.
-  EXPECT_TRUE(std::ranges::any_of(poses, [](const Pose& pose) { return pose.x > 9 && pose.x < 10 && pose.y == 0.1F; }));
+  EXPECT_TRUE(std::ranges::any_of(
+      poses, [](const Pose& pose) { return pose.x > 9 && pose.x < 10 && pose.y == 0.1F; }));
 }
 
 TEST(System, EndsWithTheSafeCommands) {
@@ -46,7 +47,8 @@ TEST(System, EndsWithTheSafeCommands) {
   ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
   ASSERT_FALSE(devices::PoseSink::commands.empty() || devices::Grip::commands.empty());
   EXPECT_EQ(devices::Grip::commands.back(), 0.1F) << "the safe command of the specification";
-  EXPECT_EQ(devices::PoseSink::commands.back(), Pose{}) << "zero, where the specification gives no safe command";
+  EXPECT_EQ(devices::PoseSink::commands.back(), Pose{})
+      << "zero, where the specification gives no safe command";
 }
 
 TEST(System, RefusesTablesOfAnotherNet) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -84,6 +85,24 @@ std::string to_json(const RunOutcome& outcome) {
   return result.dump(2) + "\n";
 }
 
+namespace {
+
+// Of a fleet, the first few stand for the rest; the JSON has all.
+constexpr std::size_t shown_subsystems = 12;
+
+void print_subsystems(const json& subsystems) {
+  for (std::size_t index = 0; index < std::min(subsystems.size(), shown_subsystems); ++index) {
+    const json& subsystem = subsystems[index];
+    fmt::print("  {:<24} {:>8} iterations  {:>4} overruns  {:>4} errors\n", subsystem.value("path", ""),
+               subsystem.value("iterations", 0ULL), subsystem.value("overruns", 0ULL),
+               subsystem.value("errors", 0ULL));
+  }
+  if (subsystems.size() > shown_subsystems)
+    fmt::print("  ... and {} more\n", subsystems.size() - shown_subsystems);
+}
+
+}  // namespace
+
 void print(const RunOutcome& outcome) {
   const json& summary = outcome.summary;
   if (outcome.drive) fmt::print("{}", path_plot(outcome.drive->floor, outcome.drive->trace));
@@ -91,10 +110,7 @@ void print(const RunOutcome& outcome) {
              summary.value("simulated_s", 0.0), summary.value("wall_s", 0.0),
              summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
              summary.value("ended", ""));
-  for (const json& subsystem : summary.value("subsystems", json::array()))
-    fmt::print("  {:<24} {:>8} iterations  {:>4} overruns  {:>4} errors\n", subsystem.value("path", ""),
-               subsystem.value("iterations", 0ULL), subsystem.value("overruns", 0ULL),
-               subsystem.value("errors", 0ULL));
+  print_subsystems(summary.value("subsystems", json::array()));
   if (outcome.drive && !outcome.drive->line.points.empty()) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",

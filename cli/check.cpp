@@ -16,6 +16,12 @@ struct Options {
   std::string spec = ".", json;
 };
 
+// "1 agent", "3 subsystems"
+template <class Things>
+std::string count_of(const Things& things, const char* name) {
+  return fmt::format("{} {}{}", things.size(), name, things.size() == 1 ? "" : "s");
+}
+
 int check_json(const Options& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors()) static_cast<void>(spec::parse(found));
@@ -30,9 +36,9 @@ int check_command(const Options& options) {
   const std::optional<Nets> nets = build(*specification);
   if (!nets) return failed;
   const spec::Model& model = specification->model;
-  fmt::print("{}: {} agents, {} subsystems, {} channels; {} places, {} transitions\n", model.system,
-             model.agents.size(), model.instances.size(), model.channels.size(), nets->flat.places().size(),
-             nets->flat.transitions().size());
+  fmt::print("{}: {}, {}, {}; {}, {}\n", model.system, count_of(model.agents, "agent"),
+             count_of(model.instances, "subsystem"), count_of(model.channels, "channel"),
+             count_of(nets->flat.places(), "place"), count_of(nets->flat.transitions(), "transition"));
   return ok;
 }
 

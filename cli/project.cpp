@@ -64,7 +64,7 @@ std::string new_file(const std::vector<codegen::Stub>& stubs) {
 void append_stub(const fs::path& file, const codegen::Stub& stub) {
   std::string text = content_of(file);
   const std::size_t brace = text.rfind('}');
-  text.insert(brace == std::string::npos ? text.size() : brace, "\n" + stub.body + "\n");
+  text.insert(brace == std::string::npos ? text.size() : brace, stub.body + "\n");
   write_file(file, text);
 }
 

@@ -209,7 +209,9 @@ class Prover {
             given.abstract.places()[place].name == "out")
           final_place = {place};
     const Found found = find_dead(given.abstract, final_place, safe_, limits());
-    return show(std::move(result), found, Found::Kind::no, given, {}, "a marking is dead that is not final");
+    return show(std::move(result), found, Found::Kind::no, given, {},
+                final_place.valid() ? "a dead marking is reachable that is not final"
+                                    : "a dead marking is reachable");
   }
 
   Result goes_on() { return with_meaning(goes_on(Assume::conditions), Sort::always_can); }

@@ -67,6 +67,7 @@ struct Judged {
   std::optional<Nets> nets;  ///< of a specification
   std::optional<net::Net> drawn;
   std::vector<net::Invariant> invariants;
+  std::vector<std::string> not_judged;  ///< properties of the specification
 
   [[nodiscard]] const net::Net& net() const { return drawn ? *drawn : nets->flat; }
   [[nodiscard]] verify::Subject subject() const { return {net(), nets ? &nets->pages : nullptr, invariants}; }
@@ -86,6 +87,8 @@ std::optional<Judged> load(const std::string& given) {
   judged.nets = build(*specification);
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();
+  for (const spec::Property& property : specification->model.properties)
+    judged.not_judged.push_back(property.name);
   judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
   return judged;
 }
@@ -199,6 +202,7 @@ json to_json(const Judged& judged, const verify::Report& report) {
     properties.push_back(std::move(one));
   }
   return {{"properties", properties},
+          {"not_judged", judged.not_judged},
           {"net_hash", report.net_hash},
           {"verification_hash", report.verification_hash}};
 }
@@ -252,6 +256,8 @@ int verify_command(const Options& options) {
     result = to_json(*judged, report);
     if (options.states) result["state_space"] = count_states(*judged, options, step);
   }
+  for (const std::string& name : judged->not_judged)
+    fmt::print(stderr, "tessera: warning: property '{}' of the specification is not judged\n", name);
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
   if (!options.trace.empty()) write_trace(*judged, report, options.trace);
   if (options.json == "-" || options.trace == "-") return exit_code_of(report);

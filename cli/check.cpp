@@ -42,16 +42,6 @@ int check_command(const Options& options) {
   return ok;
 }
 
-int verify_command(const Options& options) {
-  std::optional<Specification> specification = read(options.spec);
-  if (!specification) return failed;
-  const std::optional<Nets> nets = build(*specification);
-  if (!nets) return failed;
-  const verify::Report report = check(*specification, *nets);
-  print(report);
-  return report.all_hold() ? ok : unknown;
-}
-
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
@@ -62,15 +52,6 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
   command->footer("Example: tessera check robot/spec.yaml");
   command->callback([options, &exit_code] { exit_code = check_command(*options); });
-}
-
-void add_verify(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("verify", "Prove that no place of the net ever holds two tokens");
-  auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command->footer("Example: tessera verify robot/spec.yaml");
-  command->callback([options, &exit_code] { exit_code = verify_command(*options); });
 }
 
 }  // namespace tessera::cli

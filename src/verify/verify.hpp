@@ -1,10 +1,15 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "explore/watch.hpp"
 #include "net/net.hpp"
 
 namespace tessera::verify {
@@ -17,8 +22,18 @@ enum class Verdict : std::uint8_t { holds, violated, unknown };
 struct PropertyResult {
   std::string name;  ///< "safe"
   Verdict verdict = Verdict::unknown;
-  std::string method;  ///< "place invariants"
-  std::string why;     ///< for violated and unknown: in one line
+  std::string method = {};       ///< "place invariants"
+  std::string why = {};          ///< for violated and unknown: in one line
+  std::string meaning = {};      ///< of the verdict for the net with conditions
+  std::string explanation = {};  ///< what the method did: sizes before and after reductions
+  /// violated: a run that shows it, if one was found. Transitions of abstract_net (verify/abstraction.hpp).
+  std::vector<net::TransitionId> trace = {};
+  bool has_trace = false;               ///< an empty run can be one: the start is already bad
+  std::vector<std::string> waits = {};  ///< violated: who waits for whom where the run ends
+  double seconds = 0;
+  std::uint64_t states = 0;  ///< markings visited
+  bool warning = false;      ///< a violation is worth knowing, and no more
+  bool exceptions = false;   ///< judged, and the trace named, with exceptions possible everywhere
 };
 
 struct Report {
@@ -27,6 +42,8 @@ struct Report {
   std::string verification_hash;  ///< of net_hash, truth of the conditions, properties and checker_version
 
   [[nodiscard]] bool all_hold() const;
+  /// violated if a property is that is no warning; else unknown if one is; else holds.
+  [[nodiscard]] Verdict overall() const;
 };
 
 /// A net together with what is known about it. Only verify makes one, so that a generator that asks for a
@@ -44,12 +61,48 @@ class VerifiedNet {
 };
 
 /// Checks that each emitted invariant is one (y^T C = 0 and y m0 = total; every mistake is named) and that
-/// together they bound every place by one token: property "safe".
+/// together they bound every place by one token: property "safe". The quick form of prove.
 ///
 /// Threads: pure. Linear in the net and the invariants.
 [[nodiscard]] Report check(const net::Net& net, const std::vector<net::Invariant>& invariants);
 
 /// The net as a VerifiedNet if every property of the report holds, else nullopt.
 [[nodiscard]] std::optional<VerifiedNet> accept(net::Net net, Report report);
+
+// ---------------------------------------------------------------------------------------------- prove
+
+/// How a property may be decided.
+enum class Method : std::uint8_t {
+  any,         ///< the portfolio: the first that gives an answer
+  invariants,  ///< place invariants
+  circuits,    ///< communication structure and event graph (docs/circuits.md)
+  exploration  ///< reductions, components, explicit search
+};
+
+struct ProveOptions {
+  std::chrono::duration<double> time{60};  ///< for all properties together, shared out fairly
+  std::uint64_t bytes = std::uint64_t{2} << 30U;
+  Method method = Method::any;
+  std::vector<std::string> only;            ///< names of properties; empty: all
+  const std::atomic<bool>* stop = nullptr;  ///< true: give up what is not yet decided
+  std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;
+};
+
+/// What is asked, besides the net.
+struct Subject {
+  const net::Net& net;
+  /// The pages the net was flattened from; nullptr for a net of another origin, which has the properties
+  /// safe and deadlock_free (every dead marking counts) only.
+  const net::HierarchicalNet* pages = nullptr;
+  const std::vector<net::Invariant>& invariants;
+};
+
+/// The names of the default properties, in the order in which they are reported.
+[[nodiscard]] const std::vector<std::string>& default_properties();
+
+/// Decides the default properties (docs/verification.md).
+///
+/// Threads: pure, but for options.progress, called in the same thread.
+[[nodiscard]] Report prove(const Subject& subject, const ProveOptions& options = {});
 
 }  // namespace tessera::verify

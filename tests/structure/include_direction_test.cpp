@@ -20,14 +20,15 @@ const std::map<std::string, Rooms> allowed{
     {"explore", {"net", "diagnostics"}},
     {"reduce", {"net"}},
     {"layers", {"spec", "net", "diagnostics"}},
-    {"verify", {"net", "tessera"}},
+    {"verify", {"net", "explore", "reduce", "diagnostics", "tessera"}},
     {"drawing", {"net", "spec", "layers", "diagnostics"}},
     {"codegen", {"spec", "verify", "net"}},
     {"runtime", {"tessera"}},
     {"sim", {"tessera"}},
     {"report", {"sim", "tessera"}},
     {"cli",
-     {"diagnostics", "spec", "net", "layers", "verify", "drawing", "codegen", "sim", "report", "tessera"}},
+     {"diagnostics", "spec", "net", "layers", "explore", "verify", "drawing", "codegen", "sim", "report",
+      "tessera"}},
 };
 
 // "tessera/..." are the runtime's public headers. The one that the checker shares with the runtime:

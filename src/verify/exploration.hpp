@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explore/explore.hpp"
+#include "net/net.hpp"
+
+/// Questions answered by reducing a net, taking it apart, and visiting the markings of one part of each kind.
+namespace tessera::verify {
+
+struct Found {
+  enum class Kind : std::uint8_t { yes, no, unknown } kind = Kind::unknown;
+  std::string why;                       ///< of unknown
+  std::vector<net::TransitionId> trace;  ///< of the answer that a run can show; of the net that was given
+  std::uint64_t states = 0;
+  std::string explanation;  ///< sizes before and after
+};
+
+/// Is a dead marking reachable in which `final_place` (if valid) is not marked? yes: with a run.
+/// safe: the net is known to be safe; so below.
+[[nodiscard]] Found find_dead(const net::Net& net, net::PlaceId final_place, bool safe,
+                              const explore::Limits& limits);
+
+/// Per set: from every reachable marking, can one of its transitions be fired at some time? no: with a run to
+/// a marking from which none can.
+[[nodiscard]] std::vector<Found> find_stuck(const net::Net& net,
+                                            const std::vector<std::vector<net::TransitionId>>& sets,
+                                            bool safe, const explore::Limits& limits);
+
+/// Is a marking reachable of which the goal, a formula over places, is true? yes: with a run. Looks only at
+/// the parts of the reduced net that have to do with the goal.
+[[nodiscard]] Found find_marking(const net::Net& net, const explore::Formula& goal, bool safe,
+                                 const explore::Limits& limits);
+
+}  // namespace tessera::verify

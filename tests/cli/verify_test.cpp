@@ -1,0 +1,79 @@
+#include "command.hpp"
+
+namespace tessera::cli_test {
+
+using Verify = Command;
+
+constexpr const char* stuck =
+    "tessera: 1\nsystem: s\ntypes: { V: { v: float64 } }\nagents:\n"
+    "  a: { control: { rate: 10 Hz, inputs: { x: V }, outputs: { y: V }, behaviours: { go: {} } } }\n"
+    "  b: { control: { rate: 10 Hz, inputs: { x: V }, outputs: { y: V }, behaviours: { go: {} } } }\n"
+    "channels:\n"
+    "  - { from: a.control.y, to: b.control.x, send: blocking, receive: blocking }\n"
+    "  - { from: b.control.y, to: a.control.x, send: blocking, receive: blocking }\n";
+
+constexpr const char* net_that_stops =
+    "<?xml version=\"1.0\"?>\n<pnml xmlns=\"http://www.pnml.org/version-2009/grammar/pnml\">"
+    "<net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\"><page id=\"g\">"
+    "<place id=\"p\"><initialMarking><text>1</text></initialMarking></place><place id=\"q\"/>"
+    "<transition id=\"t\"/><arc id=\"a\" source=\"p\" target=\"t\"/><arc id=\"b\" source=\"t\" target=\"q\"/>"
+    "</page></net></pnml>\n";
+
+TEST_F(Verify, TheExampleHoldsInEveryRespect) {
+  const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
+  const nlohmann::json result = json("verify " + spec);
+  ASSERT_EQ(result.at("properties").size(), 8U);
+  for (const auto& property : result.at("properties")) EXPECT_EQ(property.at("verdict"), "holds") << property;
+  EXPECT_EQ(result.at("not_judged"), nlohmann::json::array({"motors can always run"}));
+  const cli::Exit explained = tessera("verify " + spec + " --property goes_on --explain");
+  EXPECT_NE(explained.text.find("if every branch that is offered is taken eventually"), std::string::npos)
+      << explained.text;
+}
+
+TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
+  write(folder_ / "stuck.yaml", stuck);
+  const cli::Exit done = tessera("verify stuck.yaml --trace run.json");
+  EXPECT_EQ(done.code, 1) << done.text;
+  for (const char* part :
+       {"deadlock_free: violated", "a.control.go.t1 (line 5)", "channels at the end",
+        "a.control waits for the acknowledgement of a.control.y->b.control.x from b.control"})
+    EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
+  const auto traces = nlohmann::json::parse(content_of(folder_ / "run.json")).at("traces");
+  ASSERT_FALSE(traces.empty());
+  EXPECT_EQ(traces[0].at("property"), "deadlock_free");
+  EXPECT_EQ(traces[0].at("firings")[0].at("transition"), "t_in");
+  EXPECT_EQ(traces[0].at("waits").size(), 2U);
+}
+
+TEST_F(Verify, APnmlNetHasTwoPropertiesAndEveryDeadMarkingCounts) {
+  write(folder_ / "net.pnml", net_that_stops);
+  const cli::Exit done = tessera("verify net.pnml --states --json -");
+  EXPECT_EQ(done.code, 1) << done.text;
+  const nlohmann::json result = nlohmann::json::parse(done.text);
+  ASSERT_EQ(result.at("properties").size(), 2U);
+  EXPECT_EQ(result["properties"][0].at("verdict"), "holds");
+  EXPECT_EQ(result["properties"][1].at("name"), "deadlock_free");
+  EXPECT_EQ(result["properties"][1].at("verdict"), "violated");
+  EXPECT_EQ(result["properties"][1].at("trace").size(), 1U);
+  EXPECT_EQ(result.at("state_space").at("markings"), 2);
+  EXPECT_EQ(result.at("state_space").at("edges"), 1);
+}
+
+TEST_F(Verify, WhatCannotBeDecidedIsUnknown) {
+  const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
+  const cli::Exit done = tessera("verify " + spec + " --property goes_on --method invariants");
+  EXPECT_EQ(done.code, 3) << done.text;
+  EXPECT_NE(done.text.find("goes_on: unknown"), std::string::npos) << done.text;
+}
+
+TEST_F(Verify, WrongNamesAreDiagnosed) {
+  const cli::Exit done = tessera("verify nowhere.yaml --property goes_onn");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.text.find("did you mean 'goes_on'?"), std::string::npos) << done.text;
+  write(folder_ / "stuck.yaml", stuck);
+  const cli::Exit time = tessera("verify stuck.yaml --timeout soon");
+  EXPECT_EQ(time.code, 1);
+  EXPECT_NE(time.text.find("'soon' is no time"), std::string::npos) << time.text;
+}
+
+}  // namespace tessera::cli_test

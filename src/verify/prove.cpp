@@ -100,8 +100,6 @@ class Prover {
   }
 
  private:
-  // ------------------------------------------------------------------------------------------ what is given
-
   [[nodiscard]] bool may(Method method) const {
     return options_.method == Method::any || options_.method == method;
   }
@@ -133,8 +131,6 @@ class Prover {
   }
 
   [[nodiscard]] static std::string not_allowed() { return "the methods that were allowed do not apply"; }
-
-  // ------------------------------------------------------------------------------------------ by invariants
 
   Result safe() {
     Result result = verdict(Verdict::unknown, by_invariants, not_allowed());
@@ -191,8 +187,6 @@ class Prover {
         by_covering([&] { return unsound_page(*subject_.pages, subject_.net, subject_.invariants); }),
         Sort::universal);
   }
-
-  // ------------------------------------------------------------------------------------------ going on
 
   Result deadlock_free() { return with_meaning(deadlock_free(Assume::conditions), Sort::completeness); }
 
@@ -366,8 +360,6 @@ class Prover {
     return result;
   }
 
-  // ------------------------------------------------------------------------------------------ behaviours
-
   Result live_behaviours() {
     Case& given = under(Assume::conditions);
     std::vector<PlaceId> open;
@@ -449,8 +441,6 @@ class Prover {
     result.exceptions = true;
     return with_meaning(std::move(result), Sort::always_can);
   }
-
-  // ------------------------------------------------------------------------------------------ meaning
 
   enum class Sort : std::uint8_t { universal, completeness, always_can, existential };
 

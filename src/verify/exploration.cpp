@@ -75,8 +75,7 @@ Found find_dead(const net::Net& net, PlaceId final_place, bool safe, const explo
   if (final_place.valid()) what.observed.push_back(final_place);
   const reduce::Reduced reduced = reduce::reduce(net, what);
   const reduce::Components components = reduce::components(reduced.net);
-  const std::optional<PlaceId> final_left =
-      final_place.valid() ? reduced.find(final_place) : std::optional<PlaceId>();
+  const PlaceId final_left = final_place.valid() ? reduced.find(final_place).value_or(PlaceId{}) : PlaceId{};
   Found found;
   found.explanation = sizes(reduced, components);
   found.kind = Kind::yes;
@@ -86,8 +85,8 @@ Found find_dead(const net::Net& net, PlaceId final_place, bool safe, const explo
     if (found.kind == Kind::no) break;
     const reduce::Component& first = *kind.front();
     const Part part(reduced.net, std::span(kind).first(1));
-    const bool has_final = final_left && std::ranges::count(first.places, *final_left) > 0;
-    const Formula is_final = has_final ? part.inside(Formula::marked(*final_left)) : Formula::never();
+    const bool has_final = final_left.valid() && std::ranges::count(first.places, final_left) > 0;
+    const Formula is_final = has_final ? part.inside(Formula::marked(final_left)) : Formula::never();
     const Answer answer = explore::find_deadlock(explore::PtNet(part.net()), is_final, budget.left());
     found.states += answer.effort.markings;
     if (answer.kind == Answer::Kind::no) found.kind = Kind::no;

@@ -1,4 +1,5 @@
 #include "drawing/picture.hpp"
+#include "net/xml_text.hpp"
 
 namespace tessera::drawing {
 namespace {
@@ -7,7 +8,7 @@ namespace {
 std::string html(const Label& label) {
   std::string text;
   for (const Label::Run& run : label.runs) {
-    std::string part = escaped(run.text);
+    std::string part = net::xml_text(run.text);
     if (run.italic) part = "<I>" + part + "</I>";
     if (run.level == Label::Level::raised) part = "<SUP>" + part + "</SUP>";
     if (run.level == Label::Level::lowered) part = "<SUB>" + part + "</SUB>";

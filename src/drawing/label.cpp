@@ -72,27 +72,4 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width, std
   return result;
 }
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(character) < 0x20 ? ' ' : character;
-    }
-  }
-  return safe;
-}
-
 }  // namespace tessera::drawing

@@ -35,7 +35,4 @@ inline constexpr double script_scale = 0.72;  ///< size of raised and lowered te
 /// Long plain text in lines of about `width` characters, at most `lines`, the rest cut with an ellipsis.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t lines);
 
-/// For XML text and attributes; control characters become spaces.
-[[nodiscard]] std::string escaped(std::string_view text);
-
 }  // namespace tessera::drawing

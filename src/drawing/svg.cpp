@@ -4,6 +4,7 @@
 
 #include "drawing/layout.hpp"
 #include "net/counts.hpp"
+#include "net/xml_text.hpp"
 
 namespace tessera::drawing {
 namespace {
@@ -72,7 +73,7 @@ std::string spans(const Label& label, double font_size) {
     if (level != shift) text += " dy=\"" + number(level - shift) + "\"";
     if (run.level != Label::Level::base) text += " font-size=\"" + number(font_size * script_scale) + "\"";
     if (run.italic) text += " font-style=\"italic\"";
-    text += ">" + escaped(run.text) + "</tspan>";
+    text += ">" + net::xml_text(run.text) + "</tspan>";
     shift = level;
   }
   return text;
@@ -128,7 +129,8 @@ class SvgPen {
     if (fused > 0) subtitle += " \u00b7 " + std::to_string(fused) + " fused";
     subtitle += " \u00b7 " + counted(picture_.bars.size(), "transition");
     add_text("title", picture_.title, margin, margin + 8, 16);
-    text_ += "<text class=\"subtitle\" " + at(margin, margin + 26) + ">" + escaped(subtitle) + "</text>\n";
+    text_ +=
+        "<text class=\"subtitle\" " + at(margin, margin + 26) + ">" + net::xml_text(subtitle) + "</text>\n";
   }
 
   void add_frame(std::size_t index) {
@@ -156,7 +158,7 @@ class SvgPen {
   void add_bar(std::size_t index) {
     const Bar& bar = picture_.bars[index];
     const Point centre = layout_.bars[index];
-    text_ += "<g><title>" + escaped(bar.path) + "</title>" + bar_symbol(centre, bar.never) + "</g>\n";
+    text_ += "<g><title>" + net::xml_text(bar.path) + "</title>" + bar_symbol(centre, bar.never) + "</g>\n";
     add_beside(centre, bar.name, bar.details, bar.never ? "condition faint" : "condition",
                bar.never ? "name faint" : "name");
   }
@@ -170,7 +172,8 @@ class SvgPen {
   void add_circle(std::size_t index) {
     const Circle& circle = picture_.circles[index];
     const Point centre = layout_.circles[index];
-    text_ += "<g><title>" + escaped(circle.path) + "</title>" + circle_symbol(centre, circle) + "</g>\n";
+    text_ +=
+        "<g><title>" + net::xml_text(circle.path) + "</title>" + circle_symbol(centre, circle) + "</g>\n";
     add_beside(centre, circle.name, circle.details, "detail", "name");
   }
 

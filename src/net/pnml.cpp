@@ -1,36 +1,11 @@
 #include "net/pnml.hpp"
 
-#include <string_view>
 #include <utility>
+
+#include "net/xml_text.hpp"
 
 namespace tessera::net {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default: {
-        const auto byte = static_cast<unsigned char>(character);
-        const bool control = byte < 0x20 && byte != '\t' && byte != '\n';
-        safe += control ? '?' : character;
-      }
-    }
-  }
-  return safe;
-}
 
 std::string labelled(const char* element, const std::string& text) {
   return std::string("<") + element + "><text>" + text + "</text></" + element + ">";
@@ -45,11 +20,11 @@ class Writer {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<pnml xmlns=\"http://www.pnml.org/version-2009/grammar/pnml\">\n"
         "  <net id=\"net\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\">\n    " +
-        labelled("name", escaped(options.name)) + "\n    <page id=\"page\">\n";
+        labelled("name", xml_text(options.name)) + "\n    <page id=\"page\">\n";
     for (std::uint32_t place = 0; place < net_.places().size(); ++place) add_place(place);
     for (std::uint32_t transition = 0; transition < net_.transitions().size(); ++transition)
       text_ += "      <transition id=\"t" + std::to_string(transition) + "\">" +
-               labelled("name", escaped(net_.transitions()[transition].name)) + "</transition>\n";
+               labelled("name", xml_text(net_.transitions()[transition].name)) + "</transition>\n";
     for (std::uint32_t transition = 0; transition < net_.transitions().size(); ++transition)
       add_arcs(transition);
     text_ += "    </page>\n  </net>\n</pnml>\n";
@@ -59,7 +34,7 @@ class Writer {
  private:
   void add_place(std::uint32_t index) {
     const Place& place = net_.places()[index];
-    text_ += "      <place id=\"p" + std::to_string(index) + "\">" + labelled("name", escaped(place.name));
+    text_ += "      <place id=\"p" + std::to_string(index) + "\">" + labelled("name", xml_text(place.name));
     if (place.tokens > 0) text_ += labelled("initialMarking", std::to_string(place.tokens));
     text_ += "</place>\n";
   }

@@ -34,7 +34,7 @@ TEST_F(Simulate, TheRobotKeepsToEveryShippedTrack) {
   }
 }
 
-TEST_F(Simulate, TheSecondExampleCrossesGapsThatTheTableAloneDoesNot) {
+TEST_F(Simulate, TheSecondExampleCrossesGaps) {
   example("02_gap");
   const nlohmann::json run = json("simulate 02_gap --for 120s");
   EXPECT_GE(run.at("laps"), 1);

@@ -29,7 +29,5 @@ TEST(Label, NeverCutsACharacterInTwo) {
   EXPECT_THAT(wrapped("\u00e9\u00e9\u00e9", 3, 5), ElementsAre("\u00e9\u00e9", "\u00e9"));
 }
 
-TEST(Label, IsEscapedForXml) { EXPECT_EQ(escaped("a<b & \"c\">\n"), "a&lt;b &amp; &quot;c&quot;&gt; "); }
-
 }  // namespace
 }  // namespace tessera::drawing

@@ -195,14 +195,14 @@ std::string error_svg(const Drive& drive) {
   return svg;
 }
 
-std::string timeline_svg(const Timeline& timeline) {
+std::string timeline_svg(const replay::Timeline& timeline) {
   constexpr double lane_height = 58, bar = 22;
   const double bottom = lane_height * static_cast<double>(timeline.lanes.size());
   const TimeAxis axis(timeline.end_s);
   std::string svg = svg_head(width, bottom + 30, "Behaviours of each subsystem over time");
   axis.draw(svg, 4, bottom + 4);
   double top = 0;
-  for (const Lane& lane : timeline.lanes) {
+  for (const replay::Lane& lane : timeline.lanes) {
     put(svg, R"(<text class="lane" x="{}" y="{:.1f}">{}</text>)", left, top + 18, escaped(lane.path));
     double x = width - right;
     for (std::size_t b = lane.behaviours.size(); b-- > 0;) {  // the key, from the right
@@ -213,7 +213,7 @@ std::string timeline_svg(const Timeline& timeline) {
       put(svg, R"(<rect class="b{}" x="{:.1f}" y="{:.1f}" width="10" height="10" rx="2"/>)", b % 8, x,
           top + 9);
     }
-    for (const auto& [behaviour, from_s, to_s] : thinned(lane, timeline.end_s, columns)) {
+    for (const auto& [behaviour, from_s, to_s] : replay::thinned(lane, timeline.end_s, columns)) {
       put(svg,
           R"(<rect class="b{}" x="{:.2f}" y="{:.1f}" width="{:.2f}" height="{}"><title>{} {:.2f} .. {:.2f} s</title></rect>)",
           behaviour % 8, axis.x(from_s), top + 26, std::max(0.6, axis.x(to_s) - axis.x(from_s)), bar,

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "replay/timeline.hpp"
 #include "report/report.hpp"
-#include "report/timeline.hpp"
 
 namespace tessera::report {
 
@@ -17,6 +17,6 @@ namespace tessera::report {
 /// Each an <svg> element, styled by the page.
 [[nodiscard]] std::string path_svg(const Drive& drive);
 [[nodiscard]] std::string error_svg(const Drive& drive);
-[[nodiscard]] std::string timeline_svg(const Timeline& timeline);
+[[nodiscard]] std::string timeline_svg(const replay::Timeline& timeline);
 
 }  // namespace tessera::report

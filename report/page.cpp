@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <iterator>
 
+#include "replay/timeline.hpp"
 #include "report/charts.hpp"
 #include "report/colours.hpp"
 #include "report/picture.hpp"
 #include "report/style.hpp"
-#include "report/timeline.hpp"
 
 namespace tessera::report {
 namespace {
@@ -72,10 +72,10 @@ void put_drive(std::string& html, const Drive& drive) {
       error_svg(drive));
 }
 
-void put_subsystems(std::string& html, const ReportInput& input, const Timeline& timeline) {
+void put_subsystems(std::string& html, const ReportInput& input, const replay::Timeline& timeline) {
   std::vector<SubsystemFigures> rows = input.subsystems;
   if (rows.empty()) {
-    for (const Lane& lane : timeline.lanes)
+    for (const replay::Lane& lane : timeline.lanes)
       rows.push_back({lane.path, lane.iterations, 0, lane.errors_s.size()});
   }
   if (rows.empty()) return;
@@ -153,7 +153,7 @@ std::string headline(const ReportInput& input) {
 }
 
 std::string page(const ReportInput& input) {
-  const Timeline timeline = timeline_of(input.recording);
+  const replay::Timeline timeline = replay::timeline_of(input.recording);
   const std::string name = escaped(input.recording.system.empty() ? "run" : input.recording.system);
   std::string html;
   put(html,

@@ -5,7 +5,7 @@
 
 #include "tessera/recording.hpp"
 
-namespace tessera::report {
+namespace tessera::replay {
 
 /// Which behaviour of a subsystem ran when.
 struct Lane {
@@ -32,4 +32,4 @@ struct Timeline {
 /// At most `columns` stretches: each column of time shows the behaviour that ran longest in it.
 [[nodiscard]] std::vector<Lane::Stretch> thinned(const Lane& lane, double end_s, std::size_t columns);
 
-}  // namespace tessera::report
+}  // namespace tessera::replay

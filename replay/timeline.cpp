@@ -1,11 +1,11 @@
-#include "report/timeline.hpp"
+#include "replay/timeline.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <optional>
 #include <string_view>
 
-namespace tessera::report {
+namespace tessera::replay {
 namespace {
 
 /// "t_follow_1" -> "follow".
@@ -113,4 +113,4 @@ std::vector<Lane::Stretch> thinned(const Lane& lane, double end_s, std::size_t c
   return result;
 }
 
-}  // namespace tessera::report
+}  // namespace tessera::replay

@@ -1,12 +1,12 @@
-#include "report/timeline.hpp"
+#include "replay/timeline.hpp"
 
 #include <gtest/gtest.h>
 
 #include "constructed.hpp"
 
-using tessera::report::Lane;
-using tessera::report::thinned;
-using tessera::report::timeline_of;
+using tessera::replay::Lane;
+using tessera::replay::thinned;
+using tessera::replay::timeline_of;
 
 namespace {
 

@@ -1,0 +1,314 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/commands.hpp"
+#include "cli/terminal.hpp"
+#include "cli/walk.hpp"
+#include "diagnostics/diagnostics.hpp"
+#include "replay/legality.hpp"
+#include "replay/perfetto.hpp"
+#include "replay/statistics.hpp"
+#include "tessera/recording.hpp"
+#include "verify/hashes.hpp"
+
+namespace tessera::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using replay::Distribution;
+using Legal = replay::Legality::Verdict;
+
+struct Options {
+  std::string recording = ".tessera/last/recording.tsr", spec, subsystem, transition, csv, perfetto, json;
+  double from_s = 0, to_s = HUGE_VAL;
+  std::size_t last = 0;
+  bool check = false, print = false;
+};
+
+// ---------------------------------------------------------------------------------------------- the events
+
+const char* kind_of(const Event& event) {
+  switch (event.kind()) {
+    case Event::Kind::firing:
+      return "firing";
+    case Event::Kind::log:
+      return "log";
+    case Event::Kind::stop:
+      return "stop";
+  }
+  return "";
+}
+
+std::string path_of(const Recording& recording, const Event& event) {
+  return event.instance() < recording.instances.size() ? recording.instances[event.instance()] : "system";
+}
+
+std::string text_of(const Recording& recording, const Recording::Entry& entry) {
+  return entry.event.kind() == Event::Kind::firing ? recording.transitions[entry.event.subject].name
+                                                   : entry.text;
+}
+
+/// Those that the options ask for, in the order of their times.
+std::vector<const Recording::Entry*> chosen(const Recording& recording, const Options& options) {
+  std::vector<const Recording::Entry*> entries;
+  for (const Recording::Entry& entry : recording.entries) {
+    const double at_s = static_cast<double>(entry.event.time_ns) * 1e-9;
+    if (at_s < options.from_s || at_s > options.to_s) continue;
+    if (!options.subsystem.empty() && path_of(recording, entry.event) != options.subsystem) continue;
+    const bool named = text_of(recording, entry).find(options.transition) != std::string::npos;
+    if (named) entries.push_back(&entry);
+  }
+  std::ranges::stable_sort(entries, {}, [](const auto* entry) { return entry->event.time_ns; });
+  if (options.last > 0 && entries.size() > options.last)
+    entries.erase(entries.begin(), entries.end() - static_cast<std::ptrdiff_t>(options.last));
+  return entries;
+}
+
+void print_events(const Recording& recording, const Options& options) {
+  for (const Recording::Entry* entry : chosen(recording, options)) {
+    const Event& event = entry->event;
+    const bool firing = event.kind() == Event::Kind::firing;
+    fmt::print("{:14.6f} {}{}{}{}\n", static_cast<double>(event.time_ns) * 1e-9,
+               firing ? "" : path_of(recording, event) + ": ",
+               event.kind() == Event::Kind::stop ? "stop: " : "", text_of(recording, *entry),
+               firing && event.version != 0 ? fmt::format("  (version {})", event.version) : "");
+  }
+}
+
+/// RFC 4180.
+std::string quoted_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+void write_csv(const Recording& recording, const Options& options) {
+  std::string text = "time_ns,sequence,kind,subsystem,version,text\n";
+  for (const Recording::Entry* entry : chosen(recording, options))
+    text += fmt::format("{},{},{},{},{},{}\n", entry->event.time_ns, entry->event.sequence,
+                        kind_of(entry->event), path_of(recording, entry->event), entry->event.version,
+                        quoted_field(text_of(recording, *entry)));
+  write_output(options.csv, text);
+}
+
+void write_perfetto_file(const Recording& recording, const std::string& file) {
+  std::ostringstream text;
+  replay::write_perfetto(recording, text);
+  write_output(file, text.str());
+}
+
+// ---------------------------------------------------------------------------------------------- summary
+
+std::string shown(double seconds) {
+  if (seconds < 1e-6) return fmt::format("{:.0f} ns", seconds * 1e9);
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3f} ms", seconds * 1e3);
+  return fmt::format("{:.3f} s", seconds);
+}
+
+/// A row of blocks, one per step of the histogram; anything at all shows.
+std::string bars(const Distribution& distribution) {
+  if (distribution.histogram.empty()) return {};
+  constexpr const char* blocks[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  const std::uint64_t most = std::ranges::max(distribution.histogram);
+  std::string row = "  |";
+  for (const std::uint64_t count : distribution.histogram)
+    row += blocks[count == 0 ? 0 : std::max<std::uint64_t>(1, count * 8 / most)];
+  return row + "|";
+}
+
+void print_distribution(const std::string& name, const Distribution& distribution) {
+  if (distribution.count == 0) return;
+  fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}{}\n", name, shown(distribution.least),
+             shown(distribution.median), shown(distribution.p99), shown(distribution.most),
+             bars(distribution));
+}
+
+std::string count_of(std::uint64_t count, const char* what) {
+  return count == 0 ? std::string() : fmt::format(", {} {}", count, what);
+}
+
+void print_summary(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
+  const double end_s =
+      recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
+  fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", recording.system, recording.clock,
+             recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
+  fmt::print("net {}\n", recording.net_hash);
+  for (const replay::SubsystemStatistics& one : all) {
+    constexpr std::size_t shown_waits = 4;
+    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}\n", one.path, one.iterations, one.firings,
+               count_of(one.errors, "errors"), count_of(one.timeouts, "timeouts"),
+               count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
+    if (one.iterations > 0)
+      fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
+    print_distribution("period", one.period);
+    print_distribution("communication", one.iteration);
+    for (std::size_t wait = 0; wait < std::min(shown_waits, one.waits.size()); ++wait)
+      if (one.waits[wait].time.most > 0)
+        print_distribution("wait for " + one.waits[wait].channel, one.waits[wait].time);
+  }
+  for (const Recording::Entry& entry : recording.entries)
+    if (entry.event.kind() == Event::Kind::stop) fmt::print("\nended: {}\n", entry.text);
+}
+
+json to_json(const Distribution& distribution) {
+  return {{"count", distribution.count},        {"least_s", distribution.least},
+          {"mean_s", distribution.mean},        {"median_s", distribution.median},
+          {"p99_s", distribution.p99},          {"most_s", distribution.most},
+          {"histogram", distribution.histogram}};
+}
+
+json to_json(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
+  json subsystems = json::array();
+  for (const replay::SubsystemStatistics& one : all) {
+    json waits = json::object();
+    for (const auto& wait : one.waits) waits[wait.channel] = to_json(wait.time);
+    subsystems.push_back({{"path", one.path},
+                          {"firings", one.firings},
+                          {"iterations", one.iterations},
+                          {"errors", one.errors},
+                          {"timeouts", one.timeouts},
+                          {"skips", one.skips},
+                          {"overwrites", one.overwrites},
+                          {"period", to_json(one.period)},
+                          {"communication", to_json(one.iteration)},
+                          {"waits", std::move(waits)}});
+  }
+  return {{"system", recording.system},
+          {"net_hash", recording.net_hash},
+          {"verification_hash", recording.verification_hash},
+          {"clock", recording.clock},
+          {"seed", recording.seed},
+          {"events", recording.entries.size()},
+          {"truncated", recording.truncated},
+          {"subsystems", std::move(subsystems)}};
+}
+
+// ---------------------------------------------------------------------------------------------- check
+
+/// The specification beside a recording: in its folder or in one above.
+std::string specification_of(const Options& options) {
+  if (!options.spec.empty()) return options.spec;
+  for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
+    if (fs::exists(folder / "spec.yaml")) return (folder / "spec.yaml").string();
+    if (folder == folder.parent_path()) break;
+  }
+  throw std::runtime_error("no specification is beside '" + options.recording +
+                           "' or above it; name the one that the controller was generated from with --spec");
+}
+
+const char* name_of(Legal verdict) {
+  switch (verdict) {
+    case Legal::legal:
+      return "legal";
+    case Legal::illegal:
+      return "illegal";
+    case Legal::incomplete:
+      return "incomplete";
+  }
+  return "";
+}
+
+/// nullopt after the reason has been printed: there is no net to check against.
+std::optional<replay::Legality> check(const Recording& recording, const Options& options) {
+  const std::string file = specification_of(options);
+  std::optional<Specification> specification = read(file);
+  if (!specification) return std::nullopt;
+  const std::optional<Nets> nets = build(*specification);
+  if (!nets) return std::nullopt;
+  const std::string hash = verify::hash_of(nets->flat);
+  if (hash != recording.net_hash) {
+    complain(
+        fmt::format("the recording is of the net {}, and {} now gives {}: check out the specification "
+                    "it was made with, or name it with --spec",
+                    recording.net_hash, specification->file.string(), hash));
+    return std::nullopt;
+  }
+  return replay::check_legal(recording, nets->flat);
+}
+
+int exit_code_of(Legal verdict) {
+  return verdict == Legal::legal ? ok : verdict == Legal::illegal ? failed : unknown;
+}
+
+bool known_subsystem(const Recording& recording, const std::string& path) {
+  std::vector<std::string> names = recording.instances;
+  names.emplace_back("system");
+  if (path.empty() || std::ranges::count(names, path) > 0) return true;
+  const std::string hint = diagnostics::did_you_mean(path, names);
+  complain("the recording has no subsystem '" + path + "'" + (hint.empty() ? "" : "; " + hint));
+  return false;
+}
+
+int replay_command(const Options& options) {
+  std::string error;
+  const std::optional<Recording> recording = read_recording(options.recording, error);
+  if (!recording) return complain(error);
+  if (!known_subsystem(*recording, options.subsystem)) return usage;
+  json result;
+  int exit_code = ok;
+  const bool to_output = options.json == "-" || options.csv == "-" || options.perfetto == "-";
+  const bool other = options.check || options.print || !options.csv.empty() || !options.perfetto.empty();
+  if (!options.csv.empty()) write_csv(*recording, options);
+  if (!options.perfetto.empty()) write_perfetto_file(*recording, options.perfetto);
+  if (options.print) print_events(*recording, options);
+  if (!other || !options.json.empty()) {
+    const std::vector<replay::SubsystemStatistics> all = replay::statistics_of(*recording);
+    result = to_json(*recording, all);
+    if (!other && !to_output) print_summary(*recording, all);
+  }
+  if (options.check) {
+    const std::optional<replay::Legality> legality = check(*recording, options);
+    if (!legality) return failed;
+    exit_code = exit_code_of(legality->verdict);
+    result["check"] = {
+        {"verdict", name_of(legality->verdict)}, {"firings", legality->firings}, {"why", legality->why}};
+    if (!to_output)
+      fmt::print("{}: {} firings of the net {}{}{}\n", name_of(legality->verdict), legality->firings,
+                 recording->net_hash, legality->why.empty() ? "" : "; then ", legality->why);
+  }
+  if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
+  return exit_code;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "replay", "Read a recording: what ran when, how regularly, and whether it was legal");
+  auto options = std::make_shared<Options>();
+  command->add_option("recording", options->recording, "Recording of a run")->capture_default_str();
+  command->add_flag("--check", options->check,
+                    "Play it on the net of its specification: is it a legal firing sequence?");
+  command->add_option("--spec", options->spec, "That specification (default: beside the recording or above)");
+  command->add_flag("--print", options->print, "Print the events");
+  command->add_option("--from", options->from_s, "Events from this time on, in seconds");
+  command->add_option("--to", options->to_s, "Events up to this time, in seconds");
+  command->add_option("--last", options->last, "The last so many of the events");
+  command->add_option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
+  command->add_option("--containing", options->transition,
+                      "Events whose text contains this: t6, .snd.motion");
+  command->add_option("--csv", options->csv, "Write the events as CSV (- is standard output)");
+  command->add_option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
+  command->add_option("--json", options->json, "Write summary and check as JSON (- is standard output)");
+  command->footer(
+      "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 3 if "
+      "events\n"
+      "are missing.\n"
+      "Example: tessera replay --check\n"
+      "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
+      "         tessera replay --to-perfetto run.json");
+  command->callback([options, &exit_code] { exit_code = replay_command(*options); });
+}
+
+}  // namespace tessera::cli

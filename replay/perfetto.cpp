@@ -1,0 +1,118 @@
+#include "replay/perfetto.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "replay/timeline.hpp"
+
+namespace tessera::replay {
+namespace {
+
+using nlohmann::json;
+
+/// Where a subsystem is drawn: agents are processes, numbered from 1.
+struct Row {
+  std::uint32_t process = 0, thread = 0;
+};
+
+class Writing {
+ public:
+  Writing(const Recording& recording, std::ostream& to) : recording_(recording), to_(to) {}
+
+  void run() {
+    to_ << "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[";
+    name_rows();
+    for (const Lane& lane : timeline_of(recording_).lanes) write_lane(lane);
+    write_iterations();
+    write_log();
+    to_ << "\n]}\n";
+  }
+
+ private:
+  void write(const json& event) {
+    to_ << (first_ ? "\n" : ",\n") << event.dump(-1, ' ', false, json::error_handler_t::replace);
+    first_ = false;
+  }
+
+  void name_rows() {
+    std::map<std::string, std::uint32_t> processes;
+    for (std::size_t index = 0; index < recording_.instances.size(); ++index) {
+      const std::string& path = recording_.instances[index];
+      const std::string agent = path.substr(0, path.rfind('.'));
+      const auto number = static_cast<std::uint32_t>(processes.size() + 1);
+      const auto [process, added] = processes.emplace(agent, number);
+      if (added) name("process_name", {process->second, 0}, agent);
+      const Row row{process->second, static_cast<std::uint32_t>(index + 1)};
+      name("thread_name", row, path.substr(path.rfind('.') + 1));
+      rows_.emplace(path, row);
+    }
+    name("process_name", {0, 0}, recording_.system);
+  }
+
+  void name(const char* what, Row row, const std::string& text) {
+    write(
+        {{"ph", "M"}, {"name", what}, {"pid", row.process}, {"tid", row.thread}, {"args", {{"name", text}}}});
+  }
+
+  void slice(const std::string& name, const char* category, Row row, double from_us, double to_us) {
+    write({{"ph", "X"},
+           {"name", name},
+           {"cat", category},
+           {"pid", row.process},
+           {"tid", row.thread},
+           {"ts", from_us},
+           {"dur", to_us - from_us}});
+  }
+
+  void write_lane(const Lane& lane) {
+    for (const auto& [behaviour, from_s, to_s] : lane.stretches)
+      slice(lane.behaviours[behaviour], "behaviour", rows_.at(lane.path), from_s * 1e6, to_s * 1e6);
+  }
+
+  /// From t1 to t4, t5 or t6 of a behaviour.
+  void write_iterations() {
+    std::vector<double> begun(recording_.instances.size(), 0);
+    for (const auto& [event, text] : recording_.entries) {
+      if (event.kind() != Event::Kind::firing || event.instance() >= begun.size()) continue;
+      const std::string& path = recording_.instances[event.instance()];
+      std::string_view local = recording_.transitions[event.subject].name;
+      if (!local.starts_with(path) || local.size() <= path.size()) continue;
+      local.remove_prefix(path.size() + 1);
+      const std::size_t dot = local.find('.');
+      if (dot == std::string_view::npos || dot + 3 != local.size()) continue;
+      const double at_us = static_cast<double>(event.time_ns) * 1e-3;
+      if (local.back() == '1') begun[event.instance()] = at_us;
+      if (local.back() < '4') continue;
+      slice(local.back() == '6' ? "iteration (error)" : "iteration", "iteration", rows_.at(path),
+            begun[event.instance()], at_us);
+    }
+  }
+
+  void write_log() {
+    for (const auto& [event, text] : recording_.entries) {
+      if (event.kind() == Event::Kind::firing) continue;
+      const bool of_subsystem = event.instance() < recording_.instances.size();
+      const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
+      write({{"ph", "i"},
+             {"name", text},
+             {"cat", event.kind() == Event::Kind::stop ? "stop" : "log"},
+             {"pid", row.process},
+             {"tid", row.thread},
+             {"ts", static_cast<double>(event.time_ns) * 1e-3},
+             {"s", of_subsystem ? "t" : "g"}});
+    }
+  }
+
+  const Recording& recording_;
+  std::ostream& to_;
+  std::map<std::string, Row> rows_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+void write_perfetto(const Recording& recording, std::ostream& to) { Writing(recording, to).run(); }
+
+}  // namespace tessera::replay

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tessera/recording.hpp"
+
+namespace tessera::replay {
+
+/// How a duration was distributed. Seconds; quantiles by nearest rank.
+struct Distribution {
+  std::uint64_t count = 0;
+  double least = 0, mean = 0, median = 0, p99 = 0, most = 0;
+  /// Shares of `count` in equal steps from least to most; empty if there is nothing to tell apart.
+  std::vector<std::uint64_t> histogram;
+};
+
+struct SubsystemStatistics {
+  std::string path;
+  std::uint64_t firings = 0, iterations = 0, errors = 0;
+  Distribution period;     ///< from one end of a transition function (t1) to the next
+  Distribution iteration;  ///< from t1 to t4, t5 or t6: what communication took
+  struct Wait {
+    std::string channel;  ///< path of the block's transition without the path of the subsystem
+    Distribution time;    ///< from the subsystem's firing before it
+  };
+  std::vector<Wait> waits;       ///< those of communication transitions, the longest mean first
+  std::uint64_t timeouts = 0;    ///< firings of `timeout`
+  std::uint64_t skips = 0;       ///< firings of `skip`
+  std::uint64_t overwrites = 0;  ///< firings of `t1o`
+};
+
+/// What each subsystem did, from the firings alone. Linear in the recording (quantiles: linear on average).
+[[nodiscard]] std::vector<SubsystemStatistics> statistics_of(const Recording& recording);
+
+}  // namespace tessera::replay

@@ -1,0 +1,159 @@
+#include "replay/legality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "layers/models.hpp"
+
+namespace tessera::replay {
+namespace {
+
+using net::Arc;
+using net::TransitionId;
+using Verdict = Legality::Verdict;
+using Random = std::mt19937;
+
+constexpr std::uint32_t upper_layers = 0xffffff;
+
+/// A random run of the net, recorded as the runtime would under the simulated clock.
+Recording random_run(const net::Net& net, std::size_t firings, Random& random) {
+  Recording recording;
+  recording.clock = "simulated";
+  std::uint32_t instances = 0;
+  for (const net::Transition& transition : net.transitions()) {
+    recording.transitions.push_back({transition.name, transition.subsystem});
+    if (transition.subsystem != net::no_subsystem) instances = std::max(instances, transition.subsystem + 1);
+  }
+  for (std::uint32_t index = 0; index < instances; ++index)
+    recording.instances.push_back("s" + std::to_string(index));
+  std::vector<std::uint32_t> marking;
+  for (const net::Place& place : net.places()) marking.push_back(place.tokens);
+  std::map<std::uint32_t, std::uint32_t> versions, sequences;
+  for (std::size_t step = 0; step < firings; ++step) {
+    std::vector<std::uint32_t> enabled;
+    for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+      if (net.transitions()[index].condition.truth != net::Condition::Truth::never &&
+          std::ranges::all_of(net.preset(TransitionId{index}),
+                              [&](const Arc& arc) { return marking[arc.place.value] >= arc.weight; }))
+        enabled.push_back(index);
+    if (enabled.empty()) break;
+    const TransitionId id{enabled[random() % enabled.size()]};
+    Event event{.time_ns = static_cast<std::int64_t>(step / 3 * 1000), .subject = id.value};
+    for (const auto& [arcs, change] : {std::pair(net.preset(id), -1), std::pair(net.postset(id), 1)})
+      for (const Arc& arc : arcs) {
+        marking[arc.place.value] += static_cast<std::uint32_t>(change);
+        if (net[arc.place].fused() && event.version == 0) event.version = ++versions[net[arc.place].channel];
+      }
+    const std::uint32_t instance = net[id].subsystem == net::no_subsystem ? upper_layers : net[id].subsystem;
+    event.sequence = sequences[instance]++;
+    event.origin = instance << 8 | static_cast<std::uint32_t>(Event::Kind::firing);
+    recording.entries.push_back({event, {}});
+  }
+  return recording;
+}
+
+/// The same run as threads would leave it: each subsystem in its order, in pieces of any size.
+Recording as_of_threads(Recording recording, Random& random) {
+  std::map<std::uint32_t, std::vector<Recording::Entry>> lanes;
+  for (const Recording::Entry& entry : recording.entries) lanes[entry.event.instance()].push_back(entry);
+  recording.entries.clear();
+  recording.clock = "steady";
+  while (!lanes.empty()) {
+    const auto lane = std::next(lanes.begin(), static_cast<std::ptrdiff_t>(random() % lanes.size()));
+    const std::size_t count = std::min<std::size_t>(lane->second.size(), 1 + random() % 20);
+    const auto end = lane->second.begin() + static_cast<std::ptrdiff_t>(count);
+    recording.entries.insert(recording.entries.end(), lane->second.begin(), end);
+    lane->second.erase(lane->second.begin(), end);
+    if (lane->second.empty()) lanes.erase(lane);
+  }
+  return recording;
+}
+
+TEST(Legality, RandomRunsAreLegalInTheirOrderAndAsThreadsWouldLeaveThem) {
+  Random random(3);
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    const net::Net net = test::build(test::random_model(seed)).net;
+    const Recording run = random_run(net, 400, random);
+    const Legality as_written = check_legal(run, net);
+    EXPECT_EQ(as_written.verdict, Verdict::legal) << seed << ": " << as_written.why;
+    EXPECT_EQ(as_written.firings, run.entries.size());
+    const Legality merged = check_legal(as_of_threads(run, random), net);
+    EXPECT_EQ(merged.verdict, Verdict::legal) << seed << ": " << merged.why;
+    EXPECT_EQ(merged.marking, as_written.marking) << seed;
+  }
+}
+
+/// Leaves one firing out, and numbers the rest as if it had never been.
+Recording without(Recording recording, std::size_t left_out) {
+  const Event gone = recording.entries[left_out].event;
+  recording.entries.erase(recording.entries.begin() + static_cast<std::ptrdiff_t>(left_out));
+  for (std::size_t index = left_out; index < recording.entries.size(); ++index)
+    if (Event& event = recording.entries[index].event; event.instance() == gone.instance()) --event.sequence;
+  return recording;
+}
+
+TEST(Legality, ARunWithoutOneOfItsFiringsIsIllegal) {
+  Random random(5);
+  const net::Net net = test::build(test::line_follower()).net;
+  const Recording run = random_run(net, 300, random);
+  std::size_t tried = 0;
+  for (std::size_t index = 0; index < run.entries.size(); ++index) {
+    // The last firing of a subsystem is missed by nobody.
+    const std::uint32_t instance = run.entries[index].event.instance();
+    const bool last =
+        std::none_of(run.entries.begin() + static_cast<std::ptrdiff_t>(index) + 1, run.entries.end(),
+                     [&](const auto& entry) { return entry.event.instance() == instance; });
+    if (last) continue;
+    ++tried;
+    const Recording shorter = without(run, index);
+    EXPECT_EQ(check_legal(shorter, net).verdict, Verdict::illegal) << index;
+    EXPECT_EQ(check_legal(as_of_threads(shorter, random), net).verdict, Verdict::illegal) << index;
+  }
+  EXPECT_GT(tried, 200U);
+}
+
+TEST(Legality, AWrongVersionAndAStepBackInTimeAreNamed) {
+  Random random(7);
+  const net::Net net = test::build(test::line_follower()).net;
+  Recording run = random_run(net, 300, random);
+  const auto versioned =
+      std::ranges::find_if(run.entries, [](const auto& entry) { return entry.event.version == 3; });
+  ASSERT_NE(versioned, run.entries.end());
+  Recording wrong = run;
+  wrong.entries[static_cast<std::size_t>(versioned - run.entries.begin())].event.version = 4;
+  EXPECT_NE(check_legal(wrong, net).why.find("it is version 4 of its channel, of which 3 is due"),
+            std::string::npos)
+      << check_legal(wrong, net).why;
+  run.entries.back().event.time_ns = 0;
+  EXPECT_NE(check_legal(run, net).why.find("time went back"), std::string::npos);
+}
+
+TEST(Legality, MissingEventsLeaveTheRestUndecided) {
+  Random random(11);
+  const net::Net net = test::build(test::line_follower()).net;
+  Recording run = random_run(net, 300, random);
+  const auto gone = run.entries.begin() + 150;
+  ASSERT_TRUE(std::any_of(gone + 1, run.entries.end(), [&](const auto& entry) {
+    return entry.event.instance() == gone->event.instance();
+  })) << "nobody could miss it";
+  run.entries.erase(gone);
+  EXPECT_EQ(check_legal(run, net).verdict, Verdict::incomplete);
+  EXPECT_EQ(check_legal(run, net).firings, 150U);
+  const Legality merged = check_legal(as_of_threads(run, random), net);
+  EXPECT_EQ(merged.verdict, Verdict::incomplete);
+  EXPECT_NE(merged.why.find("are missing"), std::string::npos) << merged.why;
+}
+
+TEST(Legality, ARunOfAnotherNetIsIllegal) {
+  Random random(13);
+  const Recording run = random_run(test::build(test::fleet(2)).net, 100, random);
+  const Legality other = check_legal(run, test::build(test::line_follower()).net);
+  EXPECT_EQ(other.verdict, Verdict::illegal);
+  EXPECT_NE(other.why.find("the net has no transition"), std::string::npos) << other.why;
+}
+
+}  // namespace
+}  // namespace tessera::replay

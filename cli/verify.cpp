@@ -54,13 +54,6 @@ std::chrono::duration<double> seconds_of(const std::string& text) {
   return std::chrono::duration<double>(value * scale);
 }
 
-verify::Method method_of(const std::string& text) {
-  if (text == "invariants") return verify::Method::invariants;
-  if (text == "circuits") return verify::Method::circuits;
-  if (text == "explicit") return verify::Method::exploration;
-  return verify::Method::any;
-}
-
 /// The net to judge, of a specification or of a PNML file.
 struct Judged {
   std::string file;
@@ -101,7 +94,7 @@ std::string shown(const explore::Progress& progress) {
 verify::Report judge(const Judged& judged, const Options& options, Step& step) {
   verify::ProveOptions how;
   how.time = seconds_of(options.timeout);
-  how.method = method_of(options.method);
+  if (options.method != "any") how.method = options.method;
   how.only = options.properties;
   how.stop = &interrupt;
   how.progress = [&](const std::string& property, const explore::Progress& progress) {
@@ -282,8 +275,10 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_option("--property", options->properties, "Only this property; may be given several times");
   command->add_option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
       ->capture_default_str();
+  std::vector<std::string> methods = verify::method_names();
+  methods.insert(methods.begin(), "any");
   command->add_option("--method", options->method, "Use only this method")
-      ->check(CLI::IsMember({"any", "invariants", "circuits", "explicit"}))
+      ->check(CLI::IsMember(methods))
       ->capture_default_str();
   command->add_flag("--states", options->states, "Count the reachable markings as well");
   command->add_option("--json", options->json, "Write the verdicts as JSON (- is standard output)");

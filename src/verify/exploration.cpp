@@ -6,6 +6,7 @@
 
 #include "reduce/components.hpp"
 #include "reduce/reduce.hpp"
+#include "verify/budget.hpp"
 #include "verify/parts.hpp"
 
 namespace tessera::verify {
@@ -17,24 +18,6 @@ using net::PlaceId;
 using net::TransitionId;
 using Kind = Found::Kind;
 using Sets = std::vector<std::vector<TransitionId>>;
-
-/// What is left of the limits, for questions that are made of several explorations.
-class Budget {
- public:
-  explicit Budget(const explore::Limits& limits) : limits_(limits), start_(Clock::now()) {}
-
-  [[nodiscard]] explore::Limits left() const {
-    explore::Limits left = limits_;
-    left.time = limits_.time - std::chrono::duration<double>(Clock::now() - start_);
-    left.time = std::max(left.time, std::chrono::duration<double>(0));
-    return left;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  const explore::Limits& limits_;
-  Clock::time_point start_;
-};
 
 std::string sizes(const reduce::Reduced& reduced, const reduce::Components& components) {
   const reduce::Statistics& count = reduced.statistics;

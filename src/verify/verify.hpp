@@ -71,18 +71,13 @@ class VerifiedNet {
 
 // ---------------------------------------------------------------------------------------------- prove
 
-/// How a property may be decided.
-enum class Method : std::uint8_t {
-  any,         ///< the portfolio: the first that gives an answer
-  invariants,  ///< place invariants
-  circuits,    ///< communication structure and event graph (docs/circuits.md)
-  exploration  ///< reductions, components, explicit search
-};
+/// The methods by name, in the order in which they are tried (docs/verification.md).
+[[nodiscard]] const std::vector<std::string>& method_names();
 
 struct ProveOptions {
   std::chrono::duration<double> time{60};  ///< for all properties together, shared out fairly
   std::uint64_t bytes = std::uint64_t{2} << 30U;
-  Method method = Method::any;
+  std::string method = {};  ///< use only this one of method_names(); empty: the first that has an answer
   std::vector<std::string> only;            ///< names of properties; empty: all
   const std::atomic<bool>* stop = nullptr;  ///< true: give up what is not yet decided
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;

@@ -75,7 +75,7 @@ class Comparison {
   Comparison(const test::Built& built, const std::vector<net::Invariant>& invariants, Tally& tally)
       : built_(built), invariants_(invariants), tally_(tally) {}
 
-  void with(Method method, const net::Net& abstract, const test::NaiveAnswers& naive, bool live) {
+  void with(const std::string& method, const net::Net& abstract, const test::NaiveAnswers& naive, bool live) {
     ProveOptions options;
     options.method = method;
     const Report report = prove({built_.net, &built_.pages, invariants_}, options);
@@ -144,8 +144,8 @@ TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
     const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
     const bool live = every_behaviour_runs(abstract);
     Comparison comparison(built, invariants, tally);
-    comparison.with(Method::any, abstract, *naive, live);
-    comparison.with(Method::exploration, abstract, *naive, live);
+    comparison.with("", abstract, *naive, live);
+    comparison.with("explicit", abstract, *naive, live);
     if (HasFailure()) return;
   }
   for (const char* name : {"deadlock_free", "goes_on", "channels_flow"}) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "explore/watch.hpp"
+
+namespace tessera::verify {
+
+/// What is left of the limits, for a question that is made of several explorations.
+class Budget {
+ public:
+  explicit Budget(const explore::Limits& limits) : limits_(limits), start_(Clock::now()) {}
+
+  [[nodiscard]] explore::Limits left() const {
+    explore::Limits left = limits_;
+    left.time = limits_.time - std::chrono::duration<double>(Clock::now() - start_);
+    left.time = std::max(left.time, std::chrono::duration<double>(0));
+    return left;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const explore::Limits& limits_;
+  Clock::time_point start_;
+};
+
+}  // namespace tessera::verify

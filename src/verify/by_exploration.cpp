@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <map>
+
+#include "verify/budget.hpp"
+#include "verify/decider.hpp"
+#include "verify/exploration.hpp"
+#include "verify/waits.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using explore::Formula;
+using net::PlaceId;
+using net::TransitionId;
+using Kind = Question::Kind;
+
+/// good: the answer to the question of the search for which the property holds.
+Finding judged(const Found& found, Found::Kind good) {
+  Finding finding;
+  finding.states = found.states;
+  finding.explanation = found.explanation;
+  finding.why = found.why;
+  if (found.kind == Found::Kind::unknown) return finding;
+  finding.kind = found.kind == good ? Finding::Kind::holds : Finding::Kind::violated;
+  finding.trace = found.trace;
+  finding.has_trace = finding.kind == Finding::Kind::violated;
+  return finding;
+}
+
+/// Reductions do not keep safety, so the net itself is explored.
+Finding safe(const Case& given, const explore::Limits& limits) {
+  std::vector<TransitionId> original;
+  const net::Net possible = possible_part(given.abstract, &original);
+  const explore::PtNet net(possible);
+  explore::Limits most = limits;
+  most.time *= 0.8;
+  const explore::Count count = explore::count(net, most);
+  Finding finding;
+  finding.method = "explicit search";
+  finding.why = count.why;
+  finding.states = count.markings;
+  finding.explanation =
+      std::to_string(count.markings) + " markings, " + std::to_string(count.edges) + " edges";
+  if (count.complete && count.most_tokens <= 1) finding.kind = Finding::Kind::holds;
+  if (count.most_tokens <= 1) return finding;
+  std::vector<Formula> two;
+  for (std::uint32_t place = 0; place < net.places(); ++place) two.push_back(Formula::at_least({place}, 2));
+  const explore::Answer answer = explore::find(net, Formula::any(std::move(two)), limits);
+  finding.kind = Finding::Kind::violated;
+  finding.why = "a place holds two tokens";
+  if (answer.kind != explore::Answer::Kind::yes) return finding;
+  finding.has_trace = true;
+  for (const TransitionId id : answer.trace.firings) finding.trace.push_back(original[id.value]);
+  for (std::uint32_t place = 0; place < net.places(); ++place)
+    if (answer.trace.end[place] > 1)
+      finding.why = "place '" + possible.places()[place].name + "' holds " +
+                    std::to_string(answer.trace.end[place]) + " tokens";
+  return finding;
+}
+
+/// The place that is marked once the whole system has ended; a net drawn elsewhere has none.
+PlaceId final_place(const net::Net& net) {
+  for (std::uint32_t place = 0; place < net.places().size(); ++place)
+    if (net.places()[place].layer == net::Layer::system && net.places()[place].name == "out") return {place};
+  return {};
+}
+
+Finding deadlock_free(const Case& given, Facts& facts, const explore::Limits& limits) {
+  const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(given.abstract);
+  Finding finding = judged(find_dead(given.abstract, end, facts.safe(), limits), Found::Kind::no);
+  if (finding.kind != Finding::Kind::violated) return finding;
+  finding.why = end.valid() ? "a dead marking is reachable that is not final" : "a dead marking is reachable";
+  finding.waits = waits_after(given.abstract, finding.trace, {});
+  return finding;
+}
+
+/// The most telling of several answers, all of which have to be `yes`: a `no`, else an `unknown`.
+std::size_t worst_of(const std::vector<Found>& all) {
+  const auto at = [&](Found::Kind kind) {
+    return static_cast<std::size_t>(std::ranges::find(all, kind, &Found::kind) - all.begin());
+  };
+  if (at(Found::Kind::no) < all.size()) return at(Found::Kind::no);
+  return at(Found::Kind::unknown) < all.size() ? at(Found::Kind::unknown) : 0;
+}
+
+/// Sets of transitions one of which has to be possible again and again.
+Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& all, const Question& question,
+                        bool known_safe, const explore::Limits& limits) {
+  std::vector<const ProbedNet::Set*> sets;
+  std::vector<std::vector<TransitionId>> transitions;
+  for (const ProbedNet::Set& set : all) {
+    if (std::ranges::count(question.subjects, set.id) == 0) continue;
+    sets.push_back(&set);
+    transitions.push_back(set.any_of);
+  }
+  if (sets.empty()) return {.kind = Finding::Kind::holds};
+  const std::vector<Found> found = find_stuck(given.probed.net, transitions, known_safe, limits);
+  const std::size_t worst = worst_of(found);
+  Finding finding = judged(found[worst], Found::Kind::yes);
+  finding.subjects = {sets[worst]->id};
+  if (finding.kind != Finding::Kind::violated) return finding;
+  // Probes change nothing, and the net that is shown has none.
+  std::erase_if(finding.trace, [&](TransitionId id) { return id.value >= given.probed.transitions; });
+  const TransitionId first = sets[worst]->any_of.front();
+  finding.waits = waits_after(given.abstract, finding.trace, {given.probed.net[first].subsystem});
+  return finding;
+}
+
+Finding goes_on(const Case& given, const Question& question, bool known_safe, const explore::Limits& limits) {
+  Finding finding = always_possible(given, given.probed.subsystems, question, known_safe, limits);
+  if (finding.kind == Finding::Kind::violated)
+    finding.why = subsystem_names(given.abstract)[finding.subjects.front()] + " can get stuck for ever";
+  return finding;
+}
+
+std::string channel_name(const net::Net& net, std::uint32_t channel) {
+  for (const net::Place& place : net.places())
+    if (place.channel == channel) return place.name.substr(0, place.name.rfind('.'));
+  return {};
+}
+
+Finding channels_flow(const Case& given, const Question& question, bool known_safe,
+                      const explore::Limits& limits) {
+  Finding finding = always_possible(given, given.probed.channels, question, known_safe, limits);
+  if (finding.kind == Finding::Kind::violated)
+    finding.why = channel_name(given.abstract, finding.subjects.front()) + " can run dry for ever";
+  return finding;
+}
+
+Finding live_behaviours(const Case& given, const Question& question, bool known_safe,
+                        const explore::Limits& limits) {
+  Finding finding;
+  finding.kind = Finding::Kind::holds;
+  const Budget budget(limits);
+  for (const std::uint32_t place : question.subjects) {
+    const Found found = find_marking(given.abstract, Formula::marked({place}), known_safe, budget.left());
+    finding.states += found.states;
+    finding.explanation = found.explanation;
+    if (found.kind == Found::Kind::yes) continue;
+    const bool never = found.kind == Found::Kind::no;
+    finding.kind = never ? Finding::Kind::violated : Finding::Kind::unknown;
+    finding.why = behaviour_of(given.abstract, {place}) + (never ? " can never run" : ": " + found.why);
+    if (never) return finding;
+    finding.subjects.push_back(place);
+  }
+  return finding;
+}
+
+/// Reductions, components, and the markings of one component of each kind.
+class ByExploration final : public Decider {
+ public:
+  [[nodiscard]] const char* name() const override { return "explicit"; }
+  [[nodiscard]] const char* title() const override { return "reductions and explicit search"; }
+  [[nodiscard]] bool finds_runs() const override { return true; }
+
+  [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
+                                              const explore::Limits& limits) const override {
+    const Case& given = facts.under(question.assume);
+    switch (question.kind) {
+      case Kind::safe:
+        return safe(given, limits);
+      case Kind::deadlock_free:
+        return deadlock_free(given, facts, limits);
+      case Kind::goes_on:
+        return goes_on(given, question, facts.safe(), limits);
+      case Kind::channels_flow:
+        return channels_flow(given, question, facts.safe(), limits);
+      case Kind::live_behaviours:
+        return live_behaviours(given, question, facts.safe(), limits);
+      case Kind::exclusive_channels:
+      case Kind::sound_pages:
+        return std::nullopt;
+    }
+    return std::nullopt;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Decider> by_exploration() { return std::make_unique<ByExploration>(); }
+
+}  // namespace tessera::verify

@@ -1,0 +1,44 @@
+#include "verify/covered.hpp"
+#include "verify/decider.hpp"
+
+namespace tessera::verify {
+namespace {
+
+/// Sums of tokens that no firing changes: those that the layers emit.
+class ByInvariants final : public Decider {
+ public:
+  [[nodiscard]] const char* name() const override { return "invariants"; }
+  [[nodiscard]] const char* title() const override { return "place invariants"; }
+
+  [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
+                                              const explore::Limits& /*limits*/) const override {
+    const Subject& subject = facts.subject();
+    if (subject.invariants.empty()) return std::nullopt;
+    Finding finding;
+    if (!facts.wrong_invariants().empty()) {
+      finding.why = facts.wrong_invariants().front();
+      return finding;
+    }
+    switch (question.kind) {
+      case Question::Kind::safe:
+        finding.why = facts.safe() ? "" : "the invariants do not bound every place";
+        break;
+      case Question::Kind::exclusive_channels:
+        finding.why = shared_memory(subject.net, subject.invariants);
+        break;
+      case Question::Kind::sound_pages:
+        finding.why = unsound_page(*subject.pages, subject.net, subject.invariants);
+        break;
+      default:
+        return std::nullopt;
+    }
+    finding.kind = finding.why.empty() ? Finding::Kind::holds : Finding::Kind::unknown;
+    return finding;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Decider> by_invariants() { return std::make_unique<ByInvariants>(); }
+
+}  // namespace tessera::verify

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+#include "verify/abstraction.hpp"
+#include "verify/circuits.hpp"
+#include "verify/communication.hpp"
+#include "verify/question.hpp"
+#include "verify/verify.hpp"
+
+namespace tessera::verify {
+
+/// What is known about a net under one assumption.
+struct Case {
+  net::Net abstract;
+  ProbedNet probed;
+  CommunicationResult communication;
+  std::optional<CircuitReport> circuits;  ///< if there is a communication structure
+
+  Case(const Subject& subject, Assume assume);
+
+  /// Why the circuit criterion says nothing.
+  [[nodiscard]] std::string why_no_circuits() const;
+};
+
+/// What the deciders know of a net, each fact found out once, when it is first asked for.
+///
+/// Threads: one.
+class Facts {
+ public:
+  explicit Facts(const Subject& subject);
+
+  [[nodiscard]] const Subject& subject() const { return subject_; }
+  /// Mistakes in the invariants; empty: they are invariants of the net.
+  [[nodiscard]] const std::vector<std::string>& wrong_invariants() const { return wrong_; }
+  /// The invariants bound every place by one token.
+  [[nodiscard]] bool safe() const { return safe_; }
+  [[nodiscard]] const Case& under(Assume assume);
+  /// All subjects of a kind of question.
+  [[nodiscard]] std::vector<std::uint32_t> subjects(Question::Kind kind, Assume assume);
+
+ private:
+  const Subject& subject_;
+  std::vector<std::string> wrong_;
+  bool safe_ = false;
+  std::optional<Case> conditions_, exceptions_;
+};
+
+/// "robot.control.follow" for a place of that page.
+[[nodiscard]] std::string behaviour_of(const net::Net& net, net::PlaceId place);
+
+}  // namespace tessera::verify

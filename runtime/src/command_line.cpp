@@ -31,6 +31,7 @@ struct Words {
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   WorldOptions world;
+  bool unwatched = false;
 };
 
 void describe_common(CLI::App& command, CommandLine& line, Words& words) {
@@ -163,6 +164,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     command->configurable();
     describe_common(*command, line, words);
   }
+  run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   try {
     app.parse(argc, argv);
@@ -170,6 +172,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     const bool unreadable = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
     return app.exit(error) == 0 ? 0 : unreadable ? 1 : 2;
   }
+  line.options.monitor = run->parsed() && !words.unwatched;
   line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;
   std::string wrong;
   if (!words.parameter_file.empty() &&

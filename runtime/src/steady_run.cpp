@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <optional>
 #include <system_error>
 
 #include "console.hpp"
+#include "monitor.hpp"
 
 namespace tessera {
 namespace {
@@ -74,6 +76,13 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   } catch (const std::system_error& error) {
     assembly.control.request_stop(fmt::format("no thread for every subsystem: {}", error.what()),
                                   /*fault=*/true);
+  }
+  std::optional<Monitor> monitor;
+  if (assembly.options.monitor) {
+    monitor.emplace(assembly, clock_);
+    if (!monitor->failure().empty())
+      console::print(LogLevel::warning, clock_.now(), "tessera",
+                     fmt::format("`tessera top` cannot look at this run: {}", monitor->failure()));
   }
   supervise(assembly, upper, signals);
   for (std::thread& thread : threads) thread.join();

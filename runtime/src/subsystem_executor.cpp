@@ -215,14 +215,26 @@ bool SubsystemExecutor::advance(std::uint32_t place, Time now) {
     // User code may take long: nobody must be held back meanwhile by a wait that is over.
     if (registrations_ > 0 && !register_waits(now)) return true;
     const std::uint16_t behaviour = plan_->places[place].subject;
+    gauges_.begin_call(behaviour, now);
     operations_.start_call(behaviour, now);
     token.phase = Phase::running;
     token.due = clock_.simulated() ? now + operations_.takes(behaviour) : now;
     if (token.due > now) return true;
   }
-  operations_.finish_call(clock_.now());
+  const Time done = clock_.now();
+  operations_.finish_call(done);
+  gauges_.end_call(done);
+  show();
   token.phase = Phase::finished;
   return true;
+}
+
+/// Once an iteration, for those who watch.
+void SubsystemExecutor::show() {
+  gauges_.iterations.store(operations_.iterations(), std::memory_order_relaxed);
+  gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
+  gauges_.firings.store(firings_, std::memory_order_relaxed);
+  gauges_.overruns.store(overruns_, std::memory_order_relaxed);
 }
 
 // -------------------------------------------------------------------------------------------- waiting

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "gauges.hpp"
 #include "operations.hpp"
 #include "plan.hpp"
 
@@ -59,6 +60,7 @@ class SubsystemExecutor {
 
   [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
   [[nodiscard]] const Operations& operations() const { return operations_; }
+  [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 
@@ -90,6 +92,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool advance_operations(Time now);
   [[nodiscard]] bool advance(std::uint32_t place, Time now);
   [[nodiscard]] Time release(Time arrival);
+  void show();
 
   [[nodiscard]] bool register_waits(Time now);
   [[nodiscard]] Time next_deadline() const;
@@ -116,6 +119,7 @@ class SubsystemExecutor {
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   std::uint64_t firings_ = 0, overruns_ = 0;
+  Gauges gauges_;
   Time instant_ = Time::min();
   std::uint32_t fired_at_instant_ = 0;
 };

@@ -26,6 +26,7 @@ struct RunOptions {
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens it
+  bool monitor = false;       ///< steady clock: can be watched while it runs (tessera/monitor.hpp)
   bool progress = false;      ///< a line on standard error that is rewritten
 };
 

@@ -1,0 +1,175 @@
+#include "monitor.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "tessera/monitor.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr int send_period_ms = 200;
+constexpr std::size_t most_clients = 8;
+
+[[nodiscard]] double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+/// The folder, which must be ours alone: somebody else's could be a trap.
+[[nodiscard]] bool own_folder(const std::string& folder, std::string& failure) {
+  struct stat status {};
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    failure = fmt::format("cannot make '{}': {}", folder, std::strerror(errno));
+  else if (lstat(folder.c_str(), &status) != 0)
+    failure = fmt::format("cannot look at '{}': {}", folder, std::strerror(errno));
+  else if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 077U) != 0)
+    failure = fmt::format("'{}' is not a folder that only its owner may enter", folder);
+  return failure.empty();
+}
+
+[[nodiscard]] bool is_owner(int client) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return getsockopt(client, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+         (peer.uid == geteuid() || peer.uid == 0);
+}
+
+}  // namespace
+
+std::string monitor_folder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  if (runtime != nullptr && *runtime != '\0') return std::string(runtime) + "/tessera";
+  return fmt::format("/tmp/tessera-{}", geteuid());
+}
+
+Monitor::Monitor(const Assembly& assembly, const Clock& clock) : assembly_(assembly), clock_(clock) {
+  if (!listen_in(monitor_folder())) return;
+  ending_ = eventfd(0, EFD_CLOEXEC);
+  try {
+    thread_ = std::thread([this] { serve(); });
+  } catch (const std::system_error& error) {
+    failure_ = error.what();
+  }
+}
+
+Monitor::~Monitor() {
+  if (thread_.joinable()) {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = write(ending_, &one, sizeof one);
+    thread_.join();
+  }
+  for (const int client : clients_) close(client);
+  if (ending_ >= 0) close(ending_);
+  if (listening_ < 0) return;
+  close(listening_);
+  unlink(socket_file_.c_str());
+}
+
+bool Monitor::listen_in(const std::string& folder) {
+  if (!own_folder(folder, failure_)) return false;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string file = fmt::format("{}/{}.{}.sock", folder, assembly_.system.name, getpid());
+  if (file.size() >= sizeof address.sun_path) {
+    failure_ = fmt::format("the path '{}' is too long for a socket", file);
+    return false;
+  }
+  std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
+  unlink(file.c_str());  // of an earlier process with our number
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const auto* name = reinterpret_cast<const sockaddr*>(&address);
+  if (descriptor < 0 || bind(descriptor, name, sizeof address) != 0 || listen(descriptor, 4) != 0) {
+    failure_ = fmt::format("cannot listen at '{}': {}", file, std::strerror(errno));
+    if (descriptor >= 0) close(descriptor);
+    return false;
+  }
+  chmod(file.c_str(), 0600);
+  socket_file_ = file;
+  listening_ = descriptor;
+  return true;
+}
+
+void Monitor::serve() {
+  for (;;) {
+    std::array<pollfd, 2> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
+                                  pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
+    // Nobody watches: no work at all.
+    const int ready = poll(sources.data(), sources.size(), clients_.empty() ? -1 : send_period_ms);
+    if ((sources[0].revents & POLLIN) != 0) return;
+    if ((sources[1].revents & POLLIN) != 0) admit();
+    if (ready == 0) send_to_all();
+  }
+}
+
+void Monitor::admit() {
+  const int client = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (client < 0) return;
+  if (clients_.size() >= most_clients || !is_owner(client)) {
+    close(client);
+    return;
+  }
+  clients_.push_back(client);
+  send_to_all();
+}
+
+void Monitor::send_to_all() {
+  const std::string line = snapshot() + '\n';
+  std::erase_if(clients_, [&](int client) {
+    // A part of a line would be worth nothing, so a client with a full buffer is dropped.
+    const bool sent = send(client, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+                      static_cast<ssize_t>(line.size());
+    if (!sent) close(client);
+    return !sent;
+  });
+}
+
+std::string Monitor::snapshot() const {
+  using nlohmann::json;
+  json subsystems = json::array(), channels = json::array();
+  for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance) {
+    const SubsystemExecutor& executor = *assembly_.executors[instance];
+    const Gauges& gauges = executor.gauges();
+    const Instance& tables = assembly_.system.instances[instance];
+    const auto load = [](const auto& value) { return value.load(std::memory_order_relaxed); };
+    const bool called = load(gauges.called_at_ns) >= 0;
+    json one{{"path", executor.path()},
+             {"behaviour", nullptr},
+             {"calling", load(gauges.calling)},
+             {"ended", assembly_.control.has_ended(instance)},
+             {"iterations", load(gauges.iterations)},
+             {"firings", load(gauges.firings)},
+             {"overruns", load(gauges.overruns)},
+             {"errors", load(gauges.errors)},
+             {"period_s", seconds(tables.period.count())},
+             {"called_at_s", seconds(load(gauges.called_at_ns))},
+             {"call_s", seconds(load(gauges.call_ns))},
+             {"longest_call_s", seconds(load(gauges.longest_call_ns))}};
+    if (called) one["behaviour"] = tables.net->behaviours[load(gauges.behaviour)].name;
+    subsystems.push_back(std::move(one));
+  }
+  for (std::size_t index = 0; index < assembly_.channels.size(); ++index) {
+    const Channel& channel = assembly_.system.channels[index];
+    json marked = json::array();
+    const std::uint16_t marking = assembly_.channels[index]->marking();
+    for (std::size_t place = 0; place < channel.places.size(); ++place)
+      if ((marking >> place & 1U) != 0) marked.push_back(channel.places[place].name);
+    channels.push_back({{"name", channel.name}, {"marked", std::move(marked)}});
+  }
+  return json{
+      {"system", assembly_.system.name},       {"pid", getpid()},
+      {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
+      {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}}
+      .dump();
+}
+
+}  // namespace tessera

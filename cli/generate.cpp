@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/project.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verdicts.hpp"
 
 namespace tessera::cli {
 
@@ -14,19 +15,25 @@ namespace {
 struct Options {
   std::string spec = ".", output, json;
   bool stubs = false;
+  Gate gate;
 };
 
 int generate_command(const Options& options) {
-  const Step step("generating");
-  const std::optional<Verified> verified = walk(options.spec);
+  const std::optional<Verified> verified = walk(options.spec, options.gate);
   if (!verified) return failed;
+  const Step step("generating");
   const Generated generated = generate(*verified, {options.stubs, options.output});
   if (!options.json.empty()) {
+    nlohmann::json verdicts = nlohmann::json::object();
+    for (const verify::PropertyResult& property : verified->net.report().properties)
+      verdicts[property.name] = name_of(property.verdict);
     const nlohmann::json result{{"folder", generated.folder.string()},
                                 {"files", generated.files},
                                 {"written", generated.written},
                                 {"lines", generated.lines},
                                 {"net_hash", verified->net.report().net_hash},
+                                {"verification_hash", verified->net.report().verification_hash},
+                                {"verdicts", verdicts},
                                 {"seconds", step.seconds()}};
     write_output(options.json, result.dump(2) + "\n");
   } else {
@@ -47,6 +54,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", options->output,
                       "Folder for the generated files (default: .tessera/generated)");
   command->add_flag("--stubs", options->stubs, "Append stubs of missing transition functions to your files");
+  declare_gate(*command, options->gate);
   command->add_option("--json", options->json, "Write what was done as JSON (- is standard output)");
   command->footer("Example: tessera generate --stubs");
   command->callback([options, &exit_code] { exit_code = generate_command(*options); });

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "cli/paths.hpp"
+#include "cli/verdicts.hpp"
 #include "sim/track.hpp"
 
 namespace tessera::cli {
@@ -24,6 +25,7 @@ void declare(CLI::App& command, LaunchOptions& options) {
   command.add_option("--parameters", options.parameters,
                      "YAML file of parameters (default: params.yaml of the project)");
   command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
+  declare_gate(command, options.gate);
   command.add_flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }
 

@@ -19,6 +19,7 @@ struct LaunchOptions {
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
   std::string record;
   bool debug = false;
+  Gate gate;
   // Of the simulated world.
   std::string track, start;
   double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification

@@ -188,7 +188,7 @@ fs::path compile(const Specification& specification, const Generated& generated,
 }
 
 std::optional<Controller> make_controller(const fs::path& given, const BuildOptions& options) {
-  std::optional<Verified> verified = walk(given);
+  std::optional<Verified> verified = walk(given, options.gate);
   if (!verified) return std::nullopt;
   const Generated generated = generate(*verified);
   if (!report_missing(generated)) return std::nullopt;

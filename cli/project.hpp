@@ -35,6 +35,7 @@ bool report_missing(const Generated& generated);
 struct BuildOptions {
   bool debug = false;  ///< for gdb: -O0 -g in a build folder of its own
   std::string target = "controller";
+  Gate gate = {};
 };
 
 /// Builds with CMake. Prints the compiler's complaints, which name the user's files and, for conditions, the

@@ -46,7 +46,8 @@ int launch(const Controller& controller, const LaunchOptions& options, const Com
 }
 
 int simulate_command(const SimulateOptions& options) {
-  const std::optional<Controller> controller = make_controller(options.spec, {options.debug, "controller"});
+  const std::optional<Controller> controller =
+      make_controller(options.spec, {options.debug, "controller", options.gate});
   if (!controller) return failed;
   const bool with_world = controller->specification.model.simulation.has_value();
   LaunchOptions launching = options;
@@ -81,7 +82,8 @@ int complain_of_drivers(const std::vector<std::string>& missing) {
 }
 
 int run_command(const RunCommandOptions& options) {
-  const std::optional<Controller> controller = make_controller(options.spec, {options.debug, "controller"});
+  const std::optional<Controller> controller =
+      make_controller(options.spec, {options.debug, "controller", options.gate});
   if (!controller) return failed;
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is no world to drive");

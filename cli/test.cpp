@@ -6,6 +6,7 @@
 #include "cli/process.hpp"
 #include "cli/project.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verdicts.hpp"
 
 namespace tessera::cli {
 
@@ -14,6 +15,7 @@ namespace {
 struct Options {
   std::string spec = ".", filter;
   bool debug = false;
+  Gate gate;
 };
 
 int test_command(const Options& options) {
@@ -23,7 +25,8 @@ int test_command(const Options& options) {
   if (!std::filesystem::exists(project / "test", ignored))
     return complain(fmt::format("{} has no test/ folder: put GoogleTest files there",
                                 std::filesystem::absolute(project).string()));
-  const std::optional<Controller> tests = make_controller(options.spec, {options.debug, "tests"});
+  const std::optional<Controller> tests =
+      make_controller(options.spec, {options.debug, "tests", options.gate});
   if (!tests) return failed;
   Command command{tests->program.string()};
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
@@ -40,6 +43,7 @@ void add_test(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command->add_flag("--debug", options->debug, "Build the tests for gdb");
+  declare_gate(*command, options->gate);
   command->footer("Example: tessera test --filter 'Follow.*'");
   command->callback([options, &exit_code] { exit_code = test_command(*options); });
 }

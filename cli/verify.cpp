@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/run_files.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verdicts.hpp"
+#include "cli/violation.hpp"
 #include "cli/walk.hpp"
 #include "diagnostics/source.hpp"
 #include "explore/explore.hpp"
@@ -23,7 +25,7 @@ namespace {
 using nlohmann::json;
 
 struct Options {
-  std::string spec = ".", json, trace, timeout = "60s", method = "any";
+  std::string spec = ".", json, trace, scenario, timeout = "60s", method = "any";
   std::vector<std::string> properties;
   bool states = false, explain = false;
 };
@@ -42,17 +44,6 @@ class Interruptible {
  private:
   void (*before_)(int);
 };
-
-/// "60s", "500ms", "2min" or seconds. Throws std::runtime_error for anything else.
-std::chrono::duration<double> seconds_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string unit(end, text.data() + text.size());
-  const double scale = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 0.001 : unit == "min" ? 60 : 0;
-  if (error != std::errc() || value < 0 || scale == 0)
-    throw std::runtime_error("--timeout: '" + text + "' is no time, such as 60s, 500ms or 2min");
-  return std::chrono::duration<double>(value * scale);
-}
 
 /// The net to judge, of a specification or of a PNML file.
 struct Judged {
@@ -93,7 +84,7 @@ std::string shown(const explore::Progress& progress) {
 
 verify::Report judge(const Judged& judged, const Options& options, Step& step) {
   verify::ProveOptions how;
-  how.time = seconds_of(options.timeout);
+  how.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
   if (options.method != "any") how.method = options.method;
   how.only = options.properties;
   how.stop = &interrupt;
@@ -103,78 +94,32 @@ verify::Report judge(const Judged& judged, const Options& options, Step& step) {
   return verify::prove(judged.subject(), how);
 }
 
-// ---------------------------------------------------------------------------------------------- runs
-
-/// The net whose transitions a result's trace names.
-net::Net net_of(const Judged& judged, const verify::PropertyResult& property) {
-  return verify::abstract_net(judged.net(),
-                              property.exceptions ? verify::Assume::exceptions : verify::Assume::conditions);
-}
-
-/// "channel.full" for every channel, where the run ends.
-std::vector<std::string> channels_after(const net::Net& net, const std::vector<net::TransitionId>& run) {
-  std::vector<std::string> states;
-  const std::optional<explore::Marking> end = explore::replay(explore::PtNet(net), run);
-  if (!end) return states;
-  for (std::uint32_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].fused() && (*end)[place] > 0) states.push_back(net.places()[place].name);
-  return states;
-}
-
-json trace_of(const net::Net& net, const verify::PropertyResult& property) {
-  json steps = json::array();
-  for (const net::TransitionId id : property.trace) {
-    json step{{"transition", net[id].name}};
-    if (net[id].span.line > 0) step["line"] = net[id].span.line;
-    steps.push_back(std::move(step));
-  }
-  return steps;
-}
-
-void print_trace(const Judged& judged, const verify::PropertyResult& property) {
-  constexpr std::size_t shown_steps = 60;
-  const net::Net net = net_of(judged, property);
-  fmt::print("  a run of {} firings shows it:\n", property.trace.size());
-  const std::size_t left_out =
-      property.trace.size() > shown_steps ? property.trace.size() - shown_steps : std::size_t{0};
-  if (left_out > 0) fmt::print("    ... {} firings, all of them with --trace FILE\n", left_out);
-  for (std::size_t index = left_out; index < property.trace.size(); ++index) {
-    const net::Transition& transition = net[property.trace[index]];
-    const std::string line = transition.span.line > 0 ? fmt::format(" (line {})", transition.span.line) : "";
-    fmt::print("    {:3} {}{}\n", index + 1, transition.name, line);
-  }
-  const std::vector<std::string> channels = channels_after(net, property.trace);
-  if (!channels.empty()) fmt::print("  channels at the end:\n");
-  for (const std::string& state : channels) fmt::print("    {}\n", state);
-}
-
-void write_trace(const Judged& judged, const verify::Report& report, const std::string& file) {
-  json traces = json::array();
-  for (const verify::PropertyResult& property : report.properties) {
-    if (!property.has_trace) continue;
-    const net::Net net = net_of(judged, property);
-    traces.push_back({{"property", property.name},
-                      {"why", property.why},
-                      {"firings", trace_of(net, property)},
-                      {"channels", channels_after(net, property.trace)},
-                      {"waits", property.waits}});
-  }
-  write_output(file, json{{"net", judged.file}, {"traces", traces}}.dump(2) + "\n");
-}
-
 // ---------------------------------------------------------------------------------------------- reports
 
 void print_result(const Judged& judged, const verify::PropertyResult& property, bool explain) {
-  const bool holds = property.verdict == verify::Verdict::holds;
-  fmt::print("{}{}: {} ({}{}{})\n", property.warning && !holds ? "warning: " : "", property.name,
-             name_of(property.verdict), property.method, property.why.empty() ? "" : ": ", property.why);
-  for (const std::string& wait : property.waits) fmt::print("  {}\n", wait);
-  if (property.has_trace && !property.warning) print_trace(judged, property);
+  fmt::print("{}", text_of(judged.net(), property));
   if (!explain) return;
   if (!property.explanation.empty()) fmt::print("  {}\n", property.explanation);
   if (property.states > 0) fmt::print("  {} markings visited\n", property.states);
   if (!property.meaning.empty()) fmt::print("  {}\n", property.meaning);
   fmt::print("  {:.3f} s\n", property.seconds);
+}
+
+/// The run of the first violation that has one; a warning's only if there is no other.
+int write_scenario(const Judged& judged, const verify::Report& report, const std::string& file) {
+  const verify::PropertyResult* chosen = nullptr;
+  for (const verify::PropertyResult& property : report.properties)
+    if (property.has_trace && (chosen == nullptr || (chosen->warning && !property.warning)))
+      chosen = &property;
+  if (judged.drawn) return complain("--scenario needs a specification: a PNML net has no controller");
+  if (chosen == nullptr)
+    return complain("no property is violated by a run, so there is no scenario to write");
+  write_output(file, scenario_json(judged.net(), report, *chosen).dump(2) + "\n");
+  fmt::print(
+      stderr,
+      "scenario of {}: {}\nhint: `tessera simulate {} --scenario {}` drives the controller through it\n",
+      chosen->name, file, judged.nets ? judged.file : "", file);
+  return ok;
 }
 
 json to_json(const Judged& judged, const verify::Report& report) {
@@ -191,7 +136,9 @@ json to_json(const Judged& judged, const verify::Report& report) {
              {"warning", property.warning},
              {"waits", property.waits},
              {"trace", nullptr}};
-    if (property.has_trace) one["trace"] = trace_of(net_of(judged, property), property);
+    if (property.has_trace)
+      one["trace"] = firings_json(net_of_run(judged.net(), property),
+                                  judged.nets ? &judged.nets->pages : nullptr, property.trace);
     properties.push_back(std::move(one));
   }
   return {{"properties", properties},
@@ -202,7 +149,7 @@ json to_json(const Judged& judged, const verify::Report& report) {
 
 json count_states(const Judged& judged, const Options& options, Step& step) {
   explore::Limits limits;
-  limits.time = seconds_of(options.timeout);
+  limits.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
   limits.stop = &interrupt;
   limits.progress = [&](const explore::Progress& progress) { step.progress("states: " + shown(progress)); };
   const net::Net net = verify::possible_part(verify::abstract_net(judged.net()));
@@ -252,7 +199,12 @@ int verify_command(const Options& options) {
   for (const std::string& name : judged->not_judged)
     fmt::print(stderr, "tessera: warning: property '{}' of the specification is not judged\n", name);
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
-  if (!options.trace.empty()) write_trace(*judged, report, options.trace);
+  if (!options.trace.empty())
+    write_output(options.trace, traces_json(judged->file, judged->net(),
+                                            judged->nets ? &judged->nets->pages : nullptr, report)
+                                        .dump(2) +
+                                    "\n");
+  if (!options.scenario.empty() && write_scenario(*judged, report, options.scenario) != ok) return failed;
   if (options.json == "-" || options.trace == "-") return exit_code_of(report);
   for (const verify::PropertyResult& property : report.properties)
     print_result(*judged, property, options.explain);
@@ -283,6 +235,8 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_flag("--states", options->states, "Count the reachable markings as well");
   command->add_option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
   command->add_option("--trace", options->trace, "Write the runs that show violations as JSON");
+  command->add_option("--scenario", options->scenario,
+                      "Write the run of a violation for `tessera simulate --scenario`");
   command->add_flag("--explain", options->explain,
                     "Say how each verdict came about, and what it means for the net with conditions");
   command->footer(

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include "cli/terminal.hpp"
+#include "cli/verdicts.hpp"
+#include "cli/violation.hpp"
 #include "diagnostics/source.hpp"
 #include "layers/layers.hpp"
 #include "net/flatten.hpp"
@@ -38,10 +40,6 @@ std::optional<Nets> build(Specification& specification) {
   return Nets{std::move(*pages), std::move(*flat)};
 }
 
-verify::Report check(const Specification& specification, const Nets& nets) {
-  return verify::check(nets.flat, layers::invariants(specification.model, nets.pages, nets.flat));
-}
-
 const char* name_of(verify::Verdict verdict) {
   switch (verdict) {
     case verify::Verdict::holds:
@@ -54,24 +52,54 @@ const char* name_of(verify::Verdict verdict) {
   return "";
 }
 
-void print(const verify::Report& report) {
-  for (const verify::PropertyResult& property : report.properties)
-    fmt::print("{}: {} ({})\n", property.name, name_of(property.verdict),
-               property.verdict == verify::Verdict::holds ? property.method : property.why);
+namespace {
+
+std::string list_of(const std::vector<const verify::PropertyResult*>& properties) {
+  std::string names;
+  for (const verify::PropertyResult* property : properties)
+    names += (names.empty() ? "" : ", ") + property->name;
+  return names;
 }
 
-std::optional<Verified> walk(const fs::path& given) {
+std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& report,
+                                                        verify::Verdict verdict) {
+  std::vector<const verify::PropertyResult*> found;
+  for (const verify::PropertyResult& property : report.properties)
+    if (property.verdict == verdict && !property.warning) found.push_back(&property);
+  return found;
+}
+
+/// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
+bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given) {
+  for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))
+    fmt::print(stderr, "tessera: warning: {} is unknown: {}\n", property->name, property->why);
+  const auto violated = with_verdict(report, verify::Verdict::violated);
+  if (violated.empty()) return true;
+  if (gate.accept_violations) {
+    fmt::print(stderr, "tessera: warning: {} violated, and accepted\n", list_of(violated));
+    return true;
+  }
+  fmt::print(stderr, "{}", text_of(nets.flat, *violated.front()));
+  complain(fmt::format("no controller is made of a net that violates {}", list_of(violated)));
+  fmt::print(stderr,
+             "hint: `tessera verify {}` shows every violation; --accept-violations makes the controller all "
+             "the same\n",
+             given.string());
+  return false;
+}
+
+}  // namespace
+
+std::optional<Verified> walk(const fs::path& given, const Gate& gate) {
   std::optional<Specification> specification = read(given);
   if (!specification) return std::nullopt;
   std::optional<Nets> nets = build(*specification);
   if (!nets) return std::nullopt;
-  verify::Report report = check(*specification, *nets);
-  std::optional<verify::VerifiedNet> verified = verify::accept(std::move(nets->flat), report);
-  if (!verified) {
-    print(report);
-    complain("the net did not pass verification, so no controller is generated from it");
-    return std::nullopt;
-  }
+  verify::Report report = verdicts(*specification, *nets, gate);
+  if (!passes(*nets, report, gate, given)) return std::nullopt;
+  std::optional<verify::VerifiedNet> verified = verify::accept(
+      std::move(nets->flat), std::move(report), {.unknown = true, .violated = gate.accept_violations});
+  if (!verified) return std::nullopt;
   return Verified{std::move(*specification), std::move(*verified)};
 }
 

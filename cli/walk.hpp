@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "diagnostics/diagnostics.hpp"
 #include "net/net.hpp"
@@ -32,20 +33,21 @@ struct Nets {
 };
 [[nodiscard]] std::optional<Nets> build(Specification& specification);
 
-/// The verdicts on a net made by build.
-[[nodiscard]] verify::Report check(const Specification& specification, const Nets& nets);
-
 /// "holds", "violated", "unknown"
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
-/// Verdicts as lines of text on standard output.
-void print(const verify::Report& report);
+/// What may pass on to generation.
+struct Gate {
+  std::string timeout = "10s";     ///< for the verdicts
+  bool accept_violations = false;  ///< a violated net too
+};
 
-/// read, build, check; only a net that passed gets through. Uses up the nets.
+/// read, build, verify; only a net without violations gets through, unless the gate is open. What is unknown
+/// is told of and gets through. Uses up the nets.
 struct Verified {
   Specification specification;
   verify::VerifiedNet net;
 };
-[[nodiscard]] std::optional<Verified> walk(const std::filesystem::path& given);
+[[nodiscard]] std::optional<Verified> walk(const std::filesystem::path& given, const Gate& gate);
 
 }  // namespace tessera::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/net_hash.hpp"
+#include "verify/verify.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -47,17 +48,50 @@ std::string hash_of(const net::Net& net) {
   return hash.hex();
 }
 
-/// The facts that the verdicts rest on are hashed as places and transitions of a net of their own.
-std::string hash_of_verification(const net::Net& net, const Report& report) {
+namespace {
+
+/// A fact is hashed as a place whose name is its text: NetHash does not mind the order of places.
+void fact(NetHash& hash, const std::string& text, std::uint64_t number = 0) {
+  hash.place(text, static_cast<std::uint32_t>(number));
+}
+
+std::uint64_t number_of(const net::Operation& operation) {
+  return static_cast<std::uint64_t>(operation.kind) << 24U | (operation.subject & 0xffffffU);
+}
+
+}  // namespace
+
+std::string verification_hash(const Subject& subject, const std::vector<std::string>& properties) {
   NetHash hash;
-  hash.place(report.net_hash, 0);
-  hash.place(std::string("checker ") += checker_version, 0);
-  for (const PropertyResult& property : report.properties)
-    hash.place(property.name + " by " + property.method, static_cast<std::uint32_t>(property.verdict));
-  for (const net::Transition& transition : net.transitions()) {
-    if (transition.condition.truth == net::Condition::Truth::free) continue;
-    const bool always = transition.condition.truth == net::Condition::Truth::always;
-    hash.transition(transition.name, {}, {}, always ? "always" : "never");
+  fact(hash, hash_of(subject.net));
+  fact(hash, std::string("checker ") += checker_version);
+  for (const std::string& property : properties) fact(hash, "property " + property);
+  // In order: a run that is kept with the verdicts names transitions by number.
+  for (std::uint32_t index = 0; index < subject.net.places().size(); ++index) {
+    const net::Place& place = subject.net.places()[index];
+    fact(hash, "place " + place.name, index);
+    if (place.operation.kind != net::Operation::Kind::none)
+      fact(hash, "operation at " + place.name, number_of(place.operation));
+    fact(hash, "owner of " + place.name, place.fused() ? place.channel : place.subsystem);
+  }
+  for (std::uint32_t index = 0; index < subject.net.transitions().size(); ++index) {
+    const net::Transition& transition = subject.net.transitions()[index];
+    fact(hash, "transition " + transition.name, index);
+    const net::Condition& condition = transition.condition;
+    if (condition == net::Condition{}) continue;
+    // Which of the last conditions of a behaviour holds otherwise, and which leads an error on, counts too.
+    const bool named = condition.text == "otherwise" || condition.text == "error";
+    fact(hash, (named ? condition.text + " at " : "condition at ") + transition.name,
+         static_cast<std::uint64_t>(condition.truth));
+  }
+  if (subject.pages != nullptr)
+    for (std::uint32_t page = 0; page < subject.pages->pages.size(); ++page)
+      fact(hash, "page " + subject.pages->path({page}));
+  for (const net::Invariant& invariant : subject.invariants) {
+    std::string text = "invariant";
+    for (const net::Invariant::Term& term : invariant.terms)
+      text += " " + std::to_string(term.place.value) + "*" + std::to_string(term.weight);
+    fact(hash, text, static_cast<std::uint64_t>(invariant.total));
   }
   return hash.hex();
 }

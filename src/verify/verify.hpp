@@ -39,11 +39,17 @@ struct PropertyResult {
 struct Report {
   std::vector<PropertyResult> properties;
   std::string net_hash;           ///< 32 hex digits, see tessera/net_hash.hpp
-  std::string verification_hash;  ///< of net_hash, truth of the conditions, properties and checker_version
+  std::string verification_hash;  ///< see verification_hash below
 
   [[nodiscard]] bool all_hold() const;
   /// violated if a property is that is no warning; else unknown if one is; else holds.
   [[nodiscard]] Verdict overall() const;
+};
+
+/// What a net may be accepted in spite of. Who accepts it says so.
+struct InSpiteOf {
+  bool unknown = false;   ///< a property that could not be decided
+  bool violated = false;  ///< a property that is violated
 };
 
 /// A net together with what is known about it. Only verify makes one, so that a generator that asks for a
@@ -54,7 +60,7 @@ class VerifiedNet {
   [[nodiscard]] const Report& report() const { return report_; }
 
  private:
-  friend std::optional<VerifiedNet> accept(net::Net net, Report report);
+  friend std::optional<VerifiedNet> accept(net::Net net, Report report, InSpiteOf in_spite_of);
   VerifiedNet(net::Net net, Report report) : net_(std::move(net)), report_(std::move(report)) {}
   net::Net net_;
   Report report_;
@@ -66,8 +72,9 @@ class VerifiedNet {
 /// Threads: pure. Linear in the net and the invariants.
 [[nodiscard]] Report check(const net::Net& net, const std::vector<net::Invariant>& invariants);
 
-/// The net as a VerifiedNet if every property of the report holds, else nullopt.
-[[nodiscard]] std::optional<VerifiedNet> accept(net::Net net, Report report);
+/// The net as a VerifiedNet if every property of the report that is no warning holds, or fails only in a way
+/// that is named; else nullopt. A report without properties says nothing, and is not enough.
+[[nodiscard]] std::optional<VerifiedNet> accept(net::Net net, Report report, InSpiteOf in_spite_of = {});
 
 // ---------------------------------------------------------------------------------------------- prove
 
@@ -94,6 +101,13 @@ struct Subject {
 
 /// The names of the default properties, in the order in which they are reported.
 [[nodiscard]] const std::vector<std::string>& default_properties();
+
+/// The identity of what prove is asked: net, pages, invariants, what is known of the conditions, names of the
+/// properties, checker_version. Equal ones have equal verdicts, as far as time allows to find them.
+///
+/// Threads: pure. Linear in the net.
+[[nodiscard]] std::string verification_hash(
+    const Subject& subject, const std::vector<std::string>& properties = default_properties());
 
 /// Decides the default properties (docs/verification.md).
 ///

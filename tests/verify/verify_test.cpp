@@ -196,6 +196,21 @@ TEST(Accept, KeepsTheNetAndItsReport) {
   EXPECT_TRUE(verified->report().all_hold());
 }
 
+TEST(Accept, TakesWhatFailsOnlyWhenTheFailureIsNamed) {
+  const auto with = [](Verdict verdict, bool warning = false) {
+    Report report;
+    report.properties.push_back({"goes_on", verdict});
+    report.properties.back().warning = warning;
+    return report;
+  };
+  EXPECT_FALSE(accept(ring(), {}));
+  EXPECT_FALSE(accept(ring(), with(Verdict::unknown)));
+  EXPECT_TRUE(accept(ring(), with(Verdict::unknown), {.unknown = true}));
+  EXPECT_FALSE(accept(ring(), with(Verdict::violated), {.unknown = true}));
+  EXPECT_TRUE(accept(ring(), with(Verdict::violated), {.violated = true}));
+  EXPECT_TRUE(accept(ring(), with(Verdict::violated, /*warning=*/true)));
+}
+
 TEST(Hash, IsThatOfTheNet) {
   const Report report = check(ring(), {one_of_ring});
   EXPECT_EQ(report.net_hash.size(), 32U);
@@ -205,7 +220,7 @@ TEST(Hash, IsThatOfTheNet) {
   EXPECT_NE(report.net_hash, check(other, {}).net_hash);
 }
 
-TEST(Hash, OfAVerificationChangesWithVerdictAndConstants) {
+TEST(Hash, OfAVerificationChangesWithInvariantsAndConstants) {
   const Report report = check(ring(), {one_of_ring});
   EXPECT_NE(report.verification_hash, check(ring(), {}).verification_hash);
   net::Net net;

@@ -35,7 +35,9 @@ TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
   const cli::Exit done = tessera("verify stuck.yaml --trace run.json");
   EXPECT_EQ(done.code, 1) << done.text;
   for (const char* part :
-       {"deadlock_free: violated", "a.control.go.t1 (line 5)", "channels at the end",
+       {"deadlock_free: violated",
+        "a.control  starts in go: computes (t1), sends y (t1, t2), waits for the acknowledgement  [line 5]",
+        "channels at the end",
         "a.control waits for the acknowledgement of a.control.y->b.control.x from b.control"})
     EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
   const auto traces = nlohmann::json::parse(content_of(folder_ / "run.json")).at("traces");

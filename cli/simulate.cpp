@@ -13,7 +13,7 @@ namespace tessera::cli {
 namespace {
 
 struct SimulateOptions : LaunchOptions {
-  std::string json, report;
+  std::string json, report, scenario;
   bool realtime = false;
 };
 
@@ -45,7 +45,9 @@ int launch(const Controller& controller, const LaunchOptions& options, const Com
   return exit.code;
 }
 
-int simulate_command(const SimulateOptions& options) {
+int simulate_command(SimulateOptions options) {
+  // A scenario shows a violation: that is what the controller is made for.
+  if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate});
   if (!controller) return failed;
@@ -54,6 +56,10 @@ int simulate_command(const SimulateOptions& options) {
   if (launching.duration.empty()) launching.duration = "60s";
   Command command = controller_command(*controller, launching, "simulate", with_world);
   if (options.realtime) command.push_back("--realtime");
+  if (!options.scenario.empty()) {
+    command.emplace_back("--scenario");
+    command.push_back(std::filesystem::absolute(options.scenario).string());
+  }
   return launch(*controller, launching, command, options.json, options.report);
 }
 
@@ -101,6 +107,10 @@ void add_simulate(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SimulateOptions>();
   declare(*command, *options);
   declare_world(*command, *options);
+  command
+      ->add_option("--scenario", options->scenario,
+                   "Drive the controller through this run first (tessera verify --scenario)")
+      ->check(CLI::ExistingFile);
   command->add_flag("--realtime", options->realtime, "Not faster than the wall clock");
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command->add_option("--report", options->report, "Folder for a page and a picture of the run");

@@ -106,7 +106,8 @@ void print_result(const Judged& judged, const verify::PropertyResult& property, 
 }
 
 /// The run of the first violation that has one; a warning's only if there is no other.
-int write_scenario(const Judged& judged, const verify::Report& report, const std::string& file) {
+int write_scenario(const Judged& judged, const verify::Report& report, const Options& options) {
+  const std::string& file = options.scenario;
   const verify::PropertyResult* chosen = nullptr;
   for (const verify::PropertyResult& property : report.properties)
     if (property.has_trace && (chosen == nullptr || (chosen->warning && !property.warning)))
@@ -118,7 +119,7 @@ int write_scenario(const Judged& judged, const verify::Report& report, const std
   fmt::print(
       stderr,
       "scenario of {}: {}\nhint: `tessera simulate {} --scenario {}` drives the controller through it\n",
-      chosen->name, file, judged.nets ? judged.file : "", file);
+      chosen->name, file, options.spec, file);
   return ok;
 }
 
@@ -204,7 +205,7 @@ int verify_command(const Options& options) {
                                             judged->nets ? &judged->nets->pages : nullptr, report)
                                         .dump(2) +
                                     "\n");
-  if (!options.scenario.empty() && write_scenario(*judged, report, options.scenario) != ok) return failed;
+  if (!options.scenario.empty() && write_scenario(*judged, report, options) != ok) return failed;
   if (options.json == "-" || options.trace == "-") return exit_code_of(report);
   for (const verify::PropertyResult& property : report.properties)
     print_result(*judged, property, options.explain);

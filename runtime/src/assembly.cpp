@@ -20,8 +20,8 @@ class Assembler {
       : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
 
   bool run() {
-    return check_version() && bind() && link_ports() && compile_plans() && check_hash() && set_values() &&
-           open_devices() && make_channels() && open_recording() && make_executors();
+    return check_version() && bind() && link_ports() && compile_plans() && check_hash() && read_script() &&
+           set_values() && open_devices() && make_channels() && open_recording() && make_executors();
   }
 
  private:
@@ -123,6 +123,13 @@ class Assembler {
                     hash, system_.net_hash));
   }
 
+  bool read_script() {
+    if (assembly_.options.scenario.empty()) return true;
+    if (!clock_.simulated()) return fail("a scenario needs the simulated clock");
+    assembly_.scenario = read_scenario(assembly_.options.scenario, system_, net_, error_);
+    return assembly_.scenario.has_value();
+  }
+
   bool set_values() {
     std::vector<ParameterOwner> owners;
     for (const SubsystemParts& parts : parts_) owners.push_back({parts.path, parts.bindings.parameters});
@@ -210,6 +217,7 @@ class Assembler {
       assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
           index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
           SubsystemExecutor::Shared{assembly_.control, clock_, waker_}, lane));
+      if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
     }
     return true;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "flat_net.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
+#include "scenario.hpp"
 #include "shared_channel.hpp"
 #include "subsystem_executor.hpp"
 #include "tessera/controller.hpp"
@@ -27,6 +29,7 @@ struct Assembly {
   RunControl control;
   std::unique_ptr<World> world;
   std::unique_ptr<Recorder> recorder;
+  std::optional<Scenario> scenario;
   std::vector<std::unique_ptr<SharedChannel>> channels;
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };
@@ -35,7 +38,7 @@ struct Assembly {
 ///
 /// Errors: other tables version, names that do not resolve, another hash, unknown or bad parameters, real
 /// buffers
-///         without a driver, a world or recording that cannot be opened: false and `error`.
+///         without a driver, a world, recording or scenario that cannot be opened: false and `error`.
 [[nodiscard]] bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error);
 
 }  // namespace tessera

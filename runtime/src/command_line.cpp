@@ -98,6 +98,16 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   return "";
 }
 
+/// What the controller was made of, and what is known about that.
+[[nodiscard]] std::string about(const System& system) {
+  std::string text =
+      fmt::format("{}\nnet {}\nverification {}\n", system.name, system.net_hash, system.verification_hash);
+  for (const VerifiedProperty& property : system.verdicts)
+    text += fmt::format("  {}: {} ({})\n", property.name, property.verdict, property.method);
+  text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 std::optional<Duration> parse_duration(std::string text) {
@@ -154,6 +164,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
       "Example: controller simulate --for 60s --seed 1 --record run.tessrec --set v=0.3\n"
       "Exit codes: 0 ended as asked, 1 failed or could not start, 2 usage, 130 interrupted.");
   app.require_subcommand(1);
+  app.set_version_flag("--about", about(system), "Say which net this is and what was verified of it");
   app.set_config("--config", "", "Read options from this file (INI or TOML)");
   CLI::App* simulate =
       app.add_subcommand("simulate", "Simulated clock: deterministic from the seed, as fast as possible");
@@ -165,6 +176,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     describe_common(*command, line, words);
   }
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
+  simulate->add_option("--scenario", line.options.scenario,
+                       "Follow this run first (tessera verify --scenario), then run on freely");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   try {
     app.parse(argc, argv);

@@ -173,9 +173,13 @@ Outcome Operations::decide(std::uint16_t behaviour, Time now) {
                 [&] { outcome = parts_.subsystem->decide(behaviour, failed_); }))
     outcome = Outcome::error;
   if (failed_) outcome = Outcome::error;
+  accept_outcome(outcome);
+  return outcome;
+}
+
+void Operations::accept_outcome(Outcome outcome) {
   erroneous_ = outcome == Outcome::error;
   if (erroneous_) ++errors_;
-  return outcome;
 }
 
 int Operations::route(std::uint16_t behaviour, Time now) {

@@ -61,6 +61,8 @@ class Operations final : public ContextServices {
 
   // Conditions. Ages are those of `now`; what throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
+  /// As decide, of what is decided elsewhere: no condition is evaluated.
+  void accept_outcome(Outcome outcome);
   /// no_entry: none holds; unknown_entry: a condition has thrown, which has been logged.
   static constexpr int no_entry = -1, unknown_entry = -2;
   [[nodiscard]] int route(std::uint16_t behaviour, Time now);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "console.hpp"
@@ -89,15 +90,66 @@ void SimulatedRun::move_to(Assembly& assembly, Time time) {
 }
 
 Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
-  Ending ending = run_until_end(assembly, upper, signals);
+  Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
   return ending;
 }
 
+std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLayers& upper) {
+  if (!assembly.scenario) return std::nullopt;
+  const std::vector<Scenario::Step>& steps = assembly.scenario->steps;
+  for (std::size_t index = 0; index < steps.size(); ++index) {
+    const SubsystemExecutor& executor = *assembly.executors[steps[index].instance];
+    if (!follow_step(assembly, upper, index))
+      return Ending{fmt::format("the scenario cannot be followed: {} cannot fire; {}", steps[index].name,
+                                executor.whereabouts(assembly.system)),
+                    true, clock_.now()};
+    if (const int signal = StopSignals::pending(); signal != 0)
+      return Ending{StopSignals::name(signal), false, clock_.now()};
+  }
+  for (const auto& executor : assembly.executors) firings_at_scenario_end_.push_back(executor->firings());
+  console::print(LogLevel::info, clock_.now(), "tessera", "end of the scenario; everything runs freely");
+  return std::nullopt;
+}
+
+/// Time passes until the step can be made; false: it never can.
+bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index) {
+  const Scenario::Step& step = assembly.scenario->steps[index];
+  SubsystemExecutor& executor = *assembly.executors[step.instance];
+  for (;;) {
+    const SubsystemExecutor::FollowProgress progress = executor.follow();
+    if (progress.state == SubsystemExecutor::Followed::waiting) {
+      if (progress.deadline == Time::max()) return false;
+      move_to(assembly, std::max(progress.deadline, clock_.now()));
+      continue;
+    }
+    const std::string_view local = std::string_view(step.name).substr(executor.path().size() + 1);
+    executor.note(progress.forced.empty()
+                      ? fmt::format("scenario {}/{}: {}", index + 1, assembly.scenario->steps.size(), local)
+                      : fmt::format("scenario {}/{}: {} (forced: {})", index + 1,
+                                    assembly.scenario->steps.size(), local, progress.forced));
+    if (progress.state == SubsystemExecutor::Followed::ended) {
+      has_ended_[step.instance] = true;
+      upper.subsystem_ended(step.instance, clock_.now());
+    }
+    return true;
+  }
+}
+
+Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
+  std::string stuck;
+  for (std::uint32_t instance = 0; instance < firings_at_scenario_end_.size(); ++instance) {
+    const SubsystemExecutor& executor = *assembly.executors[instance];
+    if (has_ended_[instance] || executor.firings() != firings_at_scenario_end_[instance]) continue;
+    stuck += (stuck.empty() ? "" : "; ") + executor.whereabouts(assembly.system);
+  }
+  if (stuck.empty() || ending.failed) return ending;  // why it failed says more
+  return {fmt::format("{}; stuck since the scenario: {}", ending.text, stuck), true, ending.at};
+}
+
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   const std::optional<Duration> duration = assembly.options.duration;
-  const Time end = duration ? Time(*duration) : Time::max();
   const Pace pace(assembly.options.realtime, signals);
   ProgressLine progress(assembly.options.progress, duration);
   const auto ending = [&](std::string text, bool failed) {
@@ -110,8 +162,11 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     assembly.executors[instance]->enter();
     wake(instance);
   }
+  if (std::optional<Ending> ended = follow_scenario(assembly, upper)) return *ended;
+  const Time end = duration ? clock_.now() + *duration : Time::max();
   for (;;) {
-    while (!ready_.empty() && !assembly.control.stopping()) step(assembly, upper, draw_ready());
+    while (!ready_.empty() && !assembly.control.stopping())
+      if (const std::uint32_t drawn = draw_ready(); !has_ended_[drawn]) step(assembly, upper, drawn);
     if (const int signal = StopSignals::pending(); signal != 0)
       return ending(StopSignals::name(signal), false);
     if (assembly.control.stopping())

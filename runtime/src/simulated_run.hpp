@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ struct Ending {
 
 /// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something
 /// to do take turns in an order drawn from the seed; when none has, time jumps to the next deadline, and the
-/// world with it. Everything but the wall clock's speed follows from tables, seed and user code.
+/// world with it. A scenario comes first: its subsystems take turns as it says, and time waits for them
+/// alone. Everything but the wall clock's speed follows from tables, seed and user code.
 class SimulatedRun final : public Waker {
  public:
   SimulatedRun(std::uint32_t instances, std::uint64_t seed);
@@ -31,6 +33,11 @@ class SimulatedRun final : public Waker {
 
  private:
   [[nodiscard]] Ending run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  /// nullopt: followed to its end, or there is none.
+  [[nodiscard]] std::optional<Ending> follow_scenario(Assembly& assembly, UpperLayers& upper);
+  [[nodiscard]] bool follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index);
+  /// Says who has done nothing since the scenario: that is what it was for.
+  [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
   [[nodiscard]] std::uint32_t draw_ready();
   void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
   void move_to(Assembly& assembly, Time time);
@@ -40,6 +47,7 @@ class SimulatedRun final : public Waker {
   std::vector<std::uint32_t> ready_;
   std::vector<bool> is_ready_, has_ended_;
   DeadlineQueue deadlines_;
+  std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
 };
 
 }  // namespace tessera

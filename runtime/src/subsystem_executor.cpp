@@ -160,16 +160,40 @@ void SubsystemExecutor::start_operation(std::uint32_t place, Time now) {
       operations_.read(entry.subject, now);
       break;
     case Does::Kind::decide:
-      token.latched = static_cast<std::int32_t>(operations_.decide(entry.subject, now));
-      check_way_out(place, now);
+      decide(place, now);
       break;
     case Does::Kind::route:
-      token.latched = operations_.route(entry.subject, now);
-      if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
-      if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
-      if (token.latched >= 0) check_way_out(place, now);
+      route(place, now);
       break;
   }
+}
+
+void SubsystemExecutor::decide(std::uint32_t place, Time now) {
+  Token& token = tokens_[place];
+  if (const Plan::TransitionEntry* next = decided_by_script(place)) {
+    const Outcome outcome = next->guard.kind == Guard::Kind::error      ? Outcome::error
+                            : next->guard.kind == Guard::Kind::terminal ? Outcome::terminal
+                                                                        : Outcome::go_on;
+    operations_.accept_outcome(outcome);
+    token.latched = static_cast<std::int32_t>(outcome);
+    return;
+  }
+  token.latched = static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, now));
+  check_way_out(place, now);
+}
+
+void SubsystemExecutor::route(std::uint32_t place, Time now) {
+  Token& token = tokens_[place];
+  if (const Plan::TransitionEntry* next = decided_by_script(place)) {
+    token.latched = next->guard.entry;
+    return;
+  }
+  token.latched = Operations::no_entry;
+  if (script_ends_without_choice()) return;
+  token.latched = operations_.route(plan_->places[place].subject, now);
+  if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
+  if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
+  if (token.latched >= 0) check_way_out(place, now);
 }
 
 /// A decision without a transition would leave the token where it is for ever.
@@ -235,6 +259,73 @@ void SubsystemExecutor::show() {
   gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
   gauges_.firings.store(firings_, std::memory_order_relaxed);
   gauges_.overruns.store(overruns_, std::memory_order_relaxed);
+}
+
+// -------------------------------------------------------------------------------------------- scripts
+
+namespace {
+
+std::string_view forced_by(const Guard& guard) {
+  switch (guard.kind) {
+    case Guard::Kind::go_on:
+      return "neither error nor terminal";
+    case Guard::Kind::terminal:
+      return "terminal";
+    case Guard::Kind::error:
+      return "error";
+    case Guard::Kind::next:
+      return "this initial condition";
+    case Guard::Kind::none:
+    case Guard::Kind::elapsed:  // waited for
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
+  const std::uint32_t transition = script_[followed_++];
+  if (transition == Plan::none) {
+    fault("no condition of `next` holds");
+    return {Followed::fired, Time::max(), "no initial condition"};
+  }
+  const Time now = clock_.now();
+  while (advance_operations(now)) continue;
+  operations_.guard_effectors(now);
+  if (!try_fire(transition, now)) {
+    --followed_;
+    return {Followed::waiting, script_deadline(transition)};
+  }
+  const bool over = tokens_[plan_->out].position != Plan::none;
+  if (over) end();
+  return {over ? Followed::ended : Followed::fired, Time::max(),
+          forced_by(plan_->transitions[transition].guard)};
+}
+
+/// The transition of the script that will take a token that has just arrived; nullptr: none of it.
+const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
+  for (std::size_t index = followed_; index < script_.size(); ++index) {
+    if (script_[index] == Plan::none) continue;
+    const Plan::TransitionEntry& transition = plan_->transitions[script_[index]];
+    if (transition.latch == place) return &transition;
+  }
+  return nullptr;
+}
+
+bool SubsystemExecutor::script_ends_without_choice() const {
+  return followed_ < script_.size() && script_[followed_] == Plan::none;
+}
+
+/// When an operation has finished that the transition waits for, or its timeout has passed.
+Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
+  const Plan::TransitionEntry& transition = plan_->transitions[index];
+  Time deadline = Time::max();
+  for (const std::uint32_t place : marked_)
+    if (tokens_[place].phase != Phase::finished) deadline = std::min(deadline, tokens_[place].due);
+  if (deadline != Time::max() || transition.guard.kind != Guard::Kind::elapsed) return deadline;
+  const Time elapsed = locally_enabled(transition) ? elapses(transition) : Time::max();
+  return elapsed > clock_.now() ? elapsed : Time::max();
 }
 
 // -------------------------------------------------------------------------------------------- waiting

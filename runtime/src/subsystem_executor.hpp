@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "gauges.hpp"
@@ -51,6 +53,21 @@ class SubsystemExecutor {
   /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
   [[nodiscard]] Progress step();
 
+  /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
+  /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
+  void set_script(std::vector<std::uint32_t> transitions) { script_ = std::move(transitions); }
+  /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
+  /// (Time::max()); fired: done. Precondition: there is a next one.
+  enum class Followed : std::uint8_t { fired, ended, waiting };
+  struct FollowProgress {
+    Followed state = Followed::waiting;
+    Time deadline = Time::max();
+    std::string_view forced = "";  ///< what a condition was made to say
+  };
+  [[nodiscard]] FollowProgress follow();
+  /// A line on the console and in the recording.
+  void note(std::string_view text) { operations_.log(LogLevel::info, text); }
+
   /// The safe command, on every way out of the run.
   void leave() { operations_.give_safe_command(); }
 
@@ -94,6 +111,13 @@ class SubsystemExecutor {
   [[nodiscard]] Time release(Time arrival);
   void show();
 
+  // Scripts.
+  [[nodiscard]] const Plan::TransitionEntry* decided_by_script(std::uint32_t place) const;
+  [[nodiscard]] bool script_ends_without_choice() const;
+  void decide(std::uint32_t place, Time now);
+  void route(std::uint32_t place, Time now);
+  [[nodiscard]] Time script_deadline(std::uint32_t transition) const;
+
   [[nodiscard]] bool register_waits(Time now);
   [[nodiscard]] Time next_deadline() const;
   [[nodiscard]] bool time_stands_still(Time now);
@@ -114,6 +138,9 @@ class SubsystemExecutor {
   std::vector<std::uint16_t> wants_;       // per port: registered in its channel
   std::vector<std::uint16_t> wants_next_;  // per port: scratch of register_waits
   std::uint32_t registrations_ = 0;        // ports with wants_
+
+  std::vector<std::uint32_t> script_;  // transitions to follow, or Plan::none: no initial condition holds
+  std::size_t followed_ = 0;           // of the script
 
   std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
   Time blocked_since_ = Time::max();

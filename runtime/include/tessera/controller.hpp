@@ -27,7 +27,10 @@ struct RunOptions {
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens it
   bool monitor = false;       ///< steady clock: can be watched while it runs (tessera/monitor.hpp)
-  bool progress = false;      ///< a line on standard error that is rewritten
+  /// File of a run that is followed first (tessera verify --scenario); after it everything runs freely, and
+  /// `duration` begins. Simulated clock only.
+  std::string scenario;
+  bool progress = false;  ///< a line on standard error that is rewritten
 };
 
 /// What a run came to.

@@ -34,7 +34,7 @@ constexpr tessera::VerifiedProperty verdicts[] = {
 
 constexpr tessera::System whole{
     .tables_version = 1, .name = "line_follower",
-    .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "b9fe809d52a2856b6cfe63b2a4297fa1",
+    .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "a0f23c76f7c77074507dc3f813a3536e",
     .verdicts = verdicts, .instances = instances, .channels = channels, .drivers = drivers};
 // clang-format on
 

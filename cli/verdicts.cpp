@@ -24,6 +24,7 @@ json to_json(const verify::PropertyResult& property) {
   json trace = json::array();
   for (const net::TransitionId id : property.trace) trace.push_back(id.value);
   return {{"name", property.name},
+          {"asks", property.asks},
           {"verdict", static_cast<int>(property.verdict)},
           {"method", property.method},
           {"why", property.why},
@@ -41,6 +42,7 @@ json to_json(const verify::PropertyResult& property) {
 verify::PropertyResult property_from(const json& kept) {
   verify::PropertyResult property;
   kept.at("name").get_to(property.name);
+  kept.at("asks").get_to(property.asks);
   const int verdict = kept.at("verdict").get<int>();
   if (verdict < 0 || verdict > 2) throw std::runtime_error("no verdict");
   property.verdict = static_cast<verify::Verdict>(verdict);
@@ -131,7 +133,7 @@ verify::Report verdicts(const Specification& specification, const Nets& nets, co
   const double seconds = seconds_of(gate.timeout, "--verify-timeout");
   const std::vector<net::Invariant> invariants =
       layers::invariants(specification.model, nets.pages, nets.flat);
-  const verify::Subject subject{nets.flat, &nets.pages, invariants};
+  const verify::Subject subject{nets.flat, &nets.pages, invariants, nets.properties};
   const Kept kept(specification, verify::verification_hash(subject));
   if (std::optional<verify::Report> report = kept.read(seconds)) return std::move(*report);
   Step step("verifying");

@@ -51,10 +51,19 @@ struct Judged {
   std::optional<Nets> nets;  ///< of a specification
   std::optional<net::Net> drawn;
   std::vector<net::Invariant> invariants;
-  std::vector<std::string> not_judged;  ///< properties of the specification
 
   [[nodiscard]] const net::Net& net() const { return drawn ? *drawn : nets->flat; }
-  [[nodiscard]] verify::Subject subject() const { return {net(), nets ? &nets->pages : nullptr, invariants}; }
+  [[nodiscard]] verify::Subject subject() const {
+    if (!nets) return {net(), nullptr, invariants};
+    return {net(), &nets->pages, invariants, nets->properties};
+  }
+  /// Every property that can be asked for by its name.
+  [[nodiscard]] std::vector<std::string> properties() const {
+    std::vector<std::string> names = verify::default_properties();
+    if (nets)
+      for (const net::Property& property : nets->properties) names.push_back(property.name);
+    return names;
+  }
 };
 
 std::optional<Judged> load(const std::string& given) {
@@ -71,8 +80,6 @@ std::optional<Judged> load(const std::string& given) {
   judged.nets = build(*specification);
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();
-  for (const spec::Property& property : specification->model.properties)
-    judged.not_judged.push_back(property.name);
   judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
   return judged;
 }
@@ -99,6 +106,7 @@ verify::Report judge(const Judged& judged, const Options& options, Step& step) {
 void print_result(const Judged& judged, const verify::PropertyResult& property, bool explain) {
   fmt::print("{}", text_of(judged.net(), property));
   if (!explain) return;
+  if (!property.asks.empty() && property.asks != property.name) fmt::print("  {}\n", property.asks);
   if (!property.explanation.empty()) fmt::print("  {}\n", property.explanation);
   if (property.states > 0) fmt::print("  {} markings visited\n", property.states);
   if (!property.meaning.empty()) fmt::print("  {}\n", property.meaning);
@@ -127,6 +135,7 @@ json to_json(const Judged& judged, const verify::Report& report) {
   json properties = json::array();
   for (const verify::PropertyResult& property : report.properties) {
     json one{{"name", property.name},
+             {"asks", property.asks},
              {"verdict", name_of(property.verdict)},
              {"method", property.method},
              {"why", property.why},
@@ -143,7 +152,6 @@ json to_json(const Judged& judged, const verify::Report& report) {
     properties.push_back(std::move(one));
   }
   return {{"properties", properties},
-          {"not_judged", judged.not_judged},
           {"net_hash", report.net_hash},
           {"verification_hash", report.verification_hash}};
 }
@@ -160,10 +168,9 @@ json count_states(const Judged& judged, const Options& options, Step& step) {
   return result;
 }
 
-bool known(const std::vector<std::string>& asked) {
+bool known(const std::vector<std::string>& asked, const std::vector<std::string>& names) {
   bool all = true;
   for (const std::string& name : asked) {
-    const std::vector<std::string>& names = verify::default_properties();
     if (std::ranges::find(names, name) != names.end()) continue;
     const std::string hint = diagnostics::did_you_mean(name, names);
     complain("there is no property '" + name + "'" + (hint.empty() ? "" : "; " + hint));
@@ -185,9 +192,9 @@ int exit_code_of(const verify::Report& report) {
 }
 
 int verify_command(const Options& options) {
-  if (!known(options.properties)) return usage;
   const std::optional<Judged> judged = load(options.spec);
   if (!judged) return failed;
+  if (!known(options.properties, judged->properties())) return usage;
   const Interruptible interruptible;
   json result;
   verify::Report report;
@@ -197,8 +204,6 @@ int verify_command(const Options& options) {
     result = to_json(*judged, report);
     if (options.states) result["state_space"] = count_states(*judged, options, step);
   }
-  for (const std::string& name : judged->not_judged)
-    fmt::print(stderr, "tessera: warning: property '{}' of the specification is not judged\n", name);
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
   if (!options.trace.empty())
     write_output(options.trace, traces_json(judged->file, judged->net(),

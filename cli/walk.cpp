@@ -7,6 +7,7 @@
 #include "cli/violation.hpp"
 #include "diagnostics/source.hpp"
 #include "layers/layers.hpp"
+#include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "spec/parser.hpp"
 
@@ -35,9 +36,11 @@ std::optional<Nets> build(Specification& specification) {
   std::optional<net::HierarchicalNet> pages = layers::build(specification.model, found);
   std::optional<net::Net> flat;
   if (pages) flat = net::flatten(*pages, found);
+  std::optional<std::vector<net::Property>> properties;
+  if (flat) properties = layers::properties(specification.model, *pages, *flat, found);
   print(found);
-  if (!flat) return std::nullopt;
-  return Nets{std::move(*pages), std::move(*flat)};
+  if (!properties) return std::nullopt;
+  return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
 }
 
 const char* name_of(verify::Verdict verdict) {

@@ -6,6 +6,7 @@
 
 #include "diagnostics/diagnostics.hpp"
 #include "net/net.hpp"
+#include "net/property.hpp"
 #include "spec/model.hpp"
 #include "verify/verify.hpp"
 
@@ -30,6 +31,7 @@ struct Specification {
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
+  std::vector<net::Property> properties;  ///< of the author
 };
 [[nodiscard]] std::optional<Nets> build(Specification& specification);
 

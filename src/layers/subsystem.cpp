@@ -46,6 +46,7 @@ std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
 std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
   if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always) return {{}};
   std::vector<Condition> conditions;
+  const bool exhaustive = spec::always_continues(behaviour);
   Truth earlier = Truth::never;
   for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
     const spec::When& when = behaviour.next[entry].when;
@@ -57,7 +58,7 @@ std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
       earlier = Truth::always;
     else if (alone == Truth::free)
       earlier = Truth::free;
-    conditions.push_back({Condition::Kind::next, truth, entry, text_of(when, behaviour)});
+    conditions.push_back({Condition::Kind::next, truth, entry, text_of(when, behaviour), exhaustive});
   }
   return conditions;
 }

@@ -54,6 +54,8 @@ struct Condition {
   enum class Truth : std::uint8_t { free, always, never } truth = Truth::always;
   std::uint32_t subject = UINT32_MAX;
   std::string text;  ///< as drawn, without the brackets; empty: nothing to draw
+  /// next: however the behaviour ended, one of its entries holds ("none holds" cannot happen).
+  bool exhaustive = false;
   bool operator==(const Condition&) const = default;
 };
 

@@ -7,23 +7,8 @@ namespace {
 
 using Kind = Selector::Kind;
 
-/// The number of the agent that `end` means for i; none past the end of a fleet that is no ring.
 Index number_at(const End& end, std::int64_t i) {
-  const Selector& selector = end.path.selector;
-  switch (selector.kind) {
-    case Kind::plain:
-      return 0;
-    case Kind::constant:
-      return static_cast<Index>(selector.number);
-    case Kind::all:
-      return static_cast<Index>(i);
-    case Kind::variable:
-      break;
-  }
-  const std::int64_t count = end.place.group->count;
-  std::int64_t number = i + selector.number;
-  if (end.place.group->ring) number = ((number % count) + count) % count;
-  return number < 0 || number >= count ? none : static_cast<Index>(number);
+  return agent_number(end.path.selector, *end.place.group, i);
 }
 
 bool ranges(const End& end) {

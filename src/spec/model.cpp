@@ -1,6 +1,7 @@
 #include "spec/model.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace tessera::spec {
 
@@ -18,6 +19,12 @@ bool always_continues(const Behaviour& behaviour) {
     if (!asks(When::Kind::terminal, i)) return false;
   }
   return true;
+}
+
+std::string_view name_of(Property::Kind kind) {
+  constexpr std::array<std::string_view, 5> names{"never", "always", "reachable", "always_reachable",
+                                                  "leads_to"};
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 const Subsystem& Model::subsystem(Index instance) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
@@ -188,13 +189,50 @@ struct Channel {
 
 // ---------------------------------------------------------------------------------------------- the rest
 
-/// Kept for the verifier; the text is not interpreted here.
-struct Property {
+/// A name in a path and where it stands.
+struct PathPart {
   std::string name;
-  std::string kind;  ///< never, always, reachable, always_reachable, leads_to
-  std::string text;
   Span span;
 };
+
+/// A path into the net, of which the agent was looked up; what is behind it only the net knows.
+struct NetPath {
+  std::string agent;  ///< "robot[3]"; "in" or "out" alone: a place of the system
+  std::vector<PathPart> parts;
+  Span span;
+};
+
+/// What a property says about one marking.
+struct Statement {
+  enum class Kind : std::uint8_t {
+    token,     ///< a token in the place or page at `path`; with `to`, in that state of the channel
+    negation,  ///< of its only part
+    all,       ///< of the parts
+    any        ///< of the parts
+  } kind = Kind::token;
+  NetPath path;
+  std::optional<NetPath> to;
+  std::vector<Statement> parts;
+};
+
+/// A property of one agent of a fleet, or of the system.
+struct Claim {
+  std::string about;  ///< "robot[3]"; empty: of the system
+  Statement what;
+  std::optional<Statement> then;  ///< leads_to: `what` leads to it
+};
+
+struct Property {
+  enum class Kind : std::uint8_t { never, always, reachable, always_reachable, leads_to };
+  std::string name;
+  Kind kind = Kind::never;
+  std::string text;           ///< as written
+  std::vector<Claim> claims;  ///< all of them have to hold
+  Span span;
+};
+
+/// "always_reachable"
+[[nodiscard]] std::string_view name_of(Property::Kind kind);
 
 /// Which device stands behind a real buffer.
 struct Driver {

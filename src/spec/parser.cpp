@@ -7,6 +7,7 @@
 #include "spec/drivers.hpp"
 #include "spec/fleets.hpp"
 #include "spec/names.hpp"
+#include "spec/properties.hpp"
 #include "spec/section.hpp"
 #include "spec/simulation.hpp"
 #include "spec/text_checks.hpp"
@@ -60,7 +61,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   const Excuses excuses = read_channels(file.find("channels"), types, groups, model, out);
   check_wiring(model, excuses, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
-  model.properties = read_properties(file.find("properties"), out);
+  model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
   model.structures = types.structures();
   return model;

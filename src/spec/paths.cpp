@@ -13,7 +13,6 @@ namespace {
 using diagnostics::quoted;
 
 constexpr const char* path_hint = "a buffer is named AGENT.SUBSYSTEM.BUFFER, for example robot.control.line";
-constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or *";
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -28,7 +27,8 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
   return number;
 }
 
-/// 3, i, i+1, i - 1, *
+}  // namespace
+
 std::optional<Selector> read_index(std::string_view text) {
   text = without_blanks(text);
   if (text == "*") return Selector{Selector::Kind::all, 0};
@@ -45,7 +45,14 @@ std::optional<Selector> read_index(std::string_view text) {
   return Selector{Selector::Kind::constant, *number};
 }
 
-}  // namespace
+Index agent_number(const Selector& selector, const Group& group, std::int64_t i) {
+  if (selector.kind == Selector::Kind::plain) return 0;
+  if (selector.kind == Selector::Kind::constant) return static_cast<Index>(selector.number);
+  const std::int64_t count = group.count;
+  std::int64_t number = selector.kind == Selector::Kind::all ? i : i + selector.number;
+  if (group.ring) number = ((number % count) + count) % count;
+  return number < 0 || number >= count ? none : static_cast<Index>(number);
+}
 
 std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
                                      Diagnostics& out) {
@@ -97,21 +104,28 @@ Lookup::Lookup(const Model& model, const Groups& groups) : model_(model), groups
   std::sort(names_.begin(), names_.end());
 }
 
-bool Lookup::check_index(const BufferPath& path, const Group& group, Diagnostics& out) {
-  const Selector& selector = path.selector;
+const Group* Lookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
+  const auto group = groups_.find(agent);
+  if (group != groups_.end()) return &group->second;
+  out.error("E101", span, "unknown agent " + quoted(agent), diagnostics::did_you_mean(agent, names_));
+  return nullptr;
+}
+
+bool Lookup::check_index(const Selector& selector, const Group& group, Span agent_span, Span index_span,
+                         Diagnostics& out) {
   if (group.fleet && selector.kind == Selector::Kind::plain) {
-    out.error("E112", path.agent_span,
+    out.error("E112", agent_span,
               quoted(group.name) + " is a fleet of " + std::to_string(group.count) + " agents",
               "say which: " + group.name + "[0], " + group.name + "[i] or " + group.name + "[*]");
     return false;
   }
   if (!group.fleet && selector.kind != Selector::Kind::plain) {
-    out.error("E112", path.index_span, quoted(group.name) + " is one agent, not a fleet",
+    out.error("E112", index_span, quoted(group.name) + " is one agent, not a fleet",
               "write " + group.name + " without an index, or give it a 'count'");
     return false;
   }
   if (selector.kind == Selector::Kind::constant && (selector.number < 0 || selector.number >= group.count)) {
-    out.error("E303", path.index_span,
+    out.error("E303", index_span,
               "there is no agent " + std::to_string(selector.number) + " in fleet " + quoted(group.name),
               "its agents are numbered 0 to " + std::to_string(group.count - 1));
     return false;
@@ -121,19 +135,14 @@ bool Lookup::check_index(const BufferPath& path, const Group& group, Diagnostics
 
 bool Lookup::find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const {
   known = Known::nothing;
-  const auto group = groups_.find(path.agent);
-  if (group == groups_.end()) {
-    out.error("E101", path.agent_span, "unknown agent " + quoted(path.agent),
-              diagnostics::did_you_mean(path.agent, names_));
-    return false;
-  }
-  place.group = &group->second;
+  place.group = find_group(path.agent, path.agent_span, out);
+  if (place.group == nullptr) return false;
   known = Known::agent;
   if (place.group->definition == none) return false;  // complained about already
   const auto& subsystems = model_.definitions[place.group->definition].subsystems;
   const auto subsystem = std::find_if(subsystems.begin(), subsystems.end(),
                                       [&path](const Subsystem& one) { return one.name == path.subsystem; });
-  const bool good_index = check_index(path, *place.group, out);
+  const bool good_index = check_index(path.selector, *place.group, path.agent_span, path.index_span, out);
   if (subsystem == subsystems.end()) {
     std::vector<std::string> names;
     for (const Subsystem& one : subsystems) names.push_back(one.name);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spec/document.hpp"
@@ -17,6 +18,15 @@ struct Selector {
   enum class Kind : std::uint8_t { plain, constant, variable, all } kind = Kind::plain;
   std::int64_t number = 0;  ///< constant: the agent; variable: what is added to i
 };
+
+inline constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or *";
+
+/// 3, i, i+1, i - 1, *; nullopt: no index.
+[[nodiscard]] std::optional<Selector> read_index(std::string_view text);
+
+/// The number of the agent that a selector means for i (which `*` counts too); none past the end of a group
+/// that is no ring.
+[[nodiscard]] Index agent_number(const Selector& selector, const Group& group, std::int64_t i);
 
 /// A path, taken apart but not looked up.
 struct BufferPath {
@@ -48,6 +58,17 @@ class Lookup {
   /// none where one does. place and known tell how far it came; true if all is well.
   [[nodiscard]] bool find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const;
 
+  /// The agents of that name, or null.
+  ///
+  /// Errors: E101 unknown agent.
+  [[nodiscard]] const Group* find_group(const std::string& agent, Span span, Diagnostics& out) const;
+
+  /// Whether the index fits the group.
+  ///
+  /// Errors: E112, E303 as for find.
+  [[nodiscard]] static bool check_index(const Selector& selector, const Group& group, Span agent_span,
+                                        Span index_span, Diagnostics& out);
+
   /// The buffer's index in `buffers`; none and E101 if it is not there. what: "output", "input", "real
   /// buffer".
   [[nodiscard]] Index find_buffer(const BufferPath& path, const Place& place,
@@ -61,8 +82,6 @@ class Lookup {
   [[nodiscard]] const Groups& groups() const { return groups_; }
 
  private:
-  [[nodiscard]] static bool check_index(const BufferPath& path, const Group& group, Diagnostics& out);
-
   const Model& model_;
   const Groups& groups_;
   std::vector<std::string> names_;  ///< of the groups, sorted, to guess from

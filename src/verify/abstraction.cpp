@@ -19,10 +19,8 @@ bool possible(const net::Net& net, TransitionId id) {
 
 /// What is known about a place that behaviours leave through initial conditions.
 struct Exit {
-  bool asked = false;                        ///< it has initial conditions
-  bool certain = false;                      ///< one of them holds
-  bool by_error = false, otherwise = false;  ///< ways to come to it
-  bool routes_errors = false;
+  bool certain = false;  ///< one of its conditions holds
+  bool entered = false;  ///< something leads to it
 };
 
 std::map<PlaceId, Exit> exits(const net::Net& net) {
@@ -32,21 +30,14 @@ std::map<PlaceId, Exit> exits(const net::Net& net) {
     const Condition& condition = net[id].condition;
     if (condition.kind != Condition::Kind::next || net.preset(id).size() != 1) continue;
     Exit& exit = found[net.preset(id).front().place];
-    exit.asked = true;
     if (!possible(net, id)) continue;
-    exit.certain =
-        exit.certain || condition.truth == Condition::Truth::always || condition.text == "otherwise";
-    exit.routes_errors = exit.routes_errors || condition.text == "error";
+    exit.certain = exit.certain || condition.truth == Condition::Truth::always || condition.exhaustive;
   }
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
     if (!possible(net, id)) continue;
-    for (const Arc& arc : net.postset(id)) {
-      const auto exit = found.find(arc.place);
-      if (exit == found.end()) continue;
-      (net[id].condition.kind == Condition::Kind::error ? exit->second.by_error : exit->second.otherwise) =
-          true;
-    }
+    for (const Arc& arc : net.postset(id))
+      if (const auto exit = found.find(arc.place); exit != found.end()) exit->second.entered = true;
   }
   return found;
 }
@@ -106,11 +97,8 @@ std::vector<bool> last_transitions(const net::Net& net) {
 
 net::Net abstract_net(const net::Net& net, Assume assume) {
   net::Net abstract = copied(net, assume);
-  for (const auto& [place, exit] : exits(abstract)) {
-    const bool only_routed_errors = exit.routes_errors && !exit.otherwise;
-    if (exit.asked && !exit.certain && !only_routed_errors && (exit.by_error || exit.otherwise))
-      add_outcome(abstract, place);
-  }
+  for (const auto& [place, exit] : exits(abstract))
+    if (exit.entered && !exit.certain) add_outcome(abstract, place);
   return abstract;
 }
 

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "verify/decider.hpp"
+#include "verify/running_claims.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -109,6 +110,26 @@ Finding live_behaviours(const Case& given, std::vector<std::uint32_t> places) {
   return finding;
 }
 
+/// Behaviours that run, or lead to each other.
+std::optional<Finding> claims(const Case& given, const net::HierarchicalNet& pages,
+                              const Question& question) {
+  Finding finding = open(given, {});
+  for (const std::uint32_t number : question.subjects) {
+    const net::Claim& claim = question.property->claims[number];
+    const RunningVerdict verdict = judge_running(given, pages, question.property->kind, claim);
+    if (verdict.answer == Answer::no) {
+      const std::string about = claim.about.empty() ? "" : claim.about + ": ";
+      return violated(about + verdict.why, {number});
+    }
+    if (verdict.answer == Answer::unknown) finding.subjects.push_back(number);
+  }
+  if (finding.subjects.empty()) return holds();
+  // Of other properties than those of running behaviours it has nothing to say.
+  if (finding.subjects.size() == question.subjects.size() && given.circuits->goes_on == Answer::yes)
+    return std::nullopt;
+  return finding;
+}
+
 /// Communication structure and event graph: docs/circuits.md.
 class ByCircuits final : public Decider {
  public:
@@ -132,6 +153,8 @@ class ByCircuits final : public Decider {
         return channels_flow(given, question.subjects);
       case Kind::live_behaviours:
         return live_behaviours(given, question.subjects);
+      case Kind::claims:
+        return claims(given, *facts.subject().pages, question);
       default:
         return std::nullopt;
     }

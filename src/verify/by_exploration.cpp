@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <map>
 
-#include "verify/budget.hpp"
+#include "verify/claims.hpp"
 #include "verify/decider.hpp"
 #include "verify/exploration.hpp"
+#include "verify/goals.hpp"
 #include "verify/waits.hpp"
 
 namespace tessera::verify {
@@ -127,22 +127,66 @@ Finding channels_flow(const Case& given, const Question& question, bool known_sa
   return finding;
 }
 
-Finding live_behaviours(const Case& given, const Question& question, bool known_safe,
-                        const explore::Limits& limits) {
+/// What has been found out about several goals: bad is the answer that settles it.
+Finding judged_together(const std::vector<Found>& all, Found::Kind bad) {
   Finding finding;
   finding.kind = Finding::Kind::holds;
-  const Budget budget(limits);
-  for (const std::uint32_t place : question.subjects) {
-    const Found found = find_marking(given.abstract, Formula::marked({place}), known_safe, budget.left());
-    finding.states += found.states;
-    finding.explanation = found.explanation;
-    if (found.kind == Found::Kind::yes) continue;
-    const bool never = found.kind == Found::Kind::no;
-    finding.kind = never ? Finding::Kind::violated : Finding::Kind::unknown;
-    finding.why = behaviour_of(given.abstract, {place}) + (never ? " can never run" : ": " + found.why);
-    if (never) return finding;
-    finding.subjects.push_back(place);
+  for (std::uint32_t goal = 0; goal < all.size(); ++goal) {
+    finding.states += all[goal].states;
+    if (!all[goal].explanation.empty()) finding.explanation = all[goal].explanation;
   }
+  for (std::uint32_t goal = 0; goal < all.size(); ++goal) {
+    if (all[goal].kind == bad) {
+      finding.kind = Finding::Kind::violated;
+      finding.subjects = {goal};
+      finding.trace = all[goal].trace;
+      return finding;
+    }
+    if (all[goal].kind != Found::Kind::unknown) continue;
+    finding.kind = Finding::Kind::unknown;
+    finding.subjects.push_back(goal);
+    if (finding.why.empty()) finding.why = all[goal].why;
+  }
+  return finding;
+}
+
+/// The goals were those of the question's subjects, one by one.
+void name_subjects(Finding& finding, const Question& question) {
+  for (std::uint32_t& subject : finding.subjects) subject = question.subjects[subject];
+}
+
+Finding live_behaviours(const Case& given, const Question& question, bool known_safe,
+                        const explore::Limits& limits) {
+  std::vector<Goal> goals;
+  for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
+  Finding finding = judged_together(
+      ask(given.abstract, Ask::reachable, goals, Found::Kind::no, known_safe, limits), Found::Kind::no);
+  name_subjects(finding, question);
+  if (finding.kind == Finding::Kind::holds) return finding;
+  const std::string name = behaviour_of(given.abstract, {finding.subjects.front()});
+  finding.why = finding.kind == Finding::Kind::violated ? name + " can never run" : name + ": " + finding.why;
+  return finding;
+}
+
+Finding claims(const Case& given, const Question& question, bool known_safe, const explore::Limits& limits) {
+  using Claims = net::Property::Kind;
+  const Claims kind = question.property->kind;
+  Ask what = Ask::reachable;
+  if (kind == Claims::always_reachable) what = Ask::always_reachable;
+  if (kind == Claims::leads_to) what = Ask::leads_to;
+  const bool forbidden = kind == Claims::never || kind == Claims::always;
+  const Found::Kind bad = forbidden ? Found::Kind::yes : Found::Kind::no;
+  std::vector<Goal> goals;
+  for (const std::uint32_t number : question.subjects) {
+    const net::Claim& claim = question.property->claims[number];
+    goals.push_back({what_of(kind, claim), formula_of(claim.then)});
+  }
+  Finding finding = judged_together(ask(given.abstract, what, goals, bad, known_safe, limits), bad);
+  name_subjects(finding, question);
+  if (finding.kind != Finding::Kind::violated) return finding;
+  finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
+  finding.has_trace = kind != Claims::reachable;
+  if (what != Ask::reachable) finding.waits = waits_after(given.abstract, finding.trace, {});
   return finding;
 }
 
@@ -167,6 +211,8 @@ class ByExploration final : public Decider {
         return channels_flow(given, question, facts.safe(), limits);
       case Kind::live_behaviours:
         return live_behaviours(given, question, facts.safe(), limits);
+      case Kind::claims:
+        return claims(given, question, facts.safe(), limits);
       case Kind::exclusive_channels:
       case Kind::sound_pages:
         return std::nullopt;

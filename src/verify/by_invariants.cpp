@@ -1,8 +1,28 @@
+#include "verify/claims.hpp"
 #include "verify/covered.hpp"
 #include "verify/decider.hpp"
 
 namespace tessera::verify {
 namespace {
+
+/// Invariants say what cannot be; of that, they tell each kind of property something else.
+Finding claims(const Question& question, Facts& facts) {
+  using Kind = net::Property::Kind;
+  const Kind kind = question.property->kind;
+  Finding finding;
+  finding.why = "the invariants do not exclude it";
+  for (const std::uint32_t number : question.subjects) {
+    const net::Claim& claim = question.property->claims[number];
+    const bool excluded = facts.units().exclude(what_of(kind, claim));
+    const bool wanted = kind == Kind::reachable || kind == Kind::always_reachable;
+    if (excluded && !wanted) continue;
+    if (excluded)
+      return {.kind = Finding::Kind::violated, .why = complaint(kind, claim), .subjects = {number}};
+    finding.subjects.push_back(number);
+  }
+  if (finding.subjects.empty()) return {.kind = Finding::Kind::holds};
+  return finding;
+}
 
 /// Sums of tokens that no firing changes: those that the layers emit.
 class ByInvariants final : public Decider {
@@ -29,6 +49,8 @@ class ByInvariants final : public Decider {
       case Question::Kind::sound_pages:
         finding.why = unsound_page(*subject.pages, subject.net, subject.invariants);
         break;
+      case Question::Kind::claims:
+        return claims(question, facts);
       default:
         return std::nullopt;
     }

@@ -156,7 +156,7 @@ class SubsystemReader {
         return fail("is left in an unknown way", out), false;
       if (!possible(condition)) continue;
       behaviour.complete =
-          behaviour.complete || condition.truth == Condition::Truth::always || condition.text == "otherwise";
+          behaviour.complete || condition.truth == Condition::Truth::always || condition.exhaustive;
       if (const auto next = behaviour_at(step.to))
         behaviour.next.push_back(*next);
       else if (steps_.from(step.to).empty())

@@ -4,29 +4,14 @@
 #include <iterator>
 #include <map>
 
+#include "verify/unit_invariants.hpp"
+
 namespace tessera::verify {
 namespace {
 
 using net::PageId;
 using net::PlaceId;
 using Numbers = std::vector<std::uint32_t>;
-
-bool is_unit(const net::Invariant& invariant) {
-  return invariant.total >= 0 && invariant.total <= 1 &&
-         std::ranges::all_of(invariant.terms, [](const auto& term) { return term.weight > 0; });
-}
-
-/// Per place the unit invariants that count it, in ascending order.
-std::vector<Numbers> units_of_places(const net::Net& net, const std::vector<net::Invariant>& invariants) {
-  std::vector<Numbers> units(net.places().size());
-  for (std::uint32_t index = 0; index < invariants.size(); ++index) {
-    if (!is_unit(invariants[index])) continue;
-    for (const auto& term : invariants[index].terms)
-      if (units[term.place.value].empty() || units[term.place.value].back() != index)
-        units[term.place.value].push_back(index);
-  }
-  return units;
-}
 
 Numbers both(const Numbers& a, const Numbers& b) {
   Numbers result;
@@ -63,7 +48,7 @@ Ends ends_of(const net::Page& page, const net::Net& net, const std::vector<Place
 
 std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
                          const std::vector<net::Invariant>& invariants) {
-  const std::vector<Numbers> units = units_of_places(net, invariants);
+  const UnitInvariants units(net, invariants);
   const std::vector<std::vector<PlaceId>> own = places_of_pages(pages, net);
   std::vector<Ends> ends;
   std::vector<Numbers> shared;  // by input and output of each page
@@ -71,11 +56,11 @@ std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
     ends.push_back(ends_of(pages.pages[page], net, own[page]));
     if (!ends.back().in.valid() || !ends.back().out.valid())
       return "page '" + pages.path({static_cast<std::uint32_t>(page)}) + "' has no input or no output place";
-    shared.push_back(both(units[ends.back().in.value], units[ends.back().out.value]));
+    shared.push_back(both(units.of(ends.back().in), units.of(ends.back().out)));
   }
   for (std::uint32_t index = 0; index < net.places().size(); ++index)
     for (PageId page = net.places()[index].page; page.valid(); page = pages.pages[page.value].parent) {
-      const bool apart = std::ranges::any_of(units[index], [&](std::uint32_t unit) {
+      const bool apart = std::ranges::any_of(units.of({index}), [&](std::uint32_t unit) {
         return std::ranges::binary_search(shared[page.value], unit);
       });
       if (!apart)
@@ -86,14 +71,14 @@ std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
 }
 
 std::string shared_memory(const net::Net& net, const std::vector<net::Invariant>& invariants) {
-  const std::vector<Numbers> units = units_of_places(net, invariants);
+  const UnitInvariants units(net, invariants);
   std::map<std::uint32_t, Numbers> common;  // by channel
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     const net::Operation& operation = net.places()[index].operation;
     if (operation.kind != net::Operation::Kind::write && operation.kind != net::Operation::Kind::read)
       continue;
-    const auto [entry, added] = common.emplace(operation.subject, units[index]);
-    if (!added) entry->second = both(entry->second, units[index]);
+    const auto [entry, added] = common.emplace(operation.subject, units.of({index}));
+    if (!added) entry->second = both(entry->second, units.of({index}));
     if (entry->second.empty())
       return "no invariant keeps '" + net.places()[index].name + "' apart from the other side of its channel";
   }

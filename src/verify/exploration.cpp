@@ -10,14 +10,6 @@
 #include "verify/parts.hpp"
 
 namespace tessera::verify {
-namespace {
-
-using explore::Answer;
-using explore::Formula;
-using net::PlaceId;
-using net::TransitionId;
-using Kind = Found::Kind;
-using Sets = std::vector<std::vector<TransitionId>>;
 
 std::string sizes(const reduce::Reduced& reduced, const reduce::Components& components) {
   const reduce::Statistics& count = reduced.statistics;
@@ -27,6 +19,15 @@ std::string sizes(const reduce::Reduced& reduced, const reduce::Components& comp
          number(count.transitions_after) + " in " + number(components.all.size()) + " parts of " +
          number(components.kinds) + " kinds";
 }
+
+namespace {
+
+using explore::Answer;
+using explore::Formula;
+using net::PlaceId;
+using net::TransitionId;
+using Kind = Found::Kind;
+using Sets = std::vector<std::vector<TransitionId>>;
 
 /// The components of one kind; the first stands for all.
 std::vector<std::vector<const reduce::Component*>> by_kind(const reduce::Components& components) {
@@ -183,47 +184,6 @@ class StuckSearch {
 std::vector<Found> find_stuck(const net::Net& net, const Sets& sets, bool safe,
                               const explore::Limits& limits) {
   return StuckSearch(net, sets, safe, limits).result();
-}
-
-namespace {
-
-/// The formula with the places of the reduced net. An observed place is never gone.
-Formula translated(Formula formula, const reduce::Reduced& reduced) {
-  if (formula.kind == Formula::Kind::at_least) formula.node = reduced.find({formula.node})->value;
-  for (Formula& part : formula.parts) part = translated(std::move(part), reduced);
-  return formula;
-}
-
-}  // namespace
-
-Found find_marking(const net::Net& net, const Formula& goal, bool safe, const explore::Limits& limits) {
-  const Budget budget(limits);
-  reduce::Preserve what;
-  what.safe = safe;
-  places_of(goal, what.observed);
-  const reduce::Reduced reduced = reduce::reduce(net, what);
-  const reduce::Components components = reduce::components(reduced.net);
-  Found found;
-  found.explanation = sizes(reduced, components);
-  const Formula reduced_goal = translated(goal, reduced);
-  std::vector<PlaceId> places;
-  places_of(reduced_goal, places);
-  std::vector<bool> asked(reduced.net.places().size(), false);
-  for (const PlaceId place : places) asked[place.value] = true;
-  std::vector<const reduce::Component*> chosen;
-  for (const reduce::Component& component : components.all)
-    if (std::ranges::any_of(component.places, [&](PlaceId place) { return asked[place.value]; }))
-      chosen.push_back(&component);
-  const Part part(reduced.net, chosen);
-  const Answer answer = explore::find(explore::PtNet(part.net()), part.inside(reduced_goal), budget.left());
-  found.states = answer.effort.markings;
-  found.why = answer.why;
-  if (answer.kind == Answer::Kind::no) found.kind = Kind::no;
-  if (answer.kind == Answer::Kind::yes) {
-    found.kind = Kind::yes;
-    found.trace = reduced.lift(part.outside(answer.trace.firings));
-  }
-  return found;
 }
 
 }  // namespace tessera::verify

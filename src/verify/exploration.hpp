@@ -7,6 +7,8 @@
 
 #include "explore/explore.hpp"
 #include "net/net.hpp"
+#include "reduce/components.hpp"
+#include "reduce/reduce.hpp"
 
 /// Questions answered by reducing a net, taking it apart, and visiting the markings of one part of each kind.
 namespace tessera::verify {
@@ -30,9 +32,7 @@ struct Found {
                                             const std::vector<std::vector<net::TransitionId>>& sets,
                                             bool safe, const explore::Limits& limits);
 
-/// Is a marking reachable of which the goal, a formula over places, is true? yes: with a run. Looks only at
-/// the parts of the reduced net that have to do with the goal.
-[[nodiscard]] Found find_marking(const net::Net& net, const explore::Formula& goal, bool safe,
-                                 const explore::Limits& limits);
+/// "900 places and 800 transitions, reduced to ... in 3 parts of 2 kinds"
+[[nodiscard]] std::string sizes(const reduce::Reduced& reduced, const reduce::Components& components);
 
 }  // namespace tessera::verify

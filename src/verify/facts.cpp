@@ -27,6 +27,11 @@ Facts::Facts(const Subject& subject)
     safe_ = unbounded_places(subject.net, subject.invariants).empty();
 }
 
+const UnitInvariants& Facts::units() {
+  if (!units_) units_.emplace(subject_.net, subject_.invariants);
+  return *units_;
+}
+
 const Case& Facts::under(Assume assume) {
   std::optional<Case>& wanted = assume == Assume::conditions ? conditions_ : exceptions_;
   if (!wanted) wanted.emplace(subject_, assume);

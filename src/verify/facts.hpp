@@ -9,6 +9,7 @@
 #include "verify/circuits.hpp"
 #include "verify/communication.hpp"
 #include "verify/question.hpp"
+#include "verify/unit_invariants.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::verify {
@@ -38,6 +39,8 @@ class Facts {
   [[nodiscard]] const std::vector<std::string>& wrong_invariants() const { return wrong_; }
   /// The invariants bound every place by one token.
   [[nodiscard]] bool safe() const { return safe_; }
+  /// Precondition: wrong_invariants() is empty.
+  [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const Case& under(Assume assume);
   /// All subjects of a kind of question.
   [[nodiscard]] std::vector<std::uint32_t> subjects(Question::Kind kind, Assume assume);
@@ -46,6 +49,7 @@ class Facts {
   const Subject& subject_;
   std::vector<std::string> wrong_;
   bool safe_ = false;
+  std::optional<UnitInvariants> units_;
   std::optional<Case> conditions_, exceptions_;
 };
 

@@ -66,6 +66,8 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
   fact(hash, hash_of(subject.net));
   fact(hash, std::string("checker ") += checker_version);
   for (const std::string& property : properties) fact(hash, "property " + property);
+  for (const net::Property& property : subject.properties)
+    fact(hash, "property " + property.name + ": " + property.text, property.claims.size());
   // In order: a run that is kept with the verdicts names transitions by number.
   for (std::uint32_t index = 0; index < subject.net.places().size(); ++index) {
     const net::Place& place = subject.net.places()[index];
@@ -79,9 +81,7 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
     fact(hash, "transition " + transition.name, index);
     const net::Condition& condition = transition.condition;
     if (condition == net::Condition{}) continue;
-    // Which of the last conditions of a behaviour holds otherwise, and which leads an error on, counts too.
-    const bool named = condition.text == "otherwise" || condition.text == "error";
-    fact(hash, (named ? condition.text + " at " : "condition at ") + transition.name,
+    fact(hash, (condition.exhaustive ? "exhaustive condition at " : "condition at ") + transition.name,
          static_cast<std::uint64_t>(condition.truth));
   }
   if (subject.pages != nullptr)

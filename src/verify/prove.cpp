@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "verify/abstraction.hpp"
@@ -21,7 +22,8 @@ struct Property {
   Sort sort = Sort::universal;
   std::vector<Kind> questions;
   Assume assume = Assume::conditions;
-  bool of_any_net = false;  ///< also of one that is not made of the five layers
+  bool of_any_net = false;                ///< also of one that is not made of the five layers
+  const net::Property* author = nullptr;  ///< of a property of the author
 };
 
 const std::vector<Property>& defaults() {
@@ -44,6 +46,27 @@ const std::vector<Property>& defaults() {
   return all;
 }
 
+Sort sort_of(net::Property::Kind kind) {
+  switch (kind) {
+    case net::Property::Kind::never:
+    case net::Property::Kind::always:
+      return Sort::universal;
+    case net::Property::Kind::reachable:
+      return Sort::existential;
+    case net::Property::Kind::always_reachable:
+    case net::Property::Kind::leads_to:
+      return Sort::always_can;
+  }
+  return Sort::universal;
+}
+
+Property of_author(const net::Property& property) {
+  return {.name = property.name,
+          .sort = sort_of(property.kind),
+          .questions = {Kind::claims},
+          .author = &property};
+}
+
 constexpr const char* none_applies = "the methods that were allowed do not apply";
 
 /// What the methods asked so far have made of one question.
@@ -56,7 +79,8 @@ class Answering {
 
   [[nodiscard]] bool wants(const Decider& decider) const {
     if (result_.verdict == Verdict::unknown) return true;
-    return result_.verdict == Verdict::violated && !result_.has_trace && decider.finds_runs();
+    return result_.verdict == Verdict::violated && !result_.has_trace && has_runs(question_) &&
+           decider.finds_runs();
   }
   [[nodiscard]] bool only_run() const { return result_.verdict == Verdict::violated; }
   [[nodiscard]] const Question& question() const { return question_; }
@@ -101,14 +125,14 @@ class Prover {
       : options_(options), start_(Clock::now()), facts_(subject) {}
 
   std::vector<PropertyResult> results() {
-    std::vector<const Property*> wanted;
-    for (const Property& property : defaults())
-      if (asked_for(property)) wanted.push_back(&property);
+    std::vector<Property> wanted = defaults();
+    for (const net::Property& property : facts_.subject().properties) wanted.push_back(of_author(property));
+    std::erase_if(wanted, [&](const Property& property) { return !asked_for(property); });
     left_ = wanted.size();
     std::vector<PropertyResult> results;
     Clock::time_point before = start_;  // checking the invariants counts for the first property
-    for (const Property* property : wanted) {
-      results.push_back(judge(*property));
+    for (const Property& property : wanted) {
+      results.push_back(judge(property));
       const Clock::time_point after = Clock::now();
       results.back().seconds = Seconds(after - before).count();
       before = after;
@@ -127,16 +151,24 @@ class Prover {
     PropertyResult result;
     std::uint64_t states = 0;
     for (const Kind kind : property.questions) {
-      result = answer({kind, property.assume, facts_.subjects(kind, property.assume)}, property.name);
+      result = answer(question(property, kind), property.name);
       states += result.states;
       if (result.verdict != Verdict::holds) break;
     }
     result.name = property.name;
+    if (property.author != nullptr) result.asks = property.author->text;
     result.states = states;
     result.exceptions = property.assume == Assume::exceptions;
     result.warning = result.exceptions;
     result.meaning = meaning_of(result.verdict, property.sort);
     return result;
+  }
+
+  Question question(const Property& property, Kind kind) {
+    if (property.author == nullptr) return {kind, property.assume, facts_.subjects(kind, property.assume)};
+    std::vector<std::uint32_t> claims(property.author->claims.size());
+    std::iota(claims.begin(), claims.end(), 0U);
+    return {kind, property.assume, std::move(claims), property.author};
   }
 
   PropertyResult answer(Question question, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "net/net.hpp"
+#include "net/property.hpp"
 #include "verify/communication.hpp"
 
 namespace tessera::verify {
@@ -18,13 +19,21 @@ struct Question {
     goes_on,        ///< subjects: subsystems, by Place::subsystem
     channels_flow,  ///< subjects: channels, by Place::channel
     sound_pages,
-    live_behaviours  ///< subjects: places that start a transition function
+    live_behaviours,  ///< subjects: places that start a transition function
+    claims            ///< of `property`; subjects: their numbers
   } kind = Kind::safe;
   Assume assume = Assume::conditions;
   /// What the question is about, one by one, as far as it is still open: the answer is yes if it is for each.
   /// Empty for a question about the net as a whole.
   std::vector<std::uint32_t> subjects{};
+  const net::Property* property = nullptr;
 };
+
+/// Can a run show that the answer is no? Not if it says that something cannot be reached.
+[[nodiscard]] inline bool has_runs(const Question& question) {
+  return question.kind != Question::Kind::live_behaviours &&
+         (question.property == nullptr || question.property->kind != net::Property::Kind::reachable);
+}
 
 /// What a method found out about a question.
 struct Finding {

@@ -20,7 +20,7 @@ std::string in_one_line(const std::vector<std::string>& mistakes) {
 }
 
 PropertyResult safe(const net::Net& net, const std::vector<net::Invariant>& invariants) {
-  PropertyResult result{"safe", Verdict::unknown, "place invariants"};
+  PropertyResult result{.name = "safe", .method = "place invariants"};
   std::vector<std::string> mistakes = wrong_invariants(net, invariants);
   if (mistakes.empty())
     for (const net::PlaceId place : unbounded_places(net, invariants))

@@ -6,11 +6,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "explore/watch.hpp"
 #include "net/net.hpp"
+#include "net/property.hpp"
 
 namespace tessera::verify {
 
@@ -20,8 +22,9 @@ inline constexpr std::string_view checker_version = "1";
 enum class Verdict : std::uint8_t { holds, violated, unknown };
 
 struct PropertyResult {
-  std::string name;  ///< "safe"
+  std::string name;  ///< "safe", or the author's name
   Verdict verdict = Verdict::unknown;
+  std::string asks = {};         ///< of the author's: "always_reachable robot.motor.drive"
   std::string method = {};       ///< "place invariants"
   std::string why = {};          ///< for violated and unknown: in one line
   std::string meaning = {};      ///< of the verdict for the net with conditions
@@ -97,19 +100,21 @@ struct Subject {
   /// safe and deadlock_free (every dead marking counts) only.
   const net::HierarchicalNet* pages = nullptr;
   const std::vector<net::Invariant>& invariants;
+  /// Of the author, over places of the net; need pages.
+  std::span<const net::Property> properties{};
 };
 
 /// The names of the default properties, in the order in which they are reported.
 [[nodiscard]] const std::vector<std::string>& default_properties();
 
 /// The identity of what prove is asked: net, pages, invariants, what is known of the conditions, names of the
-/// properties, checker_version. Equal ones have equal verdicts, as far as time allows to find them.
+/// default properties, properties of the author, checker_version. Equal ones have equal verdicts, as far as time allows to find them.
 ///
 /// Threads: pure. Linear in the net.
 [[nodiscard]] std::string verification_hash(
     const Subject& subject, const std::vector<std::string>& properties = default_properties());
 
-/// Decides the default properties (docs/verification.md).
+/// Decides the default properties and those of the author (docs/verification.md).
 ///
 /// Threads: pure, but for options.progress, called in the same thread.
 [[nodiscard]] Report prove(const Subject& subject, const ProveOptions& options = {});

@@ -88,7 +88,7 @@ TEST_F(LineFollower, SimulationHasTrackAndDrivers) {
 TEST_F(LineFollower, PropertiesAreKept) {
   ASSERT_EQ(model().properties.size(), 1U);
   EXPECT_EQ(model().properties[0].name, "motors can always run");
-  EXPECT_EQ(model().properties[0].kind, "always_reachable");
+  EXPECT_EQ(model().properties[0].kind, Property::Kind::always_reachable);
   EXPECT_EQ(model().properties[0].text, "robot.motor.drive");
 }
 

@@ -1,0 +1,199 @@
+#include "layers/net_paths.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tessera::layers {
+namespace {
+
+using diagnostics::Diagnostics;
+using net::PageId;
+using net::PlaceId;
+using Found = std::optional<net::Statement>;
+
+constexpr std::array<const char*, 4> states{"full", "empty", "ack", "channel"};
+
+std::string quoted(const std::string& word) { return "'" + word + "'"; }
+
+net::Statement marked(PlaceId place) {
+  net::Statement statement;
+  statement.places = {place};
+  return statement;
+}
+
+const char* what_is_in(net::Layer layer) {
+  switch (layer) {
+    case net::Layer::system:
+      return "agent";
+    case net::Layer::agent:
+      return "subsystem";
+    case net::Layer::subsystem:
+      return "behaviour or buffer";
+    case net::Layer::behaviour:
+    case net::Layer::communication:
+      return "place";
+  }
+  return "place";
+}
+
+/// "motion.2" of the parts from the given one on.
+std::string joined(const std::vector<spec::PathPart>& parts, std::size_t from) {
+  std::string text;
+  for (std::size_t part = from; part < parts.size(); ++part)
+    text += (part > from ? "." : "") + parts[part].name;
+  return text;
+}
+
+}  // namespace
+
+NetPaths::NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net)
+    : model_(model),
+      pages_(pages),
+      own_(pages.pages.size()),
+      below_(pages.pages.size()),
+      channels_(model.instances.size()) {
+  for (std::uint32_t index = 0; index < net.places().size(); ++index) {
+    const net::Place& place = net.places()[index];
+    places_.emplace(place.name, PlaceId{index});
+    if (place.page.valid()) own_[place.page.value].push_back({index});
+  }
+  for (std::uint32_t index = 0; index < pages.pages.size(); ++index) {
+    const net::Page& page = pages.pages[index];
+    if (!page.parent.valid()) continue;
+    below_[page.parent.value].push_back({index});
+    if (page.layer == net::Layer::agent) agents_.emplace(page.name, PageId{index});
+  }
+  for (std::uint32_t channel = 0; channel < model.channels.size(); ++channel) {
+    channels_[model.channels[channel].from.instance].push_back(channel);
+    if (model.channels[channel].to.instance != model.channels[channel].from.instance)
+      channels_[model.channels[channel].to.instance].push_back(channel);
+  }
+}
+
+Found NetPaths::find(const spec::Statement& token, Diagnostics& out) const {
+  if (token.to) return of_channel(token.path, *token.to, out);
+  const auto agent = agents_.find(token.path.agent);
+  if (agent != agents_.end()) return in_page(agent->second, token.path, 0, out);
+  if (const auto place = places_.find(token.path.agent); place != places_.end()) return marked(place->second);
+  out.error("E101", token.path.span, "the net has no " + quoted(token.path.agent));
+  return std::nullopt;
+}
+
+Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part, Diagnostics& out) const {
+  if (part == path.parts.size()) return whole_page(page);
+  for (const PageId below : below_[page.value])
+    if (pages_.pages[below.value].name == path.parts[part].name) return in_page(below, path, part + 1, out);
+  if (const auto place = own_place(page, joined(path.parts, part))) return marked(*place);
+  if (pages_.pages[page.value].layer == net::Layer::subsystem) {
+    const std::uint32_t instance = pages_.pages[page.value].subsystem;
+    const spec::Subsystem& subsystem = model_.subsystem(instance);
+    for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
+      if (std::ranges::count(*buffers, path.parts[part].name, &spec::Field::name) > 0)
+        return of_buffer(instance, path, out);
+  }
+  complain(page, path.parts[part], out);
+  return std::nullopt;
+}
+
+/// AGENT.SUBSYSTEM.BUFFER.STATE
+Found NetPaths::of_buffer(std::uint32_t instance, const spec::NetPath& path, Diagnostics& out) const {
+  const spec::PathPart& buffer = path.parts[1];
+  std::vector<std::string> names;
+  for (const std::uint32_t index : channels_[instance]) {
+    const spec::Channel& channel = model_.channels[index];
+    const auto is = [&](const spec::ChannelEnd& end, const std::vector<spec::Field>& buffers) {
+      return end.instance == instance && buffers[end.buffer].name == buffer.name;
+    };
+    if (is(channel.to, model_.subsystem(channel.to.instance).inputs) ||
+        is(channel.from, model_.subsystem(channel.from.instance).outputs))
+      names.push_back(model_.channel_name(channel));
+  }
+  if (path.parts.size() == 2 || path.parts.size() > 3) {
+    out.error("E112", buffer.span, quoted(buffer.name) + " is a buffer: which state of its channel?",
+              "write " + path.agent + "." + joined(path.parts, 0) + ".full, .empty, .ack or .channel");
+    return std::nullopt;
+  }
+  if (names.size() == 1) return state(names.front(), path.parts[2], out);
+  const std::string none = names.empty() ? "no channel" : std::to_string(names.size()) + " channels";
+  out.error("E112", buffer.span, quoted(buffer.name) + " belongs to " + none,
+            names.empty() ? "" : "name one: " + names.front() + "." + path.parts[2].name);
+  return std::nullopt;
+}
+
+/// AGENT.SUBSYSTEM.OUTPUT -> AGENT.SUBSYSTEM.INPUT.STATE
+Found NetPaths::of_channel(const spec::NetPath& from, const spec::NetPath& to, Diagnostics& out) const {
+  if (from.parts.size() != 2 || to.parts.size() != 3) {
+    out.error("E112", from.parts.size() != 2 ? from.span : to.span, "not a state of a channel",
+              "for example robot.control.motion->robot.motor.velocity.full");
+    return std::nullopt;
+  }
+  const std::string channel = from.agent + "." + joined(from.parts, 0) + "->" + to.agent + "." +
+                              to.parts[0].name + "." + to.parts[1].name;
+  for (const spec::Channel& one : model_.channels)
+    if (model_.channel_name(one) == channel) return state(channel, to.parts[2], out);
+  std::vector<std::string> names;
+  for (const spec::Channel& one : model_.channels) names.push_back(model_.channel_name(one));
+  out.error("E101", from.span, "unknown channel " + quoted(channel),
+            diagnostics::did_you_mean(channel, names));
+  return std::nullopt;
+}
+
+Found NetPaths::state(const std::string& channel, const spec::PathPart& part, Diagnostics& out) const {
+  const auto place = places_.find(channel + "." + part.name);
+  if (place != places_.end()) return marked(place->second);
+  std::string others;
+  for (const char* other : states)
+    if (places_.contains(channel + "." + other)) others += (others.empty() ? "" : ", ") + std::string(other);
+  out.error("E101", part.span, "channel " + quoted(channel) + " has no state " + quoted(part.name),
+            others.empty() ? "no behaviour uses it" : "it has " + others);
+  return std::nullopt;
+}
+
+net::Statement NetPaths::whole_page(PageId page) const {
+  net::Statement statement;
+  statement.page = page;
+  std::vector<PageId> open{page};
+  while (!open.empty()) {
+    const PageId at = open.back();
+    open.pop_back();
+    statement.places.insert(statement.places.end(), own_[at.value].begin(), own_[at.value].end());
+    open.insert(open.end(), below_[at.value].begin(), below_[at.value].end());
+  }
+  std::ranges::sort(statement.places);
+  return statement;
+}
+
+/// A place that the page draws, under its name there; a fused one too.
+std::optional<PlaceId> NetPaths::own_place(PageId page, const std::string& local) const {
+  for (const net::Node& node : pages_.pages[page.value].nodes) {
+    if (node.page.valid() || node.name != local) continue;
+    const std::string name =
+        node.fusion.valid() ? pages_.fusions[node.fusion.value].name : pages_.path(page) + "." + local;
+    if (const auto place = places_.find(name); place != places_.end()) return place->second;
+  }
+  return std::nullopt;
+}
+
+void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& out) const {
+  std::vector<std::string> names;
+  for (const PageId below : below_[page.value]) names.push_back(pages_.pages[below.value].name);
+  for (const net::Node& node : pages_.pages[page.value].nodes)
+    if (!node.page.valid()) names.push_back(node.name);
+  const net::Layer layer = pages_.pages[page.value].layer;
+  if (layer == net::Layer::subsystem) {
+    const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem);
+    for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
+      for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);
+  }
+  std::string hint = diagnostics::did_you_mean(part.name, names);
+  if (hint.empty()) {
+    hint = "here are ";
+    for (const std::string& name : names) hint += (&name == &names.front() ? "" : ", ") + name;
+  }
+  out.error("E101", part.span,
+            std::string("unknown ") + what_is_in(layer) + " " + quoted(part.name) + " in " +
+                quoted(pages_.path(page)),
+            hint);
+}
+
+}  // namespace tessera::layers

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+#include "net/property.hpp"
+#include "spec/model.hpp"
+
+namespace tessera::layers {
+
+/// Looks up what the paths of properties mean in a flat net.
+class NetPaths {
+ public:
+  NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net);
+
+  /// The places of a path, or of a path with `to`: a statement of kind token.
+  ///
+  /// Errors: those of properties().
+  [[nodiscard]] std::optional<net::Statement> find(const spec::Statement& token,
+                                                   diagnostics::Diagnostics& out) const;
+
+ private:
+  using Parts = std::vector<spec::PathPart>;
+
+  [[nodiscard]] std::optional<net::Statement> in_page(net::PageId page, const spec::NetPath& path,
+                                                      std::size_t part, diagnostics::Diagnostics& out) const;
+  [[nodiscard]] std::optional<net::Statement> of_buffer(std::uint32_t instance, const spec::NetPath& path,
+                                                        diagnostics::Diagnostics& out) const;
+  [[nodiscard]] std::optional<net::Statement> of_channel(const spec::NetPath& from, const spec::NetPath& to,
+                                                         diagnostics::Diagnostics& out) const;
+  [[nodiscard]] std::optional<net::Statement> state(const std::string& channel, const spec::PathPart& part,
+                                                    diagnostics::Diagnostics& out) const;
+  [[nodiscard]] net::Statement whole_page(net::PageId page) const;
+  [[nodiscard]] std::optional<net::PlaceId> own_place(net::PageId page, const std::string& local) const;
+  void complain(net::PageId page, const spec::PathPart& part, diagnostics::Diagnostics& out) const;
+
+  const spec::Model& model_;
+  const net::HierarchicalNet& pages_;
+  std::unordered_map<std::string, net::PlaceId> places_;
+  std::unordered_map<std::string, net::PageId> agents_;
+  std::vector<std::vector<net::PlaceId>> own_;        // per page
+  std::vector<std::vector<net::PageId>> below_;       // per page
+  std::vector<std::vector<std::uint32_t>> channels_;  // per instance: those that begin or end there
+};
+
+}  // namespace tessera::layers

@@ -1,0 +1,49 @@
+#include "verify/claims.hpp"
+
+#include <utility>
+
+namespace tessera::verify {
+
+using explore::Formula;
+using net::Property;
+using net::Statement;
+
+Formula formula_of(const Statement& statement) {
+  std::vector<Formula> parts;
+  for (const net::PlaceId place : statement.places) parts.push_back(Formula::marked(place));
+  for (const Statement& part : statement.parts) parts.push_back(formula_of(part));
+  switch (statement.kind) {
+    case Statement::Kind::token:
+    case Statement::Kind::any:
+      return Formula::any(std::move(parts));
+    case Statement::Kind::negation:
+      return Formula::negation(std::move(parts.front()));
+    case Statement::Kind::all:
+      return Formula::all(std::move(parts));
+  }
+  return Formula::never();
+}
+
+Formula what_of(Property::Kind kind, const net::Claim& claim) {
+  Formula what = formula_of(claim.what);
+  return kind == Property::Kind::always ? Formula::negation(std::move(what)) : what;
+}
+
+std::string complaint(Property::Kind kind, const net::Claim& claim) {
+  const std::string about = claim.about.empty() ? "" : claim.about + ": ";
+  switch (kind) {
+    case Property::Kind::never:
+      return about + "a run reaches it";
+    case Property::Kind::always:
+      return about + "a run leads to where it is not so";
+    case Property::Kind::reachable:
+      return about + "no run reaches it";
+    case Property::Kind::always_reachable:
+      return about + "a run leads to where it is out of reach for ever";
+    case Property::Kind::leads_to:
+      return about + "a run leads from the first to where the second is out of reach for ever";
+  }
+  return about;
+}
+
+}  // namespace tessera::verify

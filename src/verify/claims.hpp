@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "explore/formula.hpp"
+#include "net/property.hpp"
+
+/// What the properties of the author ask, in terms of places.
+namespace tessera::verify {
+
+[[nodiscard]] explore::Formula formula_of(const net::Statement& statement);
+
+/// The markings that the claim speaks of: those of `what`, or for `always` those of which it is not true.
+[[nodiscard]] explore::Formula what_of(net::Property::Kind kind, const net::Claim& claim);
+
+/// "robot[3]: no run reaches it"
+[[nodiscard]] std::string complaint(net::Property::Kind kind, const net::Claim& claim);
+
+}  // namespace tessera::verify

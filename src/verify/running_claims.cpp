@@ -1,0 +1,84 @@
+#include "verify/running_claims.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "verify/behaviour_graph.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using Kind = net::Property::Kind;
+
+/// The subsystem with that number, and whether it is known to go on as long as it has not ended.
+struct Known {
+  const SubsystemFlow* flow = nullptr;
+  bool goes_on = false;
+};
+
+Known known(const Case& given, std::uint32_t id) {
+  const std::vector<SubsystemFlow>& all = given.communication.structure->subsystems;
+  const auto flow = std::ranges::find(all, id, &SubsystemFlow::id);
+  if (flow == all.end()) return {};
+  const auto number = static_cast<std::uint32_t>(flow - all.begin());
+  for (const CircuitGroup& group : given.circuits->groups)
+    if (std::ranges::count(group.subsystems, number) > 0)
+      return {&*flow, group.applies() && std::ranges::count(group.stuck, number) == 0};
+  return {&*flow, false};
+}
+
+std::string names(const Running& running) {
+  std::string text;
+  for (const std::string& name : running.behaviours) text += (text.empty() ? "'" : ", '") + name + "'";
+  return text;
+}
+
+/// From all of `from`, a goal can be reached; else no, with the first from which none can.
+RunningVerdict all_reach(const BehaviourGraph& graph, const BehaviourGraph::Nodes& from,
+                         const BehaviourGraph::Nodes& goal, const std::string& goal_name) {
+  const BehaviourGraph::Nodes reach = graph.that_reach(goal);
+  for (std::size_t node = 0; node < graph.size(); ++node)
+    if (from[node] && !reach[node])
+      return {Answer::no, goal_name + " cannot follow any more after " + graph.name(node)};
+  return {Answer::yes, {}};
+}
+
+}  // namespace
+
+RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+                             const net::Claim& claim) {
+  const std::optional<Running> what = running(pages, claim.what);
+  if (!what || kind == Kind::always) return {};
+  const Known subsystem = known(given, what->subsystem);
+  if (subsystem.flow == nullptr) return {};
+  const BehaviourGraph graph(*subsystem.flow);
+  const BehaviourGraph::Nodes nodes = graph.nodes(what->behaviours);
+  const BehaviourGraph::Nodes nowhere(graph.size(), false);
+  if (!BehaviourGraph::any(nodes)) {
+    const bool fine = kind == Kind::never || kind == Kind::leads_to;
+    return {fine ? Answer::yes : Answer::no, fine ? "" : names(*what) + " follows no behaviour that can run"};
+  }
+  if (!subsystem.goes_on) return {};
+  switch (kind) {
+    case Kind::never:
+      return {Answer::no, names(*what) + " can run"};
+    case Kind::reachable:
+      return {Answer::yes, {}};
+    case Kind::always_reachable: {
+      BehaviourGraph::Nodes start = nowhere;
+      start[0] = true;
+      return all_reach(graph, graph.reached(start, nowhere), nodes, names(*what));
+    }
+    case Kind::leads_to: {
+      const std::optional<Running> then = running(pages, claim.then);
+      if (!then || then->subsystem != what->subsystem) return {};
+      const BehaviourGraph::Nodes goal = graph.nodes(then->behaviours);
+      return all_reach(graph, graph.reached(nodes, goal), goal, names(*then));
+    }
+    case Kind::always:
+      break;
+  }
+  return {};
+}
+
+}  // namespace tessera::verify

@@ -17,6 +17,9 @@ using net::Arc;
 using net::TransitionId;
 using Run = std::vector<TransitionId>;
 
+/// Subsystems in a run beyond which a search for a shorter one has no prospect.
+constexpr std::size_t most_searched = 12;
+
 bool one_token_at_most(const explore::Marking& marking) {
   return std::ranges::all_of(marking, [](explore::Tokens tokens) { return tokens <= 1; });
 }
@@ -36,8 +39,11 @@ std::optional<explore::Marking> end_of(const explore::PtNet& net, const Run& run
 
 // ---------------------------------------------------------------------------------------------- shorter
 
-/// The net with only the transitions of the run, and places that these touch.
+/// The shortest run to the same end of the net with only the transitions of the run.
 Run searched_again(const net::Net& net, const explore::Marking& end, const Run& run) {
+  std::set<std::uint32_t> subsystems;
+  for (const TransitionId id : run) subsystems.insert(net[id].subsystem);
+  if (subsystems.size() > most_searched) return run;
   net::Net used;
   for (const net::Place& place : net.places()) used.add(place);
   const std::set<TransitionId> occurring(run.begin(), run.end());

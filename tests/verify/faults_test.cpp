@@ -2,38 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "explore/explore.hpp"
-#include "layers/layers.hpp"
-#include "net/flatten.hpp"
-#include "spec/parser.hpp"
+#include "proved.hpp"
 #include "verify/abstraction.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::verify {
 namespace {
-
-struct Proved {
-  net::Net net;
-  Report report;
-
-  [[nodiscard]] const PropertyResult& operator[](const std::string& name) const {
-    return *std::ranges::find(report.properties, name, &PropertyResult::name);
-  }
-};
-
-Proved proved(const std::string& text) {
-  diagnostics::Diagnostics source("spec.yaml", text);
-  const auto model = spec::parse(source);
-  const auto pages = model ? layers::build(*model, source) : std::nullopt;
-  auto net = pages ? net::flatten(*pages, source) : std::nullopt;
-  if (!net) throw std::runtime_error(render(source) + text);
-  ProveOptions options;
-  options.time = std::chrono::seconds(20);
-  Report report = prove({*net, &*pages, layers::invariants(*model, *pages, *net)}, options);
-  return {std::move(*net), std::move(report)};
-}
 
 TEST(Faults, AreFoundAndTheirCorrectedTwinsPass) {
   for (const Fault& fault : faults()) {

@@ -1,0 +1,73 @@
+#include "verify/narrative.hpp"
+
+#include <gtest/gtest.h>
+
+#include "faults.hpp"
+#include "proved.hpp"
+#include "verify/abstraction.hpp"
+
+namespace tessera::verify {
+namespace {
+
+/// The run of the fault's violation as lines: "4-7 b.control starts in go: computes (t1)".
+std::vector<std::string> told(const char* name) {
+  const Fault& given = fault(name);
+  const Proved faulty = proved(given.faulty);
+  const PropertyResult& bad = faulty[given.property];
+  const net::Net net = abstract_net(faulty.net, bad.exceptions ? Assume::exceptions : Assume::conditions);
+  std::vector<std::string> lines;
+  for (const Act& act : narrate(net, bad.trace))
+    lines.push_back(std::to_string(act.first) + "-" + std::to_string(act.last) + " " + act.who + " " +
+                    act.text);
+  return lines;
+}
+
+std::string line_of(const std::vector<std::string>& lines, const std::string& who) {
+  std::string all;
+  for (const std::string& line : lines)
+    if (line.find(" " + who + " ") != std::string::npos) all += line.substr(line.find(who)) + "\n";
+  return all;
+}
+
+TEST(Narrative, CountsEveryFiringOnce) {
+  const Fault& given = fault("a ring that waits on itself");
+  const Proved faulty = proved(given.faulty);
+  const PropertyResult& bad = faulty[given.property];
+  std::size_t next = 1;
+  for (const Act& act : narrate(abstract_net(faulty.net), bad.trace)) {
+    EXPECT_EQ(act.first, next);
+    EXPECT_LE(act.first, act.last);
+    next = act.last + 1;
+  }
+  EXPECT_EQ(next, bad.trace.size() + 1);
+}
+
+TEST(Narrative, TellsBothSidesOfABlockingChannel) {
+  const std::vector<std::string> lines = told("a producer that outwaits a dead consumer");
+  EXPECT_EQ(lines.front(), "1-3  the system starts, agents a, b start");
+  EXPECT_NE(line_of(lines, "a.control").find("sends y (t1, t2), waits for the acknowledgement"),
+            std::string::npos)
+      << line_of(lines, "a.control");
+  EXPECT_NE(line_of(lines, "b.control").find("is terminal (t5), ends (t_go_1)"), std::string::npos)
+      << line_of(lines, "b.control");
+}
+
+TEST(Narrative, NamesTheBehaviourThatASubsystemGoesOnTo) {
+  const std::string consumer = line_of(told("a consumer that forgets to acknowledge"), "b.control");
+  EXPECT_NE(consumer.find("starts in first: computes (t1"), std::string::npos) << consumer;
+  EXPECT_NE(consumer.find("goes on to rest"), std::string::npos) << consumer;
+}
+
+TEST(Narrative, TellsOfAChoiceThatNobodyMade) {
+  const std::string consumer = line_of(told("no initial condition may hold"), "b.control");
+  EXPECT_NE(consumer.find("none of its initial conditions holds"), std::string::npos) << consumer;
+}
+
+TEST(Narrative, TellsOfTimeouts) {
+  std::string all;
+  for (const std::string& line : told("a request that is taken back")) all += line + "\n";
+  EXPECT_NE(all.find("waits for y until its timeout"), std::string::npos) << all;
+}
+
+}  // namespace
+}  // namespace tessera::verify

@@ -1,0 +1,40 @@
+#include "proved.hpp"
+
+#include <stdexcept>
+
+#include "layers/layers.hpp"
+#include "net/flatten.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::verify {
+namespace {
+
+struct Built {
+  spec::Model model;
+  net::HierarchicalNet pages;
+  net::Net net;
+};
+
+Built built(const std::string& text) {
+  diagnostics::Diagnostics source("spec.yaml", text);
+  auto model = spec::parse(source);
+  auto pages = model ? layers::build(*model, source) : std::nullopt;
+  auto net = pages ? net::flatten(*pages, source) : std::nullopt;
+  if (!net) throw std::runtime_error(render(source) + text);
+  return {std::move(*model), std::move(*pages), std::move(*net)};
+}
+
+}  // namespace
+
+Proved proved(const std::string& text) {
+  Built all = built(text);
+  ProveOptions options;
+  options.time = std::chrono::seconds(20);
+  const std::vector<net::Invariant> invariants = layers::invariants(all.model, all.pages, all.net);
+  Report report = prove({all.net, &all.pages, invariants}, options);
+  return {std::move(all.net), std::move(report)};
+}
+
+net::Net flattened(const std::string& text) { return built(text).net; }
+
+}  // namespace tessera::verify

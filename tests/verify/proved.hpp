@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "net/net.hpp"
+#include "verify/verify.hpp"
+
+namespace tessera::verify {
+
+/// The flat net of a specification and all verdicts on it.
+struct Proved {
+  net::Net net;
+  Report report;
+
+  [[nodiscard]] const PropertyResult& operator[](const std::string& name) const {
+    return *std::ranges::find(report.properties, name, &PropertyResult::name);
+  }
+};
+/// Throws std::runtime_error, with the diagnostics, of a text that is no specification.
+[[nodiscard]] Proved proved(const std::string& text);
+[[nodiscard]] net::Net flattened(const std::string& text);
+
+}  // namespace tessera::verify

@@ -81,6 +81,7 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
     fact(hash, "transition " + transition.name, index);
     const net::Condition& condition = transition.condition;
     if (condition == net::Condition{}) continue;
+    if (condition.text == "error") fact(hash, "error leads on at " + transition.name);
     fact(hash, (condition.exhaustive ? "exhaustive condition at " : "condition at ") + transition.name,
          static_cast<std::uint64_t>(condition.truth));
   }

@@ -203,10 +203,16 @@ class Prover {
   std::size_t left_ = 1;  // properties that are not decided yet
 };
 
-/// Every default property is violated by where a run ends.
-void make_readable(const net::Net& net, PropertyResult& property) {
-  const Assume assume = property.exceptions ? Assume::exceptions : Assume::conditions;
-  property.trace = tidy(abstract_net(net, assume), std::move(property.trace));
+/// Is the property violated by where a run ends, whatever came before?
+bool shown_by_end(const Subject& subject, const PropertyResult& result) {
+  const auto author = std::ranges::find(subject.properties, result.name, &net::Property::name);
+  return author == subject.properties.end() || author->kind != net::Property::Kind::leads_to;
+}
+
+void make_readable(const Subject& subject, PropertyResult& result) {
+  if (!result.has_trace || subject.pages == nullptr || !shown_by_end(subject, result)) return;
+  const Assume assume = result.exceptions ? Assume::exceptions : Assume::conditions;
+  result.trace = tidy(abstract_net(subject.net, assume), std::move(result.trace));
 }
 
 }  // namespace
@@ -235,8 +241,8 @@ Report prove(const Subject& subject, const ProveOptions& options) {
   report.net_hash = hash_of(subject.net);
   std::vector<std::string> names;
   for (PropertyResult& property : report.properties) {
-    names.push_back(property.name);
-    if (property.has_trace && subject.pages != nullptr) make_readable(subject.net, property);
+    make_readable(subject, property);
+    if (property.asks.empty()) names.push_back(property.name);
   }
   report.verification_hash = verification_hash(subject, names);
   return report;

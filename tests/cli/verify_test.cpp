@@ -70,7 +70,8 @@ TEST_F(Verify, WhatCannotBeDecidedIsUnknown) {
 }
 
 TEST_F(Verify, WrongNamesAreDiagnosed) {
-  const cli::Exit done = tessera("verify nowhere.yaml --property goes_onn");
+  write(folder_ / "stuck.yaml", stuck);
+  const cli::Exit done = tessera("verify stuck.yaml --property goes_onn");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.text.find("did you mean 'goes_on'?"), std::string::npos) << done.text;
   write(folder_ / "stuck.yaml", stuck);

@@ -74,7 +74,6 @@ TEST_F(Verify, WrongNamesAreDiagnosed) {
   const cli::Exit done = tessera("verify stuck.yaml --property goes_onn");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.text.find("did you mean 'goes_on'?"), std::string::npos) << done.text;
-  write(folder_ / "stuck.yaml", stuck);
   const cli::Exit time = tessera("verify stuck.yaml --timeout soon");
   EXPECT_EQ(time.code, 1);
   EXPECT_NE(time.text.find("'soon' is no time"), std::string::npos) << time.text;

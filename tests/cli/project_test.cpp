@@ -46,18 +46,20 @@ TEST_F(Project, ChangedFunctionChangesTheRun) {
 TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
   ASSERT_EQ(tessera("new rover").code, 0);
   replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: {}\n        rest: {}");
-  const cli::Exit missing = tessera("generate rover");
+  // Nothing goes on to the new behaviour yet, which the proof would say.
+  const std::string generate = "generate rover --accept-violations";
+  const cli::Exit missing = tessera(generate);
   EXPECT_EQ(missing.code, 1);
   EXPECT_NE(missing.text.find("no function 'rest'"), std::string::npos) << missing.text;
   EXPECT_NE(missing.text.find("void rest(Context&"), std::string::npos) << missing.text;
-  EXPECT_EQ(tessera("generate rover --stubs").code, 0);
-  EXPECT_EQ(tessera("generate rover").code, 0);
-  EXPECT_EQ(tessera("simulate rover --for 1s").code, 0);
+  EXPECT_EQ(tessera(generate + " --stubs").code, 0);
+  EXPECT_EQ(tessera(generate).code, 0);
+  EXPECT_EQ(tessera("simulate rover --for 1s --accept-violations").code, 0);
 }
 
 TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
   ASSERT_EQ(tessera("new rover").code, 0);
-  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft, next: end }");
+  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft, next: follow }");
   const std::string spec = content_of(folder_ / "rover/spec.yaml");
   const auto line =
       1 +

@@ -108,7 +108,8 @@ struct Subject {
 [[nodiscard]] const std::vector<std::string>& default_properties();
 
 /// The identity of what prove is asked: net, pages, invariants, what is known of the conditions, names of the
-/// default properties, properties of the author, checker_version. Equal ones have equal verdicts, as far as time allows to find them.
+/// default properties, properties of the author, checker_version. Equal ones have equal verdicts, as far as
+/// time allows to find them.
 ///
 /// Threads: pure. Linear in the net.
 [[nodiscard]] std::string verification_hash(

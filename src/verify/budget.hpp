@@ -19,6 +19,11 @@ class Budget {
     return left;
   }
 
+  /// Nothing is left, or it is to give up.
+  [[nodiscard]] bool spent() const {
+    return left().time.count() <= 0 || (limits_.stop != nullptr && limits_.stop->load());
+  }
+
  private:
   using Clock = std::chrono::steady_clock;
   const explore::Limits& limits_;

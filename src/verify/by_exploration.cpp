@@ -3,6 +3,7 @@
 #include "verify/claims.hpp"
 #include "verify/decider.hpp"
 #include "verify/exploration.hpp"
+#include "verify/forbidden.hpp"
 #include "verify/goals.hpp"
 #include "verify/waits.hpp"
 
@@ -155,6 +156,43 @@ void name_subjects(Finding& finding, const Question& question) {
   for (std::uint32_t& subject : finding.subjects) subject = question.subjects[subject];
 }
 
+/// Markings none of which is to be reached, one for each subject of the question.
+Finding none_reached(const Case& given, const Question& question, const std::vector<Goal>& markings,
+                     bool known_safe, const explore::Limits& limits) {
+  Finding finding = judged_together(
+      ask(given.abstract, Ask::reachable, markings, Found::Kind::yes, known_safe, limits), Found::Kind::yes);
+  name_subjects(finding, question);
+  finding.has_trace = finding.kind == Finding::Kind::violated;
+  return finding;
+}
+
+Finding exclusive_channels(const Case& given, const Question& question, bool known_safe,
+                           const explore::Limits& limits) {
+  std::vector<Goal> markings;
+  for (const SharedMemory& memory : shared_memories(given.abstract))
+    if (std::ranges::count(question.subjects, memory.id()) > 0) markings.push_back({used_twice(memory)});
+  Finding finding = none_reached(given, question, markings, known_safe, limits);
+  if (finding.kind != Finding::Kind::violated) return finding;
+  const PlaceId place{finding.subjects.front()};
+  finding.why = "the memory of " + channel_name(given.abstract, given.abstract[place].operation.subject) +
+                " is used twice at once";
+  return finding;
+}
+
+Finding sound_pages(const Case& given, const Question& question, Facts& facts,
+                    const explore::Limits& limits) {
+  const net::HierarchicalNet& pages = *facts.subject().pages;
+  // Not those of the abstract net, which has places where a subsystem is lost and its page is not left.
+  const std::vector<PagePlaces> places = places_of_pages(pages, facts.subject().net);
+  std::vector<Goal> markings;
+  for (const std::uint32_t page : question.subjects) markings.push_back({unsound(places[page])});
+  Finding finding = none_reached(given, question, markings, facts.safe(), limits);
+  if (finding.kind == Finding::Kind::violated)
+    finding.why =
+        "page '" + pages.path({finding.subjects.front()}) + "' is entered or left while it is in use";
+  return finding;
+}
+
 Finding live_behaviours(const Case& given, const Question& question, bool known_safe,
                         const explore::Limits& limits) {
   std::vector<Goal> goals;
@@ -214,8 +252,9 @@ class ByExploration final : public Decider {
       case Kind::claims:
         return claims(given, question, facts.safe(), limits);
       case Kind::exclusive_channels:
+        return exclusive_channels(given, question, facts.safe(), limits);
       case Kind::sound_pages:
-        return std::nullopt;
+        return sound_pages(given, question, facts, limits);
     }
     return std::nullopt;
   }

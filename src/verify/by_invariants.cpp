@@ -5,6 +5,15 @@
 namespace tessera::verify {
 namespace {
 
+/// holds, but for the gaps.
+Finding unless(const std::vector<Gap>& gaps) {
+  if (gaps.empty()) return {.kind = Finding::Kind::holds};
+  Finding finding;
+  finding.why = gaps.front().why;
+  for (const Gap& gap : gaps) finding.subjects.push_back(gap.subject);
+  return finding;
+}
+
 /// Invariants say what cannot be; of that, they tell each kind of property something else.
 Finding claims(const Question& question, Facts& facts) {
   using Kind = net::Property::Kind;
@@ -44,11 +53,9 @@ class ByInvariants final : public Decider {
         finding.why = facts.safe() ? "" : "the invariants do not bound every place";
         break;
       case Question::Kind::exclusive_channels:
-        finding.why = shared_memory(subject.net, subject.invariants);
-        break;
+        return unless(uncovered_memories(subject.net, facts.units()));
       case Question::Kind::sound_pages:
-        finding.why = unsound_page(*subject.pages, subject.net, subject.invariants);
-        break;
+        return unless(uncovered_pages(*subject.pages, subject.net, facts.units()));
       case Question::Kind::claims:
         return claims(question, facts);
       default:

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
-#include "verify/unit_invariants.hpp"
+#include "verify/forbidden.hpp"
 
 namespace tessera::verify {
 namespace {
 
-using net::PageId;
 using net::PlaceId;
 using Numbers = std::vector<std::uint32_t>;
 
@@ -19,70 +17,42 @@ Numbers both(const Numbers& a, const Numbers& b) {
   return result;
 }
 
-/// The flat places of each page's own nodes.
-std::vector<std::vector<PlaceId>> places_of_pages(const net::HierarchicalNet& pages, const net::Net& net) {
-  std::vector<std::vector<PlaceId>> places(pages.pages.size());
-  for (std::uint32_t index = 0; index < net.places().size(); ++index)
-    if (net.places()[index].page.valid()) places[net.places()[index].page.value].push_back({index});
-  return places;
-}
-
-/// Input and output of a page among its own places.
-struct Ends {
-  PlaceId in, out;
-};
-Ends ends_of(const net::Page& page, const net::Net& net, const std::vector<PlaceId>& own) {
-  Ends ends;
-  const std::string& in = page.nodes[page.input].name;
-  const std::string& out = page.nodes[page.output].name;
-  for (const PlaceId place : own) {
-    const std::string& name = net[place].name;
-    const auto is = [&](const std::string& local) { return name == local || name.ends_with("." + local); };
-    if (!ends.in.valid() && is(in)) ends.in = place;
-    if (is(out)) ends.out = place;
-  }
-  return ends;
-}
-
 }  // namespace
 
-std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
-                         const std::vector<net::Invariant>& invariants) {
-  const UnitInvariants units(net, invariants);
-  const std::vector<std::vector<PlaceId>> own = places_of_pages(pages, net);
-  std::vector<Ends> ends;
-  std::vector<Numbers> shared;  // by input and output of each page
-  for (std::size_t page = 0; page < own.size(); ++page) {
-    ends.push_back(ends_of(pages.pages[page], net, own[page]));
-    if (!ends.back().in.valid() || !ends.back().out.valid())
-      return "page '" + pages.path({static_cast<std::uint32_t>(page)}) + "' has no input or no output place";
-    shared.push_back(both(units.of(ends.back().in), units.of(ends.back().out)));
+std::vector<Gap> uncovered_pages(const net::HierarchicalNet& pages, const net::Net& net,
+                                 const UnitInvariants& units) {
+  std::vector<Gap> gaps;
+  const std::vector<PagePlaces> all = places_of_pages(pages, net);
+  for (std::uint32_t index = 0; index < all.size(); ++index) {
+    const PagePlaces& page = all[index];
+    const Numbers shared = both(units.of(page.in), units.of(page.out));
+    const auto apart = [&](PlaceId place) {
+      return std::ranges::any_of(
+          units.of(place), [&](std::uint32_t unit) { return std::ranges::binary_search(shared, unit); });
+    };
+    const auto loose = std::ranges::find_if_not(page.all, apart);
+    if (loose == page.all.end()) continue;
+    gaps.push_back({index, "no invariant keeps '" + net[*loose].name + "' empty when page '" +
+                               pages.path({index}) + "' is left"});
   }
-  for (std::uint32_t index = 0; index < net.places().size(); ++index)
-    for (PageId page = net.places()[index].page; page.valid(); page = pages.pages[page.value].parent) {
-      const bool apart = std::ranges::any_of(units.of({index}), [&](std::uint32_t unit) {
-        return std::ranges::binary_search(shared[page.value], unit);
-      });
-      if (!apart)
-        return "no invariant keeps '" + net.places()[index].name + "' empty when page '" + pages.path(page) +
-               "' is left";
-    }
-  return {};
+  return gaps;
 }
 
-std::string shared_memory(const net::Net& net, const std::vector<net::Invariant>& invariants) {
-  const UnitInvariants units(net, invariants);
-  std::map<std::uint32_t, Numbers> common;  // by channel
-  for (std::uint32_t index = 0; index < net.places().size(); ++index) {
-    const net::Operation& operation = net.places()[index].operation;
-    if (operation.kind != net::Operation::Kind::write && operation.kind != net::Operation::Kind::read)
-      continue;
-    const auto [entry, added] = common.emplace(operation.subject, units.of({index}));
-    if (!added) entry->second = both(entry->second, units.of({index}));
-    if (entry->second.empty())
-      return "no invariant keeps '" + net.places()[index].name + "' apart from the other side of its channel";
+std::vector<Gap> uncovered_memories(const net::Net& net, const UnitInvariants& units) {
+  std::vector<Gap> gaps;
+  for (const SharedMemory& memory : shared_memories(net)) {
+    std::vector<PlaceId> places = memory.writes;
+    places.insert(places.end(), memory.reads.begin(), memory.reads.end());
+    Numbers common = units.of(places.front());
+    for (const PlaceId place : places) {
+      common = both(common, units.of(place));
+      if (!common.empty()) continue;
+      gaps.push_back({memory.id(), "no invariant keeps '" + net[place].name +
+                                       "' apart from the other side of its channel"});
+      break;
+    }
   }
-  return {};
+  return gaps;
 }
 
 }  // namespace tessera::verify

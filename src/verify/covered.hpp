@@ -1,22 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "net/net.hpp"
+#include "verify/unit_invariants.hpp"
 
 /// What place invariants say about pages and channels.
 namespace tessera::verify {
 
-/// The first place that no unit invariant keeps apart from the input and the output of a page that contains
-/// it; empty: every page is entered once at a time and left empty.
-///
-/// Precondition for both: every invariant is one of the net (wrong_invariants is empty). Linear in the net
-/// times the depth of its pages.
-[[nodiscard]] std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
-                                       const std::vector<net::Invariant>& invariants);
+/// Something that the invariants do not settle.
+struct Gap {
+  std::uint32_t subject = 0;
+  std::string why;
+};
 
-/// The first channel whose writes and reads no unit invariant keeps apart; empty: there is none.
-[[nodiscard]] std::string shared_memory(const net::Net& net, const std::vector<net::Invariant>& invariants);
+/// The pages that hold a place which no unit invariant keeps apart from their input and output; empty: every
+/// page is entered once at a time and left empty. Linear in the net times the depth of its pages.
+[[nodiscard]] std::vector<Gap> uncovered_pages(const net::HierarchicalNet& pages, const net::Net& net,
+                                               const UnitInvariants& units);
+
+/// The memories (verify/forbidden.hpp) whose writes and reads no unit invariant keeps apart. Linear.
+[[nodiscard]] std::vector<Gap> uncovered_memories(const net::Net& net, const UnitInvariants& units);
 
 }  // namespace tessera::verify

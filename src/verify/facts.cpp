@@ -1,5 +1,6 @@
 #include "verify/facts.hpp"
 
+#include "verify/forbidden.hpp"
 #include "verify/place_invariants.hpp"
 
 namespace tessera::verify {
@@ -46,6 +47,10 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
     for (const ProbedNet::Set& set : kind == Question::Kind::goes_on ? probed.subsystems : probed.channels)
       all.push_back(set.id);
   }
+  if (kind == Question::Kind::exclusive_channels)
+    for (const SharedMemory& memory : shared_memories(subject_.net)) all.push_back(memory.id());
+  if (kind == Question::Kind::sound_pages)
+    for (std::uint32_t page = 0; page < subject_.pages->pages.size(); ++page) all.push_back(page);
   if (kind == Question::Kind::live_behaviours)
     for (std::uint32_t place = 0; place < subject_.net.places().size(); ++place)
       if (subject_.net.places()[place].operation.kind == net::Operation::Kind::transition_function)

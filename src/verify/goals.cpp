@@ -1,7 +1,10 @@
 #include "verify/goals.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -46,6 +49,25 @@ Answer explored(Ask question, const explore::PtNet& net, const Goal& goal, const
   return {};
 }
 
+/// The same formula with negations of places only, so that it comes apart into as many parts as possible.
+Formula with_negations_inside(Formula formula, bool negated = false) {
+  if (formula.kind == Formula::Kind::negation)
+    return with_negations_inside(Formula(std::move(formula.parts.front())), !negated);
+  const bool is_list = formula.kind == Formula::Kind::all || formula.kind == Formula::Kind::any;
+  if (!is_list) return negated ? Formula::negation(std::move(formula)) : formula;
+  if (negated) formula.kind = formula.kind == Formula::Kind::all ? Formula::Kind::any : Formula::Kind::all;
+  for (Formula& part : formula.parts) part = with_negations_inside(std::move(part), negated);
+  return formula;
+}
+
+/// An answer about a part of a goal, with a run of the reduced net that shows it, if it is of the kind that
+/// runs show.
+struct Outcome {
+  Kind kind = Kind::unknown;
+  std::string why{};
+  std::vector<net::TransitionId> run{};
+};
+
 /// Goals of one reduction of a net.
 class Search {
  public:
@@ -59,44 +81,111 @@ class Search {
         where_[places[local].value] = {component, local};
     }
     for (const Goal* goal : goals) {
-      goals_.push_back(translated(*goal, reduced_));
-      parts_.push_back(parts_of(goals_.back()));
+      Goal here = translated(*goal, reduced_);
+      here.what = with_negations_inside(std::move(here.what));
+      goals_.push_back(std::move(here));
     }
   }
 
   /// Do two goals meet in one component?
   [[nodiscard]] bool tangled() const {
     std::vector<bool> seen(components_.all.size(), false);
-    for (const auto& parts : parts_)
-      for (const std::uint32_t component : parts) {
+    for (const Goal& goal : goals_)
+      for (const std::uint32_t component : parts_of(goal)) {
         if (seen[component]) return true;
         seen[component] = true;
       }
     return false;
   }
 
-  Found answer(std::size_t goal, Ask question, const explore::Limits& limits) {
-    std::vector<const reduce::Component*> chosen;
-    for (const std::uint32_t component : parts_[goal]) chosen.push_back(&components_.all[component]);
-    const Part part(reduced_.net, chosen);
-    const auto [known, is_new] = answers_.try_emplace(description(goal));
-    Answer& answer = known->second;
-    if (is_new) {
-      const Goal inside{part.inside(goals_[goal].what), part.inside(goals_[goal].then)};
-      answer = explored(question, explore::PtNet(part.net()), inside, limits);
-    }
+  Found answer(std::size_t goal, Ask question, const Budget& budget) {
+    const std::uint64_t before = states_;
+    Outcome outcome = solve(goals_[goal], question, budget);
     Found found;
+    found.kind = outcome.kind;
+    found.why = std::move(outcome.why);
     found.explanation = sizes(reduced_, components_);
-    found.states = is_new ? answer.effort.markings : 0;
-    found.why = answer.why;
-    if (answer.kind == Answer::Kind::unknown) return found;
-    found.kind = answer.kind == Answer::Kind::yes ? Kind::yes : Kind::no;
-    const bool shown = (found.kind == Kind::yes) == (question == Ask::reachable);
-    if (shown) found.trace = reduced_.lift(part.outside(answer.trace.firings));
+    found.states = states_ - before;
+    if (found.kind == kind_with_run(question)) found.trace = reduced_.lift(outcome.run);
     return found;
   }
 
  private:
+  static Kind kind_with_run(Ask question) { return question == Ask::reachable ? Kind::yes : Kind::no; }
+
+  /// Components do not know of each other: what each can reach on its own, they can reach together; what is
+  /// out of reach in one stays so whatever the others do.
+  Outcome solve(const Goal& goal, Ask question, const Budget& budget) {
+    const bool is_list = goal.what.kind == Formula::Kind::all || goal.what.kind == Formula::Kind::any;
+    if (question == Ask::leads_to || !is_list) return look_up(goal, question, budget);
+    const std::vector<Goal> independent = independent_parts(goal.what);
+    if (independent.size() < 2) return look_up(goal, question, budget);
+    const Kind settles = goal.what.kind == Formula::Kind::any ? Kind::yes : Kind::no;
+    Outcome together;
+    together.kind = settles == Kind::yes ? Kind::no : Kind::yes;
+    for (const Goal& part : independent) {
+      Outcome outcome = solve(part, question, budget);
+      if (outcome.kind == settles) return outcome;
+      if (outcome.kind == Kind::unknown) {
+        together.kind = Kind::unknown;
+        together.why = std::move(outcome.why);
+      }
+      together.run.insert(together.run.end(), outcome.run.begin(), outcome.run.end());
+    }
+    return together;
+  }
+
+  /// The parts of a list, those together that share a component.
+  [[nodiscard]] std::vector<Goal> independent_parts(const Formula& list) const {
+    std::vector<std::vector<Formula>> groups;
+    std::vector<std::size_t> group_of(components_.all.size(), none);
+    for (const Formula& part : list.parts) {
+      const std::vector<std::uint32_t> components = parts_of({part});
+      std::vector<Formula> joined{part};
+      std::set<std::size_t> joins;
+      for (const std::uint32_t component : components)
+        if (group_of[component] != none) joins.insert(group_of[component]);
+      for (const std::size_t group : joins) {
+        std::ranges::move(groups[group], std::back_inserter(joined));
+        groups[group].clear();
+      }
+      if (!joins.empty())
+        for (std::size_t& group : group_of)
+          if (joins.contains(group)) group = groups.size();
+      for (const std::uint32_t component : components) group_of[component] = groups.size();
+      groups.push_back(std::move(joined));
+    }
+    std::vector<Goal> goals;
+    for (std::vector<Formula>& parts : groups) {
+      if (parts.empty()) continue;
+      Formula what = std::move(parts.front());
+      if (parts.size() > 1) {
+        parts.front() = std::move(what);
+        what = Formula{list.kind, 0, 1, std::move(parts)};
+      }
+      goals.push_back({std::move(what)});
+    }
+    return goals;
+  }
+
+  Outcome look_up(const Goal& goal, Ask question, const Budget& budget) {
+    const std::vector<std::uint32_t> components = parts_of(goal);
+    std::vector<const reduce::Component*> chosen;
+    for (const std::uint32_t component : components) chosen.push_back(&components_.all[component]);
+    const Part part(reduced_.net, chosen);
+    const auto [known, is_new] = answers_.try_emplace(description(goal, components));
+    Answer& answer = known->second;
+    if (is_new) {
+      const Goal inside{part.inside(goal.what), part.inside(goal.then)};
+      answer = explored(question, explore::PtNet(part.net()), inside, budget.left());
+      states_ += answer.effort.markings;
+    }
+    if (answer.kind == Answer::Kind::unknown) return {Kind::unknown, answer.why};
+    const Kind kind = answer.kind == Answer::Kind::yes ? Kind::yes : Kind::no;
+    if (kind != kind_with_run(question)) return {kind};
+    return {kind, {}, part.outside(answer.trace.firings)};
+  }
+
   static reduce::Preserve preserving(const std::vector<const Goal*>& goals, bool safe) {
     reduce::Preserve what;
     what.safe = safe;
@@ -121,11 +210,11 @@ class Search {
   }
 
   /// The kinds of the components and the goal in terms of their places: all that the answer depends on.
-  [[nodiscard]] std::string description(std::size_t goal) const {
+  [[nodiscard]] std::string description(const Goal& goal, const std::vector<std::uint32_t>& parts) const {
     std::string text;
-    for (const std::uint32_t part : parts_[goal]) text += std::to_string(components_.all[part].kind) + " ";
-    describe(goals_[goal].what, parts_[goal], text);
-    describe(goals_[goal].then, parts_[goal], text);
+    for (const std::uint32_t part : parts) text += std::to_string(components_.all[part].kind) + " ";
+    describe(goal.what, parts, text);
+    describe(goal.then, parts, text);
     return text;
   }
 
@@ -140,12 +229,13 @@ class Search {
     text += ")";
   }
 
+  static constexpr std::size_t none = SIZE_MAX;
   reduce::Reduced reduced_;
   reduce::Components components_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> where_;  // per place: component, number in it
   std::vector<Goal> goals_;
-  std::vector<std::vector<std::uint32_t>> parts_;  // per goal
-  std::map<std::string, Answer> answers_;          // by description
+  std::map<std::string, Answer> answers_;  // by description
+  std::uint64_t states_ = 0;
 };
 
 /// Goals that may be equal but for the agents.
@@ -170,10 +260,12 @@ std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal
                        bool safe, const explore::Limits& limits) {
   const Budget budget(limits);
   std::vector<Found> found(goals.size());
-  // Whether goals that were looked at together were all answered before the one that ends it.
-  const auto all_answered = [&](Search& search, const std::vector<std::size_t>& group) {
+  for (Found& one : found) one.why = "the time is over";
+  // false: it is settled, or there is no time for more.
+  const auto go_on = [&](Search& search, const std::vector<std::size_t>& group) {
     for (std::size_t goal = 0; goal < group.size(); ++goal) {
-      found[group[goal]] = search.answer(goal, question, budget.left());
+      if (budget.spent()) return false;
+      found[group[goal]] = search.answer(goal, question, budget);
       if (found[group[goal]].kind == stop_at) return false;
     }
     return true;
@@ -183,13 +275,13 @@ std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal
     for (const std::size_t goal : group) members.push_back(&goals[goal]);
     Search together(net, members, safe);
     if (members.size() == 1 || !together.tangled()) {
-      if (!all_answered(together, group)) return found;
+      if (!go_on(together, group)) return found;
       continue;
     }
     // Fewer observed places leave less of a net that does not fall apart.
     for (const std::size_t goal : group) {
       Search alone(net, {&goals[goal]}, safe);
-      if (!all_answered(alone, {goal})) return found;
+      if (!go_on(alone, {goal})) return found;
     }
   }
   return found;

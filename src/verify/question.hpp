@@ -14,11 +14,11 @@ namespace tessera::verify {
 struct Question {
   enum class Kind : std::uint8_t {
     safe,
-    exclusive_channels,
+    exclusive_channels,  ///< subjects: memories, by SharedMemory::id
     deadlock_free,
-    goes_on,        ///< subjects: subsystems, by Place::subsystem
-    channels_flow,  ///< subjects: channels, by Place::channel
-    sound_pages,
+    goes_on,          ///< subjects: subsystems, by Place::subsystem
+    channels_flow,    ///< subjects: channels, by Place::channel
+    sound_pages,      ///< subjects: pages
     live_behaviours,  ///< subjects: places that start a transition function
     claims            ///< of `property`; subjects: their numbers
   } kind = Kind::safe;

@@ -43,12 +43,10 @@ RunningVerdict all_reach(const BehaviourGraph& graph, const BehaviourGraph::Node
   return {Answer::yes, {}};
 }
 
-}  // namespace
-
-RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, Kind kind,
-                             const net::Claim& claim) {
+RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+                         const net::Claim& claim) {
   const std::optional<Running> what = running(pages, claim.what);
-  if (!what || kind == Kind::always) return {};
+  if (!what) return {};
   const Known subsystem = known(given, what->subsystem);
   if (subsystem.flow == nullptr) return {};
   const BehaviourGraph graph(*subsystem.flow);
@@ -77,6 +75,45 @@ RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& page
     }
     case Kind::always:
       break;
+  }
+  return {};
+}
+
+/// One of several things of which each alone settles it; if all are known not to, it is the opposite.
+RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+                        const net::Claim& claim, Answer settles) {
+  RunningVerdict last;
+  bool open = claim.what.parts.empty();
+  for (const net::Statement& part : claim.what.parts) {
+    RunningVerdict verdict = judge_running(given, pages, kind, {claim.about, part, claim.then});
+    if (verdict.answer == settles) return verdict;
+    open = open || verdict.answer == Answer::unknown;
+    last = std::move(verdict);
+  }
+  return open ? RunningVerdict{} : last;
+}
+
+}  // namespace
+
+RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+                             const net::Claim& claim) {
+  RunningVerdict verdict = judge_one(given, pages, kind, claim);
+  if (verdict.answer != Answer::unknown) return verdict;
+  const bool either = claim.what.kind == net::Statement::Kind::any;
+  switch (kind) {
+    case Kind::reachable:
+      if (either) return first_of(given, pages, kind, claim, Answer::yes);
+      return verdict;
+    case Kind::never:
+    case Kind::leads_to:
+      if (either) return first_of(given, pages, kind, claim, Answer::no);
+      return verdict;
+    case Kind::always_reachable:
+      // Though none of them is always in reach, one or the other may be.
+      if (either) verdict = first_of(given, pages, kind, claim, Answer::yes);
+      return verdict.answer == Answer::yes ? verdict : RunningVerdict{};
+    case Kind::always:
+      return {};
   }
   return {};
 }

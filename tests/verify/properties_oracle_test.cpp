@@ -1,0 +1,212 @@
+// Properties of an author on random systems: every method against exhaustive search of the abstract net.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "explore/naive.hpp"
+#include "explore/random_net.hpp"
+#include "layers/layers.hpp"
+#include "layers/models.hpp"
+#include "verify/abstraction.hpp"
+#include "verify/claims.hpp"
+#include "verify/verify.hpp"
+#include "verify_circuits/random_system.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using explore::below;
+using explore::Formula;
+using explore::NaiveGraph;
+using explore::Random;
+using net::Statement;
+using Claimed = net::Property::Kind;
+
+/// The long form of the test: TESSERA_RANDOM_SYSTEMS=20000.
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+/// Statements as the layers make them of paths: pages, places, states of channels.
+class Statements {
+ public:
+  Statements(const test::Built& built, Random& random) : built_(built), random_(random) {
+    for (std::uint32_t page = 0; page < built.pages.pages.size(); ++page)
+      if (built.pages.pages[page].layer == net::Layer::behaviour) behaviours_.push_back({page});
+  }
+
+  Statement statement(int depth) {
+    const std::uint32_t kind = depth == 0 ? 0 : below(random_, 6);
+    if (kind < 3) return below(random_, 3) > 0 ? running() : token();
+    Statement made;
+    made.kind =
+        kind == 3 ? Statement::Kind::negation : (kind == 4 ? Statement::Kind::all : Statement::Kind::any);
+    const std::uint32_t parts = kind == 3 ? 1 : 1 + below(random_, 2);
+    for (std::uint32_t part = 0; part < parts; ++part) made.parts.push_back(statement(depth - 1));
+    return made;
+  }
+
+ private:
+  Statement running() {
+    Statement made;
+    made.page = behaviours_[below(random_, static_cast<std::uint32_t>(behaviours_.size()))];
+    for (std::uint32_t place = 0; place < built_.net.places().size(); ++place)
+      for (net::PageId at = built_.net.places()[place].page; at.valid();
+           at = built_.pages.pages[at.value].parent)
+        if (at == made.page) made.places.push_back({place});
+    return made;
+  }
+
+  Statement token() {
+    Statement made;
+    made.places = {{below(random_, static_cast<std::uint32_t>(built_.net.places().size()))}};
+    return made;
+  }
+
+  const test::Built& built_;
+  Random& random_;
+  std::vector<net::PageId> behaviours_;
+};
+
+bool claim_holds(const NaiveGraph& graph, Claimed kind, const net::Claim& claim) {
+  const Formula what = formula_of(claim.what);
+  switch (kind) {
+    case Claimed::never:
+      return !graph.nearest(what);
+    case Claimed::always:
+      return !graph.nearest(Formula::negation(what));
+    case Claimed::reachable:
+      return graph.nearest(what).has_value();
+    case Claimed::always_reachable:
+      return graph.always_reachable(what);
+    case Claimed::leads_to:
+      return graph.leads_to(what, formula_of(claim.then));
+  }
+  return false;
+}
+
+/// Does the marking at the end of a run break the claim?
+bool broken_at(const NaiveGraph& graph, std::size_t end, Claimed kind, const net::Claim& claim) {
+  const Formula what = formula_of(claim.what);
+  switch (kind) {
+    case Claimed::never:
+      return graph.holds(what, end);
+    case Claimed::always:
+      return !graph.holds(what, end);
+    case Claimed::reachable:
+      return false;
+    case Claimed::always_reachable:
+      return !graph.can_reach(end, what, Formula::never());
+    case Claimed::leads_to:
+      return !graph.can_reach(end, formula_of(claim.then), Formula::never());
+  }
+  return false;
+}
+
+class Comparison {
+ public:
+  Comparison(const test::Built& built, const std::vector<net::Invariant>& invariants, const NaiveGraph& graph)
+      : built_(built), invariants_(invariants), abstract_(abstract_net(built.net)), graph_(graph) {}
+
+  void with(const std::string& method, const std::vector<net::Property>& properties,
+            std::map<std::string, std::array<int, 3>>& tally) {
+    ProveOptions options;
+    options.method = method;
+    for (const net::Property& property : properties) options.only.push_back(property.name);
+    const Report report = prove({built_.net, &built_.pages, invariants_, properties}, options);
+    ASSERT_EQ(report.properties.size(), properties.size());
+    for (std::size_t index = 0; index < properties.size(); ++index) {
+      const PropertyResult& result = report.properties[index];
+      ++tally[method][static_cast<std::size_t>(result.verdict)];
+      compare(properties[index], result, method.empty() || method == "explicit");
+    }
+  }
+
+ private:
+  void compare(const net::Property& property, const PropertyResult& result, bool always_decides) {
+    EXPECT_EQ(result.name, property.name);
+    const bool expected = std::ranges::all_of(
+        property.claims, [&](const net::Claim& claim) { return claim_holds(graph_, property.kind, claim); });
+    if (result.verdict == Verdict::unknown) {
+      EXPECT_FALSE(always_decides) << result.why;
+      return;
+    }
+    EXPECT_EQ(result.verdict, expected ? Verdict::holds : Verdict::violated)
+        << property.text << " by " << result.method << ": " << result.why;
+    if (always_decides && !expected) {
+      EXPECT_EQ(result.has_trace, property.kind != Claimed::reachable) << property.text;
+    }
+    if (result.has_trace) shows(property, result);
+  }
+
+  void shows(const net::Property& property, const PropertyResult& result) {
+    std::size_t at = 0;
+    for (const net::TransitionId id : result.trace) {
+      EXPECT_NE(abstract_[id].condition.truth, net::Condition::Truth::never);
+      const auto next = explore::fired(abstract_, id, graph_.marking(at));
+      ASSERT_TRUE(next) << abstract_[id].name << " is not enabled";
+      at = graph_.index_of(*next).value();
+    }
+    EXPECT_TRUE(std::ranges::any_of(
+        property.claims,
+        [&](const net::Claim& claim) { return broken_at(graph_, at, property.kind, claim); }))
+        << property.text << ": the run does not show it";
+  }
+
+  const test::Built& built_;
+  const std::vector<net::Invariant>& invariants_;
+  net::Net abstract_;
+  const NaiveGraph& graph_;
+};
+
+std::vector<net::Property> random_properties(const test::Built& built, Random& random) {
+  constexpr std::array kinds{Claimed::never, Claimed::always, Claimed::reachable, Claimed::always_reachable,
+                             Claimed::leads_to};
+  Statements statements(built, random);
+  std::vector<net::Property> properties;
+  for (const Claimed kind : kinds)
+    for (int depth = 0; depth < 3; ++depth) {
+      net::Property property;
+      property.kind = kind;
+      property.name = std::to_string(static_cast<int>(kind)) + " at depth " + std::to_string(depth);
+      property.text = property.name;
+      for (std::uint32_t claim = 1 + below(random, 2); claim > 0; --claim)
+        property.claims.push_back({"", statements.statement(depth), statements.statement(depth)});
+      properties.push_back(std::move(property));
+    }
+  return properties;
+}
+
+TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 60);
+  std::uint64_t seed = from_environment("TESSERA_RANDOM_SEED", 0);
+  std::map<std::string, std::array<int, 3>> tally;
+  for (std::uint64_t compared = 0; compared < systems; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const spec::Model model = test::random_system(seed);
+    const test::Built built = test::build(model);
+    const auto graph = NaiveGraph::of(possible_part(abstract_net(built.net)), 400);
+    if (!graph) continue;
+    ++compared;
+    const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
+    Random random(static_cast<std::uint32_t>(seed));
+    const std::vector<net::Property> properties = random_properties(built, random);
+    Comparison comparison(built, invariants, *graph);
+    for (const char* method : {"", "invariants", "circuits", "explicit"})
+      comparison.with(method, properties, tally);
+    if (HasFailure()) return;
+  }
+  for (const auto& [method, verdicts] : tally) {
+    EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::holds)], 0) << method;
+    EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::violated)], 0) << method;
+  }
+}
+
+}  // namespace
+}  // namespace tessera::verify

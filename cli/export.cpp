@@ -4,6 +4,7 @@
 #include "cli/terminal.hpp"
 #include "cli/walk.hpp"
 #include "net/pnml.hpp"
+#include "verify/abstraction.hpp"
 
 namespace tessera::cli {
 
@@ -11,6 +12,7 @@ namespace {
 
 struct Options {
   std::string spec = ".", pnml;
+  bool abstract = false;
 };
 
 int export_command(const Options& options) {
@@ -18,7 +20,8 @@ int export_command(const Options& options) {
   if (!specification) return failed;
   const std::optional<Nets> nets = build(*specification);
   if (!nets) return failed;
-  write_output(options.pnml, net::to_pnml(nets->flat, {specification->model.system}));
+  const net::Net net = options.abstract ? verify::possible_part(verify::abstract_net(nets->flat)) : nets->flat;
+  write_output(options.pnml, net::to_pnml(net, {specification->model.system}));
   return ok;
 }
 
@@ -32,7 +35,12 @@ void add_export(CLI::App& app, int& exit_code) {
   command
       ->add_option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
       ->required();
-  command->footer("Example: tessera export --pnml net.pnml");
+  command->add_flag("--abstract", options->abstract,
+                    "The net that `verify` judges: without what never fires, and with what happens where no "
+                    "condition holds");
+  command->footer(
+      "Examples: tessera export --pnml net.pnml\n"
+      "          tessera export --abstract --pnml net.pnml && tessera verify net.pnml");
   command->callback([options, &exit_code] { exit_code = export_command(*options); });
 }
 

@@ -26,7 +26,7 @@ using nlohmann::json;
 
 struct Options {
   std::string spec = ".", json, trace, scenario, timeout = "60s", method = "any";
-  std::vector<std::string> properties;
+  std::vector<std::string> properties, without;
   bool states = false, explain = false;
 };
 
@@ -94,6 +94,7 @@ verify::Report judge(const Judged& judged, const Options& options, Step& step) {
   how.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
   if (options.method != "any") how.method = options.method;
   how.only = options.properties;
+  for (const std::string& rule : options.without) static_cast<void>(reduce::switch_off(how.rules, rule));
   how.stop = &interrupt;
   how.progress = [&](const std::string& property, const explore::Progress& progress) {
     step.progress(property + ": " + shown(progress));
@@ -238,6 +239,11 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_option("--method", options->method, "Use only this method")
       ->check(CLI::IsMember(methods))
       ->capture_default_str();
+  std::vector<std::string> rules{"all"};
+  for (const reduce::NamedRule& rule : reduce::named_rules()) rules.emplace_back(rule.name);
+  command
+      ->add_option("--without", options->without, "Do not use this reduction (to check one against the rest)")
+      ->check(CLI::IsMember(rules));
   command->add_flag("--states", options->states, "Count the reachable markings as well");
   command->add_option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
   command->add_option("--trace", options->trace, "Write the runs that show violations as JSON");

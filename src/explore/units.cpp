@@ -188,4 +188,10 @@ std::vector<Unit> find_units(const PtNet& net) {
   return units;
 }
 
+bool units_cover(const PtNet& net) {
+  std::size_t covered = 0;
+  for (const Unit& unit : find_units(net)) covered += unit.places.size();
+  return covered == net.places();
+}
+
 }  // namespace tessera::explore

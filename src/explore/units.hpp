@@ -23,4 +23,7 @@ struct Unit {
 /// Threads: pure.
 [[nodiscard]] std::vector<Unit> find_units(const PtNet& net);
 
+/// Every place is in one: the net is safe.
+[[nodiscard]] bool units_cover(const PtNet& net);
+
 }  // namespace tessera::explore

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,15 @@ struct Rules {
   /// delayed until its token is needed. Only if the producer is in no set, or the net is safe.
   bool pre_agglomeration = true;
 };
+
+struct NamedRule {
+  const char* name;  ///< as the member is called
+  bool Rules::*on;
+};
+/// In the order of Rules.
+[[nodiscard]] std::span<const NamedRule> named_rules();
+/// Switches a rule off, or "all" of them; false: there is no such rule.
+[[nodiscard]] bool switch_off(Rules& rules, std::string_view name);
 
 struct Statistics {
   std::size_t places_before = 0, transitions_before = 0;

@@ -59,16 +59,9 @@ Finding safe(const Case& given, const explore::Limits& limits) {
   return finding;
 }
 
-/// The place that is marked once the whole system has ended; a net drawn elsewhere has none.
-PlaceId final_place(const net::Net& net) {
-  for (std::uint32_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].layer == net::Layer::system && net.places()[place].name == "out") return {place};
-  return {};
-}
-
 Finding deadlock_free(const Case& given, Facts& facts, const explore::Limits& limits) {
   const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(given.abstract);
-  Finding finding = judged(find_dead(given.abstract, end, facts.safe(), limits), Found::Kind::no);
+  Finding finding = judged(find_dead(given.abstract, end, facts.reducing(), limits), Found::Kind::no);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = end.valid() ? "a dead marking is reachable that is not final" : "a dead marking is reachable";
   finding.waits = waits_after(given.abstract, finding.trace, {});
@@ -86,7 +79,7 @@ std::size_t worst_of(const std::vector<Found>& all) {
 
 /// Sets of transitions one of which has to be possible again and again.
 Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& all, const Question& question,
-                        bool known_safe, const explore::Limits& limits) {
+                        const Reducing& how, const explore::Limits& limits) {
   std::vector<const ProbedNet::Set*> sets;
   std::vector<std::vector<TransitionId>> transitions;
   for (const ProbedNet::Set& set : all) {
@@ -95,7 +88,7 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
     transitions.push_back(set.any_of);
   }
   if (sets.empty()) return {.kind = Finding::Kind::holds};
-  const std::vector<Found> found = find_stuck(given.probed.net, transitions, known_safe, limits);
+  const std::vector<Found> found = find_stuck(given.probed.net, transitions, how, limits);
   const std::size_t worst = worst_of(found);
   Finding finding = judged(found[worst], Found::Kind::yes);
   finding.subjects = {sets[worst]->id};
@@ -107,8 +100,9 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
   return finding;
 }
 
-Finding goes_on(const Case& given, const Question& question, bool known_safe, const explore::Limits& limits) {
-  Finding finding = always_possible(given, given.probed.subsystems, question, known_safe, limits);
+Finding goes_on(const Case& given, const Question& question, const Reducing& how,
+                const explore::Limits& limits) {
+  Finding finding = always_possible(given, given.probed.subsystems, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why = subsystem_names(given.abstract)[finding.subjects.front()] + " can get stuck for ever";
   return finding;
@@ -120,9 +114,9 @@ std::string channel_name(const net::Net& net, std::uint32_t channel) {
   return {};
 }
 
-Finding channels_flow(const Case& given, const Question& question, bool known_safe,
+Finding channels_flow(const Case& given, const Question& question, const Reducing& how,
                       const explore::Limits& limits) {
-  Finding finding = always_possible(given, given.probed.channels, question, known_safe, limits);
+  Finding finding = always_possible(given, given.probed.channels, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why = channel_name(given.abstract, finding.subjects.front()) + " can run dry for ever";
   return finding;
@@ -158,20 +152,20 @@ void name_subjects(Finding& finding, const Question& question) {
 
 /// Markings none of which is to be reached, one for each subject of the question.
 Finding none_reached(const Case& given, const Question& question, const std::vector<Goal>& markings,
-                     bool known_safe, const explore::Limits& limits) {
+                     const Reducing& how, const explore::Limits& limits) {
   Finding finding = judged_together(
-      ask(given.abstract, Ask::reachable, markings, Found::Kind::yes, known_safe, limits), Found::Kind::yes);
+      ask(given.abstract, Ask::reachable, markings, Found::Kind::yes, how, limits), Found::Kind::yes);
   name_subjects(finding, question);
   finding.has_trace = finding.kind == Finding::Kind::violated;
   return finding;
 }
 
-Finding exclusive_channels(const Case& given, const Question& question, bool known_safe,
+Finding exclusive_channels(const Case& given, const Question& question, const Reducing& how,
                            const explore::Limits& limits) {
   std::vector<Goal> markings;
   for (const SharedMemory& memory : shared_memories(given.abstract))
     if (std::ranges::count(question.subjects, memory.id()) > 0) markings.push_back({used_twice(memory)});
-  Finding finding = none_reached(given, question, markings, known_safe, limits);
+  Finding finding = none_reached(given, question, markings, how, limits);
   if (finding.kind != Finding::Kind::violated) return finding;
   const PlaceId place{finding.subjects.front()};
   finding.why = "the memory of " + channel_name(given.abstract, given.abstract[place].operation.subject) +
@@ -186,19 +180,19 @@ Finding sound_pages(const Case& given, const Question& question, Facts& facts,
   const std::vector<PagePlaces> places = places_of_pages(pages, facts.subject().net);
   std::vector<Goal> markings;
   for (const std::uint32_t page : question.subjects) markings.push_back({unsound(places[page])});
-  Finding finding = none_reached(given, question, markings, facts.safe(), limits);
+  Finding finding = none_reached(given, question, markings, facts.reducing(), limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why =
         "page '" + pages.path({finding.subjects.front()}) + "' is entered or left while it is in use";
   return finding;
 }
 
-Finding live_behaviours(const Case& given, const Question& question, bool known_safe,
+Finding live_behaviours(const Case& given, const Question& question, const Reducing& how,
                         const explore::Limits& limits) {
   std::vector<Goal> goals;
   for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
-  Finding finding = judged_together(
-      ask(given.abstract, Ask::reachable, goals, Found::Kind::no, known_safe, limits), Found::Kind::no);
+  Finding finding = judged_together(ask(given.abstract, Ask::reachable, goals, Found::Kind::no, how, limits),
+                                    Found::Kind::no);
   name_subjects(finding, question);
   if (finding.kind == Finding::Kind::holds) return finding;
   const std::string name = behaviour_of(given.abstract, {finding.subjects.front()});
@@ -206,7 +200,8 @@ Finding live_behaviours(const Case& given, const Question& question, bool known_
   return finding;
 }
 
-Finding claims(const Case& given, const Question& question, bool known_safe, const explore::Limits& limits) {
+Finding claims(const Case& given, const Question& question, const Reducing& how,
+               const explore::Limits& limits) {
   using Claims = net::Property::Kind;
   const Claims kind = question.property->kind;
   Ask what = Ask::reachable;
@@ -219,7 +214,7 @@ Finding claims(const Case& given, const Question& question, bool known_safe, con
     const net::Claim& claim = question.property->claims[number];
     goals.push_back({what_of(kind, claim), formula_of(claim.then)});
   }
-  Finding finding = judged_together(ask(given.abstract, what, goals, bad, known_safe, limits), bad);
+  Finding finding = judged_together(ask(given.abstract, what, goals, bad, how, limits), bad);
   name_subjects(finding, question);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
@@ -244,15 +239,15 @@ class ByExploration final : public Decider {
       case Kind::deadlock_free:
         return deadlock_free(given, facts, limits);
       case Kind::goes_on:
-        return goes_on(given, question, facts.safe(), limits);
+        return goes_on(given, question, facts.reducing(), limits);
       case Kind::channels_flow:
-        return channels_flow(given, question, facts.safe(), limits);
+        return channels_flow(given, question, facts.reducing(), limits);
       case Kind::live_behaviours:
-        return live_behaviours(given, question, facts.safe(), limits);
+        return live_behaviours(given, question, facts.reducing(), limits);
       case Kind::claims:
-        return claims(given, question, facts.safe(), limits);
+        return claims(given, question, facts.reducing(), limits);
       case Kind::exclusive_channels:
-        return exclusive_channels(given, question, facts.safe(), limits);
+        return exclusive_channels(given, question, facts.reducing(), limits);
       case Kind::sound_pages:
         return sound_pages(given, question, facts, limits);
     }

@@ -33,7 +33,8 @@ Finding claims(const Question& question, Facts& facts) {
   return finding;
 }
 
-/// Sums of tokens that no firing changes: those that the layers emit.
+/// Sums of tokens that no firing changes: those that the layers emit, or those that are found in a net of
+/// another origin.
 class ByInvariants final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "invariants"; }
@@ -42,8 +43,13 @@ class ByInvariants final : public Decider {
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& /*limits*/) const override {
     const Subject& subject = facts.subject();
-    if (subject.invariants.empty()) return std::nullopt;
     Finding finding;
+    if (subject.invariants.empty()) {
+      if (question.kind != Question::Kind::safe) return std::nullopt;
+      if (facts.safe()) finding.kind = Finding::Kind::holds;
+      finding.why = facts.safe() ? "" : "no invariants were found that bound every place";
+      return finding;
+    }
     if (!facts.wrong_invariants().empty()) {
       finding.why = facts.wrong_invariants().front();
       return finding;

@@ -37,6 +37,8 @@ class Decider {
 
 [[nodiscard]] std::unique_ptr<Decider> by_invariants();
 [[nodiscard]] std::unique_ptr<Decider> by_circuits();
+[[nodiscard]] std::unique_ptr<Decider> by_waiting();
+[[nodiscard]] std::unique_ptr<Decider> by_siphons();
 [[nodiscard]] std::unique_ptr<Decider> by_exploration();
 
 /// All methods, in the order in which they are tried: quick ones first.

@@ -52,12 +52,13 @@ bool has_free_transition(const net::Net& net) {
 
 }  // namespace
 
-Found find_dead(const net::Net& net, PlaceId final_place, bool safe, const explore::Limits& limits) {
+Found find_dead(const net::Net& net, PlaceId final_place, const Reducing& how,
+                const explore::Limits& limits) {
   const Budget budget(limits);
   reduce::Preserve what;
-  what.safe = safe;
+  what.safe = how.safe;
   if (final_place.valid()) what.observed.push_back(final_place);
-  const reduce::Reduced reduced = reduce::reduce(net, what);
+  const reduce::Reduced reduced = reduce::reduce(net, what, how.rules);
   const reduce::Components components = reduce::components(reduced.net);
   const PlaceId final_left = final_place.valid() ? reduced.find(final_place).value_or(PlaceId{}) : PlaceId{};
   Found found;
@@ -89,9 +90,9 @@ namespace {
 /// Sets of transitions of a net that was reduced and taken apart.
 class StuckSearch {
  public:
-  StuckSearch(const net::Net& net, const Sets& sets, bool safe, const explore::Limits& limits)
+  StuckSearch(const net::Net& net, const Sets& sets, const Reducing& how, const explore::Limits& limits)
       : budget_(limits),
-        reduced_(reduce::reduce(net, {.observed = {}, .sets = sets, .safe = safe})),
+        reduced_(reduce::reduce(net, {.observed = {}, .sets = sets, .safe = how.safe}, how.rules)),
         components_(reduce::components(reduced_.net, reduced_.sets)) {
     place_members();
   }
@@ -181,9 +182,9 @@ class StuckSearch {
 
 }  // namespace
 
-std::vector<Found> find_stuck(const net::Net& net, const Sets& sets, bool safe,
+std::vector<Found> find_stuck(const net::Net& net, const Sets& sets, const Reducing& how,
                               const explore::Limits& limits) {
-  return StuckSearch(net, sets, safe, limits).result();
+  return StuckSearch(net, sets, how, limits).result();
 }
 
 }  // namespace tessera::verify

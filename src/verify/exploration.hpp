@@ -21,16 +21,21 @@ struct Found {
   std::string explanation;  ///< sizes before and after
 };
 
+/// How a net may be reduced.
+struct Reducing {
+  bool safe = false;  ///< the net is known to be safe
+  reduce::Rules rules = {};
+};
+
 /// Is a dead marking reachable in which `final_place` (if valid) is not marked? yes: with a run.
-/// safe: the net is known to be safe; so below.
-[[nodiscard]] Found find_dead(const net::Net& net, net::PlaceId final_place, bool safe,
+[[nodiscard]] Found find_dead(const net::Net& net, net::PlaceId final_place, const Reducing& how,
                               const explore::Limits& limits);
 
 /// Per set: from every reachable marking, can one of its transitions be fired at some time? no: with a run to
 /// a marking from which none can.
 [[nodiscard]] std::vector<Found> find_stuck(const net::Net& net,
                                             const std::vector<std::vector<net::TransitionId>>& sets,
-                                            bool safe, const explore::Limits& limits);
+                                            const Reducing& how, const explore::Limits& limits);
 
 /// "900 places and 800 transitions, reduced to ... in 3 parts of 2 kinds"
 [[nodiscard]] std::string sizes(const reduce::Reduced& reduced, const reduce::Components& components);

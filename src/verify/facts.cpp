@@ -1,5 +1,8 @@
 #include "verify/facts.hpp"
 
+#include <algorithm>
+
+#include "explore/units.hpp"
 #include "verify/forbidden.hpp"
 #include "verify/place_invariants.hpp"
 
@@ -22,10 +25,16 @@ std::string Case::why_no_circuits() const {
   return "the criterion does not tell";
 }
 
-Facts::Facts(const Subject& subject)
-    : subject_(subject), wrong_(verify::wrong_invariants(subject.net, subject.invariants)) {
-  if (wrong_.empty() && !subject.invariants.empty())
-    safe_ = unbounded_places(subject.net, subject.invariants).empty();
+Facts::Facts(const Subject& subject, const reduce::Rules& rules)
+    : subject_(subject), rules_(rules), wrong_(verify::wrong_invariants(subject.net, subject.invariants)) {}
+
+bool Facts::safe() {
+  if (safe_) return *safe_;
+  if (subject_.invariants.empty())
+    safe_ = explore::units_cover(explore::PtNet(subject_.net));
+  else
+    safe_ = wrong_.empty() && unbounded_places(subject_.net, subject_.invariants).empty();
+  return *safe_;
 }
 
 const UnitInvariants& Facts::units() {
@@ -37,6 +46,21 @@ const Case& Facts::under(Assume assume) {
   std::optional<Case>& wanted = assume == Assume::conditions ? conditions_ : exceptions_;
   if (!wanted) wanted.emplace(subject_, assume);
   return *wanted;
+}
+
+const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {
+  WaitingReport& report = waiting_[assume];
+  if (report.complete) return report;
+  const Case& given = under(assume);
+  std::vector<const CircuitGroup*> refused;
+  for (const CircuitGroup& group : given.circuits->groups)
+    if (!group.applies()) refused.push_back(&group);
+  report = judge_waiting(*given.communication.structure, refused, limits);
+  for (const CircuitGroup& group : given.circuits->groups)
+    if (group.applies())
+      for (const std::uint32_t subsystem : group.subsystems)
+        report.goes_on[subsystem] = std::ranges::count(group.stuck, subsystem) == 0;
+  return report;
 }
 
 std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
@@ -56,6 +80,12 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
       if (subject_.net.places()[place].operation.kind == net::Operation::Kind::transition_function)
         all.push_back(place);
   return all;
+}
+
+net::PlaceId final_place(const net::Net& net) {
+  for (std::uint32_t place = 0; place < net.places().size(); ++place)
+    if (net.places()[place].layer == net::Layer::system && net.places()[place].name == "out") return {place};
+  return {};
 }
 
 std::string behaviour_of(const net::Net& net, net::PlaceId place) {

@@ -71,8 +71,8 @@ struct Outcome {
 /// Goals of one reduction of a net.
 class Search {
  public:
-  Search(const net::Net& net, const std::vector<const Goal*>& goals, bool safe)
-      : reduced_(reduce::reduce(net, preserving(goals, safe))),
+  Search(const net::Net& net, const std::vector<const Goal*>& goals, const Reducing& how)
+      : reduced_(reduce::reduce(net, preserving(goals, how.safe), how.rules)),
         components_(reduce::components(reduced_.net)),
         where_(reduced_.net.places().size()) {
     for (std::uint32_t component = 0; component < components_.all.size(); ++component) {
@@ -257,7 +257,7 @@ std::vector<std::vector<std::size_t>> alike(const net::Net& net, const std::vect
 }  // namespace
 
 std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals, Kind stop_at,
-                       bool safe, const explore::Limits& limits) {
+                       const Reducing& how, const explore::Limits& limits) {
   const Budget budget(limits);
   std::vector<Found> found(goals.size());
   for (Found& one : found) one.why = "the time is over";
@@ -273,14 +273,14 @@ std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal
   for (const std::vector<std::size_t>& group : alike(net, goals)) {
     std::vector<const Goal*> members;
     for (const std::size_t goal : group) members.push_back(&goals[goal]);
-    Search together(net, members, safe);
+    Search together(net, members, how);
     if (members.size() == 1 || !together.tangled()) {
       if (!go_on(together, group)) return found;
       continue;
     }
     // Fewer observed places leave less of a net that does not fall apart.
     for (const std::size_t goal : group) {
-      Search alone(net, {&goals[goal]}, safe);
+      Search alone(net, {&goals[goal]}, how);
       if (!go_on(alone, {goal})) return found;
     }
   }

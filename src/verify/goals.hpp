@@ -23,9 +23,7 @@ struct Goal {
 /// One answer for each goal, up to the first that is `stop_at`; those after it are `unknown` without a
 /// reason. Looks only at the parts of the reduced net that have to do with a goal, and once at parts and
 /// goals that are equal but for the agents.
-///
-/// safe: the net is known to be safe.
 [[nodiscard]] std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
-                                     Found::Kind stop_at, bool safe, const explore::Limits& limits);
+                                     Found::Kind stop_at, const Reducing& how, const explore::Limits& limits);
 
 }  // namespace tessera::verify

@@ -7,6 +7,8 @@ const std::vector<std::unique_ptr<Decider>>& portfolio() {
     std::vector<std::unique_ptr<Decider>> deciders;
     deciders.push_back(by_invariants());
     deciders.push_back(by_circuits());
+    deciders.push_back(by_waiting());
+    deciders.push_back(by_siphons());
     deciders.push_back(by_exploration());
     return deciders;
   }();

@@ -122,7 +122,7 @@ class Answering {
 class Prover {
  public:
   Prover(const Subject& subject, const ProveOptions& options)
-      : options_(options), start_(Clock::now()), facts_(subject) {}
+      : options_(options), start_(Clock::now()), facts_(subject, options.rules) {}
 
   std::vector<PropertyResult> results() {
     std::vector<Property> wanted = defaults();

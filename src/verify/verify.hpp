@@ -13,6 +13,7 @@
 #include "explore/watch.hpp"
 #include "net/net.hpp"
 #include "net/property.hpp"
+#include "reduce/reduce.hpp"
 
 namespace tessera::verify {
 
@@ -87,7 +88,8 @@ class VerifiedNet {
 struct ProveOptions {
   std::chrono::duration<double> time{60};  ///< for all properties together, shared out fairly
   std::uint64_t bytes = std::uint64_t{2} << 30U;
-  std::string method = {};  ///< use only this one of method_names(); empty: the first that has an answer
+  std::string method = {};   ///< use only this one of method_names(); empty: the first that has an answer
+  reduce::Rules rules = {};  ///< reductions that may be used
   std::vector<std::string> only;            ///< names of properties; empty: all
   const std::atomic<bool>* stop = nullptr;  ///< true: give up what is not yet decided
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;

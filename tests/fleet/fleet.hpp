@@ -23,6 +23,9 @@ struct Fleet {
   Mix between = Mix::async;  ///< of the channels between agents
   Topology topology = Topology::alone;
   Form form = Form::one_template;
+  /// The second behaviour of every control does not use the channels between agents, that of every motor does
+  /// not listen.
+  bool differing = false;
 };
 
 inline constexpr std::array<std::string_view, 7> fleet_names{"async",  "bb",       "nb_b", "b_nb",
@@ -31,7 +34,7 @@ inline constexpr std::array<std::string_view, 7> fleet_names{"async",  "bb",    
 /// The fleets of docs/performance.md by name; nullopt for another name.
 inline std::optional<Fleet> fleet_named(std::string_view name, unsigned agents) {
   const auto fleet = [&](Mix inside, Mix between, Topology topology) {
-    return Fleet{agents, inside, between, topology, Form::one_template};
+    return Fleet{.agents = agents, .inside = inside, .between = between, .topology = topology};
   };
   if (name == "async") return fleet(Mix::async, Mix::async, Topology::alone);
   if (name == "bb") return fleet(Mix::both_block, Mix::both_block, Topology::alone);
@@ -56,9 +59,11 @@ inline std::string channel(const std::string& from, const std::string& to, Mix m
   return "  - { from: \"" + from + "\", to: \"" + to + "\"" + modes(mix) + " }\n";
 }
 
-inline std::string behaviours(const std::string& pad, const std::string& value) {
+/// used: what the second behaviour uses, if not all: ", receive: []".
+inline std::string behaviours(const std::string& pad, const std::string& value,
+                              const std::string& used = {}) {
   return pad + "behaviours:\n" + pad + "  first:  { terminal: " + value + ".v > 1, next: second }\n" + pad +
-         "  second: { terminal: " + value + ".v < -1, next: first }\n";
+         "  second: { terminal: " + value + ".v < -1, next: first" + used + " }\n";
 }
 
 /// The body of an agent, indented by `pad`.
@@ -70,12 +75,12 @@ inline std::string agent(const Fleet& fleet, const std::string& pad) {
           (both ? ", from_next: Value" : "") + " }\n";
   text += in + "outputs: { motion: Value" + (ring ? ", to_next: Value" : "") +
           (both ? ", to_last: Value" : "") + " }\n";
-  text += behaviours(in, "in.line");
+  text += behaviours(in, "in.line", fleet.differing ? ", send: [motion], receive: [line]" : "");
   text += pad + "receptors:\n" + in + "sensor:\n" + deep + "rate: 50 Hz\n" + deep +
           "real: { eye: float64 }\n" + deep + "outputs: { line: Value }\n" + behaviours(deep, "out.line");
   text += pad + "effectors:\n" + in + "motor:\n" + deep + "rate: 50 Hz\n" + deep +
           "inputs: { velocity: Value }\n" + deep + "real: { wheel: float64 }\n" + deep +
-          "safe: { wheel: 0 }\n" + behaviours(deep, "in.velocity");
+          "safe: { wheel: 0 }\n" + behaviours(deep, "in.velocity", fleet.differing ? ", receive: []" : "");
   return text;
 }
 
@@ -113,7 +118,8 @@ inline std::string fleet_spec(const Fleet& fleet) {
 
 /// The same mix inside and between the agents.
 inline std::string fleet_spec(unsigned agents, Mix mix, Topology topology, Form form = Form::one_template) {
-  return fleet_spec(Fleet{agents, mix, mix, topology, form});
+  return fleet_spec(
+      Fleet{.agents = agents, .inside = mix, .between = mix, .topology = topology, .form = form});
 }
 
 }  // namespace tessera::test

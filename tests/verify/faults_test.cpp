@@ -58,6 +58,7 @@ TEST(Faults, AStoppedProofSaysSo) {
   ProveOptions options;
   options.stop = &stop;
   options.only = {"safe"};
+  options.method = "explicit";
   const std::vector<net::Invariant> none;
   const Report report = prove({net, nullptr, none}, options);
   ASSERT_EQ(report.properties.size(), 1U);

@@ -74,7 +74,7 @@ class Comparison {
 
   void with(Ask question, const std::vector<Goal>& goals, bool safe) {
     const Kind nothing_stops = Kind::unknown;
-    const std::vector<Found> found = ask(net_, question, goals, nothing_stops, safe, {});
+    const std::vector<Found> found = ask(net_, question, goals, nothing_stops, {safe}, {});
     ASSERT_EQ(found.size(), goals.size());
     for (std::size_t goal = 0; goal < goals.size(); ++goal) compare(question, goals[goal], found[goal]);
   }
@@ -180,7 +180,7 @@ TEST(Goals, EqualAgentsAreExploredOnce) {
   std::vector<Goal> goals;
   for (Formula& one : each(200, 1)) goals.push_back({std::move(one)});
   const std::vector<Found> found =
-      ask(fleet, Ask::always_reachable, goals, Kind::no, true, {.markings = 1000});
+      ask(fleet, Ask::always_reachable, goals, Kind::no, {true}, {.markings = 1000});
   std::uint64_t states = 0;
   for (const Found& one : found) {
     EXPECT_EQ(one.kind, Kind::yes) << one.why;
@@ -191,18 +191,18 @@ TEST(Goals, EqualAgentsAreExploredOnce) {
 
 TEST(Goals, WhatEachAgentCanReachAllCanReachAtOnce) {
   const Goal at_once{Formula::all(each(60, 1))};
-  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {at_once}, Kind::no, true, {})[0].kind, Kind::yes);
+  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {at_once}, Kind::no, {true}, {})[0].kind, Kind::yes);
   const net::Net once = walkers(60, false);
-  const Found found = ask(once, Ask::reachable, {at_once}, Kind::no, true, {})[0];
+  const Found found = ask(once, Ask::reachable, {at_once}, Kind::no, {true}, {})[0];
   EXPECT_EQ(found.kind, Kind::yes);
   EXPECT_EQ(found.trace.size(), 60U);
 }
 
 TEST(Goals, OneOfManyIsLostOnlyOnceAllAre) {
   const Goal one_is_left{Formula::any(each(60, 0))};
-  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {one_is_left}, Kind::no, true, {})[0].kind,
+  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {one_is_left}, Kind::no, {true}, {})[0].kind,
             Kind::yes);
-  const Found found = ask(walkers(60, false), Ask::always_reachable, {one_is_left}, Kind::no, true, {})[0];
+  const Found found = ask(walkers(60, false), Ask::always_reachable, {one_is_left}, Kind::no, {true}, {})[0];
   EXPECT_EQ(found.kind, Kind::no);
   EXPECT_EQ(found.trace.size(), 60U);
 }
@@ -210,7 +210,7 @@ TEST(Goals, OneOfManyIsLostOnlyOnceAllAre) {
 TEST(Goals, ThoseBehindTheOneThatSettlesItAreLeftOpen) {
   std::vector<Goal> goals;
   for (Formula& one : each(3, 1)) goals.push_back({std::move(one)});
-  const std::vector<Found> found = ask(walkers(3, true), Ask::reachable, goals, Kind::yes, true, {});
+  const std::vector<Found> found = ask(walkers(3, true), Ask::reachable, goals, Kind::yes, {true}, {});
   EXPECT_EQ(found[0].kind, Kind::yes);
   EXPECT_EQ(found[1].kind, Kind::unknown);
 }
@@ -218,7 +218,7 @@ TEST(Goals, ThoseBehindTheOneThatSettlesItAreLeftOpen) {
 TEST(Goals, NoTimeMeansUnknown) {
   const Goal goal{Formula::marked({1})};
   const std::vector<Found> found =
-      ask(walkers(1, true), Ask::reachable, {goal}, Kind::no, true, {.time = std::chrono::seconds(0)});
+      ask(walkers(1, true), Ask::reachable, {goal}, Kind::no, {true}, {.time = std::chrono::seconds(0)});
   EXPECT_EQ(found[0].kind, Kind::unknown);
   EXPECT_NE(found[0].why, "");
 }

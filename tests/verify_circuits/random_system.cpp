@@ -90,7 +90,7 @@ namespace {
 
 class RandomSystem {
  public:
-  explicit RandomSystem(std::uint64_t seed) : random_(seed) {}
+  RandomSystem(std::uint64_t seed, bool differing) : random_(seed), differing_(differing) {}
 
   spec::Model result() {
     subsystems_ = between(2, 4);
@@ -130,7 +130,8 @@ class RandomSystem {
     std::ranges::shuffle(sends_[instance], random_);
     std::ranges::shuffle(receives_[instance], random_);
     const auto transfer = chance(3) ? spec::Transfer::parallel : spec::Transfer::sequential;
-    const bool start_up = chance(4), second = chance(5);
+    const bool start_up = chance(4), second = differing_ ? !chance(4) : chance(5);
+    const spec::Index drop = differing_ ? 4 : 40;
     if (start_up) {
       std::vector<spec::Index> sent = some(sends_[instance], 2);
       if (!chance(6)) std::erase_if(sent, [&](spec::Index channel) { return waits_to_be_sent_[channel]; });
@@ -138,7 +139,7 @@ class RandomSystem {
       builder_.behaviour(instance, sent, received, transfer);
     }
     const spec::Index main =
-        builder_.behaviour(instance, some(sends_[instance], 40), some(receives_[instance], 40), transfer);
+        builder_.behaviour(instance, some(sends_[instance], drop), some(receives_[instance], drop), transfer);
     if (start_up) builder_.leave(instance, 0, !chance(3), {main});
     if (second) add_second(instance, main, transfer);
     if (chance(12)) {
@@ -150,7 +151,7 @@ class RandomSystem {
   }
 
   void add_second(spec::Index instance, spec::Index main, spec::Transfer transfer) {
-    const spec::Index drop = chance(4) ? 3 : 1000;
+    const spec::Index drop = differing_ || chance(4) ? 3 : 1000;
     const spec::Index other =
         builder_.behaviour(instance, some(sends_[instance], drop), some(receives_[instance], drop), transfer);
     const bool always = chance(2);
@@ -162,6 +163,7 @@ class RandomSystem {
   }
 
   std::mt19937_64 random_;
+  bool differing_;
   SystemBuilder builder_;
   spec::Index subsystems_ = 0, strict_ = 3;
   std::vector<std::vector<spec::Index>> sends_, receives_;  // per subsystem
@@ -170,6 +172,7 @@ class RandomSystem {
 
 }  // namespace
 
-spec::Model random_system(std::uint64_t seed) { return RandomSystem(seed).result(); }
+spec::Model random_system(std::uint64_t seed) { return RandomSystem(seed, false).result(); }
+spec::Model random_differing_system(std::uint64_t seed) { return RandomSystem(seed, true).result(); }
 
 }  // namespace tessera::test

@@ -11,6 +11,8 @@ namespace tessera::test {
 /// start-up, some may end, some transfer in parallel, and a few have behaviours that do not fold. The same
 /// seed gives the same system.
 [[nodiscard]] spec::Model random_system(std::uint64_t seed);
+/// The same, but most subsystems have behaviours that use different channels.
+[[nodiscard]] spec::Model random_differing_system(std::uint64_t seed);
 
 /// For systems built by hand.
 class SystemBuilder {

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/executable_net.hpp"
+
+namespace tessera {
+
+/// A net compiled for a NetExecutor: rows of 32-bit numbers, numbered anew in the order in which tokens walk,
+/// so that consecutive firings touch neighbouring memory however the net was written down. Immutable.
+///
+/// Two kinds of transitions need less than the general rule:
+/// *Sole*: takes one token from one place, which nobody else takes from, without a condition, and does not
+/// give
+///   back to it. It is enabled exactly when that place is marked; nothing is counted for it.
+/// *Direct*: sole, and gives one token to one place without an operation, from which only another sole
+///   transition takes. Such a firing is one record: from, to, and who is enabled by it.
+struct FiringProgram {
+  static constexpr std::uint32_t none = UINT32_MAX;
+
+  /// What a direct firing needs. from: of every sole transition.
+  struct Hop {
+    enum class Kind : std::uint32_t { general, sole, direct } kind = Kind::general;
+    std::uint32_t from = none, to = none;
+    std::uint32_t next = none;  ///< the transition that takes from `to`
+  };
+  /// What the general rule needs.
+  struct Arcs {
+    std::uint32_t takes = 0, takes_end = 0;  ///< into takes
+    std::uint32_t gives = 0, gives_end = 0;  ///< into gives
+  };
+  struct Take {
+    std::uint32_t place, weight;
+  };
+  struct Give {
+    std::uint32_t place, weight;
+    std::uint32_t taken;  ///< by the same transition from the same place
+  };
+  struct Consumer {
+    std::uint32_t transition, weight;
+  };
+  struct PlaceRecord {
+    std::uint32_t sole = none;          ///< the sole transition that takes from it; otherwise:
+    std::uint32_t first = 0, last = 0;  ///< into consumers
+    bool operates = false;
+  };
+
+  std::vector<Hop> hops;   ///< per transition
+  std::vector<Arcs> arcs;  ///< per transition
+  std::vector<PlaceRecord> places;
+  std::vector<Take> takes;
+  std::vector<Give> gives;
+  std::vector<Consumer> consumers;
+  std::vector<std::uint32_t> rank;  ///< per transition; 0 has the highest priority
+  std::uint32_t ranks = 1;
+  std::vector<std::uint32_t> original_transition, original_place;    ///< index in the net, per own number
+  std::vector<std::uint32_t> number_of_transition, number_of_place;  ///< the way back
+};
+
+/// Errors: see NetExecutor::load.
+[[nodiscard]] std::optional<FiringProgram> compile(const ExecutableNet& net, std::uint32_t bound,
+                                                   std::string& error);
+
+}  // namespace tessera

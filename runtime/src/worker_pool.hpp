@@ -1,0 +1,54 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace tessera {
+
+/// Threads that run the operations of places.
+class WorkerPool {
+ public:
+  struct Finished {
+    std::uint32_t place;
+    std::exception_ptr thrown;  ///< null: it came to its end
+  };
+
+  /// on_finished: called by a worker after `collect` has got something to give. Starts `threads` threads.
+  WorkerPool(std::uint32_t threads, std::function<void()> on_finished);
+  /// Waits for the operations that run; those that have not begun never do.
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// operation: has to live until it is collected or not_begun.
+  void submit(std::uint32_t place, const std::function<void()>& operation);
+  /// Appends what has finished since the last call.
+  void collect(std::vector<Finished>& finished);
+  /// Waits for the operations that run, and appends the places of those that had not begun, which are
+  /// dropped.
+  void halt(std::vector<std::uint32_t>& not_begun);
+
+ private:
+  struct Job {
+    std::uint32_t place;
+    const std::function<void()>* operation;
+  };
+  void work();
+
+  std::function<void()> on_finished_;
+  std::mutex mutex_;
+  std::condition_variable job_or_end_, idle_;
+  std::deque<Job> jobs_;
+  std::vector<Finished> finished_;
+  std::uint32_t running_ = 0;
+  bool ending_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace tessera

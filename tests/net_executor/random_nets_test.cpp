@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "naive_net.hpp"
+
+// TESSERA_RANDOM_NETS asks for more nets than an everyday run plays.
+
+namespace tessera::testing {
+namespace {
+
+constexpr std::uint32_t most_tokens = 20;
+
+[[nodiscard]] NetExecutor::Options by_lot(std::uint64_t seed) {
+  return {.ties = NetExecutor::Ties::random, .seed = seed, .bound = most_tokens};
+}
+
+void give_priorities(ExecutableNet& net, Random& random, std::uint32_t different) {
+  for (ExecutableNet::Transition& transition : net.transitions)
+    transition.priority = static_cast<std::int32_t>(random() % different) - 1;
+}
+
+/// After every firing the executor and the oracle agree on marking and enabled transitions, and what fired
+/// had the highest priority. Returns the firings.
+std::uint64_t play_in_step(const ExecutableNet& net, NetExecutor::Options options, std::uint64_t most) {
+  NaiveNet naive(net);
+  std::uint32_t fired = 0;
+  options.on_firing = [&](std::uint32_t transition) { fired = transition; };
+  const auto executor = load(net, options);
+  std::uint64_t firings = 0;
+  for (; firings < most; ++firings) {
+    const std::vector<std::uint32_t> enabled = naive.enabled();
+    EXPECT_EQ(executor->enabled(), enabled);
+    const NetExecutor::Outcome outcome = executor->run(1);
+    if (outcome.end == NetExecutor::End::dead) {
+      EXPECT_TRUE(enabled.empty());
+    }
+    if (outcome.end == NetExecutor::End::fault) {
+      EXPECT_NE(outcome.fault.find("more than"), std::string::npos);
+    }
+    if (outcome.end != NetExecutor::End::limit) break;
+    for (const std::uint32_t other : enabled)
+      EXPECT_LE(net.transitions[other].priority, net.transitions[fired].priority);
+    EXPECT_TRUE(naive.fire(fired));
+    EXPECT_EQ(executor->marking(), naive.marking());
+    if (::testing::Test::HasFailure()) break;
+  }
+  return firings;
+}
+
+TEST(RandomNets, EveryFiringIsLegalAndEnablingIsExact) {
+  const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000);
+  std::uint64_t firings = 0;
+  for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    ExecutableNet net = random_net(random);
+    give_priorities(net, random, 1 + seed % 3);
+    firings += play_in_step(net, {.bound = most_tokens}, 60);
+    firings += play_in_step(net, by_lot(seed), 60);
+  }
+  EXPECT_GT(firings, 10 * std::uint64_t{nets});
+}
+
+[[nodiscard]] bool includes(const std::set<Marking>& all, const std::set<Marking>& some) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+/// The firings of a run by lot, from the start on, until nothing is enabled or `most` have been made.
+struct LongRun {
+  std::set<Marking> seen;
+  bool legal = true;
+  NetExecutor::End end{};
+  Marking last;
+};
+[[nodiscard]] LongRun run_by_lot(const ExecutableNet& net, std::uint64_t seed, std::uint64_t most) {
+  LongRun result;
+  NaiveNet naive(net);
+  NetExecutor::Options options = by_lot(seed);
+  options.on_firing = [&](std::uint32_t transition) {
+    result.legal = naive.fire(transition) && result.legal;
+    result.seen.insert(naive.marking());
+  };
+  result.seen.insert(naive.marking());
+  const auto executor = load(net, options);
+  result.end = executor->run(most).end;
+  result.last = executor->marking();
+  result.legal = result.legal && result.last == naive.marking();
+  return result;
+}
+
+TEST(RandomNets, RunsByLotEndInTheOutcomesOfTheNaiveInterpreter) {
+  const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000);
+  std::uint32_t compared = 0, with_dead_ends = 0;
+  for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const ExecutableNet net = random_net(random);
+    const auto expected = NaiveNet(net).outcomes(40, most_tokens);
+    if (!expected) continue;
+    ++compared;
+    with_dead_ends += expected->dead.empty() ? 0 : 1;
+    std::set<Marking> seen, dead;
+    // Runs until everything has been seen; what has a chance at all comes up long before the limit.
+    for (std::uint64_t run = 0; run < 20'000 && (seen != expected->reachable || dead != expected->dead);
+         ++run) {
+      const LongRun result = run_by_lot(net, run, 200);
+      ASSERT_TRUE(result.legal);
+      seen.insert(result.seen.begin(), result.seen.end());
+      if (result.end == NetExecutor::End::dead) dead.insert(result.last);
+      ASSERT_TRUE(includes(expected->reachable, result.seen));
+      ASSERT_TRUE(includes(expected->dead, dead));
+    }
+    EXPECT_EQ(seen, expected->reachable);
+    EXPECT_EQ(dead, expected->dead);
+  }
+  EXPECT_GT(compared, nets / 4);
+  EXPECT_GT(with_dead_ends, nets / 10);
+}
+
+/// A firing that is not observed takes a way of its own through the code.
+TEST(RandomNets, ObservingChangesNothing) {
+  for (std::uint32_t seed = 0; seed < number_from("TESSERA_RANDOM_NETS", 3000) && !HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const ExecutableNet net = random_net(random);
+    const auto observed = load(net, {.bound = most_tokens, .on_firing = [](std::uint32_t) {}});
+    const auto unobserved = load(net, {.bound = most_tokens});
+    for (const std::uint64_t most : {1U, 7U, 50U}) {
+      const NetExecutor::Outcome a = observed->run(most), b = unobserved->run(most);
+      EXPECT_EQ(a.end, b.end);
+      EXPECT_EQ(a.firings, b.firings);
+      EXPECT_EQ(observed->marking(), unobserved->marking());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::testing

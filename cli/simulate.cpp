@@ -6,6 +6,7 @@
 #include "cli/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
+#include "cli/play_net.hpp"
 #include "cli/terminal.hpp"
 
 namespace tessera::cli {
@@ -15,6 +16,7 @@ namespace {
 struct SimulateOptions : LaunchOptions {
   std::string json, report, scenario;
   bool realtime = false;
+  std::uint64_t steps = PlayOptions{}.steps;
 };
 
 struct RunCommandOptions : LaunchOptions {
@@ -46,6 +48,8 @@ int launch(const Controller& controller, const LaunchOptions& options, const Com
 }
 
 int simulate_command(SimulateOptions options) {
+  if (options.spec.ends_with(".pnml"))
+    return play_net({options.spec, options.steps, options.seed, options.json});
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =
@@ -112,12 +116,15 @@ void add_simulate(CLI::App& app, int& exit_code) {
                    "Drive the controller through this run first (tessera verify --scenario)")
       ->check(CLI::ExistingFile);
   command->add_flag("--realtime", options->realtime, "Not faster than the wall clock");
+  command->add_option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command->add_option("--report", options->report, "Folder for a page and a picture of the run");
   command->footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
-      "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15");
+      "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
+      "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
   command->callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 

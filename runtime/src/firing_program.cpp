@@ -171,6 +171,10 @@ class FiringCompilation {
       program_.gives.push_back(
           {program_.number_of_place[arc.place], arc.weight, weight_from(inputs_[transition], arc.place)});
     arcs.gives_end = static_cast<std::uint32_t>(program_.gives.size());
+    if (net_.transitions[transition].condition) arcs.condition = transition;
+    arcs.operates = std::ranges::any_of(outputs_[transition], [this](const Arc& arc) {
+      return static_cast<bool>(net_.places[arc.place].operation);
+    });
     program_.arcs.push_back(arcs);
     FiringProgram::Hop hop;
     if (is_sole(transition)) {

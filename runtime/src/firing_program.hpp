@@ -32,6 +32,8 @@ struct FiringProgram {
   struct Arcs {
     std::uint32_t takes = 0, takes_end = 0;  ///< into takes
     std::uint32_t gives = 0, gives_end = 0;  ///< into gives
+    std::uint32_t condition = none;          ///< the transition in the net, if it has one
+    bool operates = false;                   ///< gives to a place with an operation
   };
   struct Take {
     std::uint32_t place, weight;

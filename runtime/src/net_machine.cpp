@@ -71,6 +71,107 @@ Outcome NetMachine::run(std::uint64_t most) {
   return fair_.empty() ? run_with(ranked_.front(), most) : run_with(fair_.front(), most);
 }
 
+// -------------------------------------------------------------------------------------------- firing
+
+bool NetMachine::condition_holds(std::uint32_t original) {
+  const ExecutableNet::Transition& transition = net_.transitions[original];
+  try {
+    return transition.condition();
+  } catch (...) {
+    fault_by(std::current_exception(), "the condition of transition", transition.name);
+    return false;
+  }
+}
+
+[[gnu::always_inline]] inline bool NetMachine::within_bound(const FiringProgram::Arcs& arcs) {
+  for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc) {
+    const FiringProgram::Give& give = program_.gives[arc];
+    std::uint64_t held = tokens_[give.place];
+    if (arcs.operates) held += in_work_[give.place];
+    if (held - give.taken + give.weight <= options_.bound) continue;
+    fault_by_bound(give.place);
+    return false;
+  }
+  return true;
+}
+
+[[gnu::always_inline]] inline void NetMachine::take_from(std::uint32_t place, std::uint32_t count) {
+  const FiringProgram::PlaceRecord& record = program_.places[place];
+  const std::uint32_t before = tokens_[place], now = after(before, count, 0);
+  assert(suffices(before, count));
+  tokens_[place] = now;
+  if (record.sole != FiringProgram::none) return;
+  for (std::uint32_t i = record.first; i < record.last; ++i) {
+    const FiringProgram::Consumer& consumer = program_.consumers[i];
+    if (suffices(before, consumer.weight) && !suffices(now, consumer.weight))
+      status_[consumer.transition] += missing_one;
+  }
+}
+
+template <class Turns>
+[[gnu::always_inline]] inline void NetMachine::give_to(std::uint32_t place, std::uint32_t count,
+                                                       Turns& turns) {
+  const FiringProgram::PlaceRecord& record = program_.places[place];
+  const std::uint32_t before = tokens_[place], now = after(before, 0, count);
+  tokens_[place] = now;
+  if (record.sole != FiringProgram::none) {
+    if (before == 0) turns.push(record.sole);
+    return;
+  }
+  for (std::uint32_t i = record.first; i < record.last; ++i) {
+    const FiringProgram::Consumer& consumer = program_.consumers[i];
+    std::uint32_t& status = status_[consumer.transition];
+    if (!suffices(before, consumer.weight) && suffices(now, consumer.weight)) status -= missing_one;
+    if (status != 0) continue;
+    status = waiting;
+    turns.push(consumer.transition);
+  }
+}
+
+/// After its firing: if it is enabled still, and no token it gave made it wait.
+template <class Turns>
+[[gnu::always_inline]] inline void NetMachine::wait_again(std::uint32_t transition, Turns& turns) {
+  const Hop& hop = program_.hops[transition];
+  if (hop.kind != Hop::Kind::general) {
+    if (tokens_[hop.from] != 0) turns.push(transition);
+  } else if (status_[transition] == 0) {
+    status_[transition] = waiting;
+    turns.push(transition);
+  }
+}
+
+template <class Turns>
+[[gnu::noinline]] bool NetMachine::try_fire(std::uint32_t transition, Turns& turns) {
+  const FiringProgram::Arcs arcs = program_.arcs[transition];
+  const bool sole = program_.hops[transition].kind != Hop::Kind::general;
+  if (!sole) {
+    status_[transition] -= waiting;
+    if (status_[transition] != 0) return false;
+    if (arcs.condition != FiringProgram::none && !condition_holds(arcs.condition)) {
+      if (faulted_) wait_again(transition, turns);  // it threw; the next run asks again
+      return false;
+    }
+  }
+  if (!within_bound(arcs)) {
+    if (!sole) status_[transition] = waiting;
+    turns.push(transition);
+    return false;
+  }
+  for (std::uint32_t arc = arcs.takes; arc < arcs.takes_end; ++arc)
+    take_from(program_.takes[arc].place, program_.takes[arc].weight);
+  for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc) {
+    const FiringProgram::Give& give = program_.gives[arc];
+    if (program_.places[give.place].operates)
+      in_work_[give.place] += give.weight;
+    else
+      give_to(give.place, give.weight, turns);
+  }
+  wait_again(transition, turns);
+  if (options_.on_firing) options_.on_firing(program_.original_transition[transition]);
+  if (arcs.operates) start_operations(arcs, turns);
+  return true;
+}
+
 // -------------------------------------------------------------------------------------------- the run
 
 template <class Turns>
@@ -135,110 +236,6 @@ std::uint64_t NetMachine::fire_while_undisturbed(Turns& turns, std::uint64_t mos
   return firings;
 }
 
-// -------------------------------------------------------------------------------------------- firing
-
-template <class Turns>
-[[gnu::noinline]] bool NetMachine::try_fire(std::uint32_t transition, Turns& turns) {
-  const bool sole = program_.hops[transition].kind != Hop::Kind::general;
-  if (!sole) {
-    status_[transition] -= waiting;
-    if (status_[transition] != 0 || !condition_holds(transition)) return false;
-  }
-  if (!within_bound(transition)) {
-    if (!sole) status_[transition] = waiting;
-    turns.push(transition);
-    return false;
-  }
-  const FiringProgram::Arcs arcs = program_.arcs[transition];
-  for (std::uint32_t arc = arcs.takes; arc < arcs.takes_end; ++arc)
-    take_from(program_.takes[arc].place, program_.takes[arc].weight);
-  bool operates = false;
-  for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc) {
-    const FiringProgram::Give& give = program_.gives[arc];
-    if (program_.places[give.place].operates) {
-      in_work_[give.place] += give.weight;
-      operates = true;
-    } else {
-      give_to(give.place, give.weight, turns);
-    }
-  }
-  wait_again(transition, turns);
-  if (options_.on_firing) options_.on_firing(program_.original_transition[transition]);
-  if (operates)
-    for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc)
-      if (program_.places[program_.gives[arc].place].operates)
-        for (std::uint32_t token = 0; token < program_.gives[arc].weight; ++token)
-          start_operation(program_.gives[arc].place, turns);
-  return true;
-}
-
-bool NetMachine::condition_holds(std::uint32_t transition) {
-  const ExecutableNet::Transition& original = net_.transitions[program_.original_transition[transition]];
-  if (!original.condition) return true;
-  try {
-    return original.condition();
-  } catch (...) {
-    fault_by(std::current_exception(), "the condition of transition", original.name);
-    return false;  // it is enabled and does not wait, as if false; the next run asks again
-  }
-}
-
-bool NetMachine::within_bound(std::uint32_t transition) {
-  const FiringProgram::Arcs arcs = program_.arcs[transition];
-  for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc) {
-    const FiringProgram::Give& give = program_.gives[arc];
-    const std::uint64_t held = std::uint64_t{tokens_[give.place]} + in_work_[give.place];
-    if (held - give.taken + give.weight <= options_.bound) continue;
-    fault_by_bound(give.place);
-    return false;
-  }
-  return true;
-}
-
-void NetMachine::take_from(std::uint32_t place, std::uint32_t count) {
-  const FiringProgram::PlaceRecord& record = program_.places[place];
-  const std::uint32_t before = tokens_[place], now = after(before, count, 0);
-  assert(suffices(before, count));
-  tokens_[place] = now;
-  if (record.sole != FiringProgram::none) return;
-  for (std::uint32_t i = record.first; i < record.last; ++i) {
-    const FiringProgram::Consumer& consumer = program_.consumers[i];
-    if (suffices(before, consumer.weight) && !suffices(now, consumer.weight))
-      status_[consumer.transition] += missing_one;
-  }
-}
-
-template <class Turns>
-void NetMachine::give_to(std::uint32_t place, std::uint32_t count, Turns& turns) {
-  const FiringProgram::PlaceRecord& record = program_.places[place];
-  const std::uint32_t before = tokens_[place], now = after(before, 0, count);
-  tokens_[place] = now;
-  if (record.sole != FiringProgram::none) {
-    if (before == 0) turns.push(record.sole);
-    return;
-  }
-  for (std::uint32_t i = record.first; i < record.last; ++i) {
-    const FiringProgram::Consumer& consumer = program_.consumers[i];
-    std::uint32_t& status = status_[consumer.transition];
-    if (!suffices(before, consumer.weight) && suffices(now, consumer.weight)) status -= missing_one;
-    if (status != 0) continue;
-    status = waiting;
-    turns.push(consumer.transition);
-  }
-}
-
-/// After its firing: if it is enabled still, and no token it gave made it wait.
-template <class Turns>
-void NetMachine::wait_again(std::uint32_t transition, Turns& turns) {
-  const Hop& hop = program_.hops[transition];
-  if (hop.kind != Hop::Kind::general) {
-    if (tokens_[hop.from] != 0) turns.push(transition);
-  } else if (status_[transition] == 0) {
-    status_[transition] = waiting;
-    turns.push(transition);
-  }
-}
-
 // -------------------------------------------------------------------------------------------- operations
 
 template <class Turns>
@@ -257,6 +254,14 @@ void NetMachine::start_operation(std::uint32_t place, Turns& turns) {
   }
   --in_work_[place];
   give_to(place, 1, turns);
+}
+
+template <class Turns>
+void NetMachine::start_operations(const FiringProgram::Arcs& arcs, Turns& turns) {
+  for (std::uint32_t arc = arcs.gives; arc < arcs.gives_end; ++arc)
+    if (program_.places[program_.gives[arc].place].operates)
+      for (std::uint32_t token = 0; token < program_.gives[arc].weight; ++token)
+        start_operation(program_.gives[arc].place, turns);
 }
 
 template <class Turns>

@@ -49,8 +49,8 @@ class NetMachine {
 
   template <class Turns>
   [[nodiscard]] bool try_fire(std::uint32_t transition, Turns& turns);
-  [[nodiscard]] bool condition_holds(std::uint32_t transition);
-  [[nodiscard]] bool within_bound(std::uint32_t transition);
+  [[nodiscard]] bool condition_holds(std::uint32_t original);
+  [[nodiscard]] bool within_bound(const FiringProgram::Arcs& arcs);
   void take_from(std::uint32_t place, std::uint32_t count);
   template <class Turns>
   void give_to(std::uint32_t place, std::uint32_t count, Turns& turns);
@@ -60,6 +60,8 @@ class NetMachine {
 
   template <class Turns>
   void start_operation(std::uint32_t place, Turns& turns);
+  template <class Turns>
+  void start_operations(const FiringProgram::Arcs& arcs, Turns& turns);
   template <class Turns>
   void start_unstarted(Turns& turns);
   template <class Turns>

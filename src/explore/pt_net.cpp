@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tessera/firing.hpp"
+
 namespace tessera::explore {
 namespace {
 
@@ -50,13 +52,14 @@ PtNet::PtNet(const net::Net& net) {
 }
 
 bool PtNet::enabled(std::uint32_t transition, std::span<const Tokens> marking) const {
-  return std::ranges::all_of(of_transition(transition),
-                             [&](const Touch& touch) { return marking[touch.node] >= touch.consumes; });
+  return std::ranges::all_of(of_transition(transition), [&](const Touch& touch) {
+    return firing::suffices(marking[touch.node], touch.consumes);
+  });
 }
 
 void PtNet::fire(std::uint32_t transition, std::span<Tokens> marking) const {
   for (const Touch& touch : of_transition(transition))
-    marking[touch.node] = marking[touch.node] - touch.consumes + touch.produces;
+    marking[touch.node] = firing::after(marking[touch.node], touch.consumes, touch.produces);
 }
 
 }  // namespace tessera::explore

@@ -29,7 +29,8 @@ class NetMachine;
 /// lock nothing; on_worker operations pass through a queue with a mutex.
 ///
 /// *Exceptions* out of an operation or a condition end the run with a fault that names the place or the
-/// transition. The token stays where it is, its operation not finished; the next `run` starts it again.
+/// transition. The token stays where it is, its operation not finished; the next `run` starts it, or asks the
+/// condition, again.
 ///
 /// Threads: one thread at a time, except where a member says otherwise.
 /// Source:  Figat & Zielinski, ICRA 2019, sec. II. Deviation: arc weights, several tokens, priorities.

@@ -4,9 +4,11 @@
 
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
+#include "layers/closed_pair.hpp"
 #include "layers/layers.hpp"
 #include "net/flatten.hpp"
 #include "spec/parser.hpp"
+#include "verify/lone_model.hpp"
 
 namespace tessera::cli {
 
@@ -38,6 +40,23 @@ std::optional<Nets> build(Specification& specification) {
   return Nets{std::move(*pages), std::move(*flat)};
 }
 
+bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
+  bool sound = true;
+  for (const spec::CommunicationModel& one : model.models) {
+    const layers::ClosedPair pair = layers::closed_pair(one);
+    sound = verify::judge_model({pair.net, pair.sends_again, pair.receives_again, one.name, one.span}, out) &&
+            sound;
+  }
+  return sound;
+}
+
+bool models_are_sound(const Specification& specification) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  const bool sound = judge_models(specification.model, found);
+  print(found);
+  return sound;
+}
+
 verify::Report check(const Specification& specification, const Nets& nets) {
   return verify::check(nets.flat, layers::invariants(specification.model, nets.pages, nets.flat));
 }
@@ -62,7 +81,7 @@ void print(const verify::Report& report) {
 
 std::optional<Verified> walk(const fs::path& given) {
   std::optional<Specification> specification = read(given);
-  if (!specification) return std::nullopt;
+  if (!specification || !models_are_sound(*specification)) return std::nullopt;
   std::optional<Nets> nets = build(*specification);
   if (!nets) return std::nullopt;
   verify::Report report = check(*specification, *nets);

@@ -26,6 +26,12 @@ struct Specification {
 /// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been printed.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given);
 
+/// Judges every communication model of the author's by itself. false: one is not sound, and was complained
+/// about.
+bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
+/// The same, printed.
+[[nodiscard]] bool models_are_sound(const Specification& specification);
+
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
@@ -41,7 +47,7 @@ struct Nets {
 /// Verdicts as lines of text on standard output.
 void print(const verify::Report& report);
 
-/// read, build, check; only a net that passed gets through. Uses up the nets.
+/// read, judge_models, build, check; only a net that passed gets through. Uses up the nets.
 struct Verified {
   Specification specification;
   verify::VerifiedNet net;

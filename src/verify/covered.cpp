@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <utility>
 
 namespace tessera::verify {
 namespace {
@@ -87,12 +88,12 @@ std::string unsound_page(const net::HierarchicalNet& pages, const net::Net& net,
 
 std::string shared_memory(const net::Net& net, const std::vector<net::Invariant>& invariants) {
   const std::vector<Numbers> units = units_of_places(net, invariants);
-  std::map<std::uint32_t, Numbers> common;  // by channel
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Numbers> common;  // by channel and slot
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     const net::Operation& operation = net.places()[index].operation;
     if (operation.kind != net::Operation::Kind::write && operation.kind != net::Operation::Kind::read)
       continue;
-    const auto [entry, added] = common.emplace(operation.subject, units[index]);
+    const auto [entry, added] = common.emplace(std::pair(operation.subject, operation.slot), units[index]);
     if (!added) entry->second = both(entry->second, units[index]);
     if (entry->second.empty())
       return "no invariant keeps '" + net.places()[index].name + "' apart from the other side of its channel";

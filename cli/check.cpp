@@ -24,7 +24,8 @@ std::string count_of(const Things& things, const char* name) {
 
 int check_json(const Options& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
-  if (!found.has_errors()) static_cast<void>(spec::parse(found));
+  if (!found.has_errors())
+    if (const std::optional<spec::Model> model = spec::parse(found)) judge_models(*model, found);
   write_output(options.json, diagnostics::render_json(found) + "\n");
   return found.has_errors() ? failed : ok;
 }
@@ -32,7 +33,7 @@ int check_json(const Options& options) {
 int check_command(const Options& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec);
-  if (!specification) return failed;
+  if (!specification || !models_are_sound(*specification)) return failed;
   const std::optional<Nets> nets = build(*specification);
   if (!nets) return failed;
   const spec::Model& model = specification->model;

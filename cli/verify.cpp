@@ -76,7 +76,7 @@ std::optional<Judged> load(const std::string& given) {
     return judged.drawn ? std::optional(std::move(judged)) : std::nullopt;
   }
   std::optional<Specification> specification = read(given);
-  if (!specification) return std::nullopt;
+  if (!specification || !models_are_sound(*specification)) return std::nullopt;
   judged.nets = build(*specification);
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();

@@ -6,10 +6,12 @@
 #include "cli/verdicts.hpp"
 #include "cli/violation.hpp"
 #include "diagnostics/source.hpp"
+#include "layers/closed_pair.hpp"
 #include "layers/layers.hpp"
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "spec/parser.hpp"
+#include "verify/lone_model.hpp"
 
 namespace tessera::cli {
 
@@ -41,6 +43,23 @@ std::optional<Nets> build(Specification& specification) {
   print(found);
   if (!properties) return std::nullopt;
   return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
+}
+
+bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
+  bool sound = true;
+  for (const spec::CommunicationModel& one : model.models) {
+    const layers::ClosedPair pair = layers::closed_pair(one);
+    sound = verify::judge_model({pair.net, pair.sends_again, pair.receives_again, one.name, one.span}, out) &&
+            sound;
+  }
+  return sound;
+}
+
+bool models_are_sound(const Specification& specification) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  const bool sound = judge_models(specification.model, found);
+  print(found);
+  return sound;
 }
 
 const char* name_of(verify::Verdict verdict) {
@@ -95,7 +114,7 @@ bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, co
 
 std::optional<Verified> walk(const fs::path& given, const Gate& gate) {
   std::optional<Specification> specification = read(given);
-  if (!specification) return std::nullopt;
+  if (!specification || !models_are_sound(*specification)) return std::nullopt;
   std::optional<Nets> nets = build(*specification);
   if (!nets) return std::nullopt;
   verify::Report report = verdicts(*specification, *nets, gate);

@@ -28,6 +28,12 @@ struct Specification {
 /// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been printed.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given);
 
+/// Judges every communication model of the author's by itself. false: one is not sound, and was complained
+/// about.
+bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
+/// The same, printed.
+[[nodiscard]] bool models_are_sound(const Specification& specification);
+
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
@@ -44,8 +50,8 @@ struct Gate {
   bool accept_violations = false;  ///< a violated net too
 };
 
-/// read, build, verify; only a net without violations gets through, unless the gate is open. What is unknown
-/// is told of and gets through. Uses up the nets.
+/// read, judge_models, build, verify; only a net without violations gets through, unless the gate is open.
+/// What is unknown is told of and gets through. Uses up the nets.
 struct Verified {
   Specification specification;
   verify::VerifiedNet net;

@@ -160,9 +160,10 @@ class Assembler {
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
-      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received)));
-      connect(channel.from, Side::send);
-      connect(channel.to, Side::receive);
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received),
+                                                                   std::max<std::size_t>(channel.slots, 1)));
+      if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
+        return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
     }
     return true;
   }
@@ -175,11 +176,18 @@ class Assembler {
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
   }
 
-  void connect(const End& end, Side side) {
-    if (end.port.empty()) return;
+  /// false: an operation of that end is about a slot that the channel does not have.
+  bool connect(const End& end, Side side) {
+    if (end.port.empty()) return true;
     const std::uint32_t port = ports_[end.instance].at(end.port);
     parts_[end.instance].ports[port].channel = assembly_.channels.back().get();
     assembly_.channels.back()->connect(side, &waker_, end.instance, plans_[end.instance]->ports[port].needs);
+    const Does::Kind kind = side == Side::send ? Does::Kind::write : Does::Kind::read;
+    return std::none_of(plans_[end.instance]->places.begin(), plans_[end.instance]->places.end(),
+                        [&](const Plan::PlaceEntry& place) {
+                          return place.does == kind && place.subject == port &&
+                                 place.slot >= assembly_.channels.back()->slots();
+                        });
   }
 
   bool open_recording() {

@@ -115,28 +115,30 @@ bool Operations::outputs_are_finite() const {
 
 // -------------------------------------------------------------------------------------------- channels
 
-void Operations::write(std::uint32_t port, Time now) {
+void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Outgoing& output = parts_.bindings.outputs[link.buffer];
-  SharedChannel::Memory& memory = link.channel->memory();
+  SharedChannel::Memory& memory = link.channel->memory(slot);
   std::memcpy(memory.bytes.data(), output.value, output.size);
   memory.stamp = now;
   memory.valid = !failed_;
-  ++memory.sequence;
+  memory.sequence = link.channel->next_sequence();
   output.departure->stamp = now;
 }
 
-void Operations::read(std::uint32_t port, Time now) {
+/// A slot may hold a value that was read before, or an older one: only a newer one is fresh.
+void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Incoming& input = parts_.bindings.inputs[link.buffer];
   InputState& state = inputs_[link.buffer];
   input.arrival->timed_out = false;
-  const SharedChannel::Memory& memory = link.channel->memory();
-  if (memory.sequence == state.sequence) return;
+  const SharedChannel::Memory& memory = link.channel->memory(slot);
+  if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   std::memcpy(input.value, memory.bytes.data(), input.size);
+  input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
+  state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
   if (memory.valid) state.last_valid = memory.stamp;
-  input.arrival->fresh = true;
   input.arrival->valid = memory.valid;
   input.arrival->stamp = memory.stamp;
   input.arrival->age = now - memory.stamp;

@@ -56,8 +56,8 @@ class Operations final : public ContextServices {
   void start_call(std::uint16_t behaviour, Time now);
   void finish_call(Time now);
   void count() { ++iteration_; }
-  void write(std::uint32_t port, Time now);
-  void read(std::uint32_t port, Time now);
+  void write(std::uint32_t port, std::uint16_t slot, Time now);
+  void read(std::uint32_t port, std::uint16_t slot, Time now);
 
   // Conditions. Ages are those of `now`; what throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
@@ -107,6 +107,7 @@ class Operations final : public ContextServices {
 
   struct InputState {
     std::uint64_t sequence = 0;  // of the last value read; 0: none yet
+    std::uint64_t newest = 0;    // of all values read
     Time last_valid{};
     std::uint32_t source = UINT32_MAX;
     bool used = false;  // some behaviour receives it

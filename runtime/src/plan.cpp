@@ -77,6 +77,8 @@ class Compilation {
       case Does::Kind::write:
       case Does::Kind::read:
         entry.subject = static_cast<std::uint16_t>(resolve(ports_, place.does.subject, "port"));
+        if (place.does.slot == 0) fail(fmt::format("'{}': slots count from 1", place.name));
+        entry.slot = static_cast<std::uint16_t>(place.does.slot - 1);
         break;
     }
     plan_.places.push_back(entry);
@@ -90,6 +92,7 @@ class Compilation {
     for (std::string_view name : transition.inputs) add_end(transition, name, entry, taken);
     entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
     for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
+    if (!transition.guard.port.empty()) entry.port = resolve(ports_, transition.guard.port, "port");
     entry.end = static_cast<std::uint32_t>(plan_.arcs.size());
     if (entry.inputs == entry.outputs)
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));

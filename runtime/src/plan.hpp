@@ -18,6 +18,7 @@ struct Plan {
   struct PlaceEntry {
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
+    std::uint16_t slot = 0;     ///< that is written or read, from 0
   };
   struct TransitionEntry {
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end

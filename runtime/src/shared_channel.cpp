@@ -38,9 +38,10 @@ struct SharedChannel::Word {
   }
 };
 
-SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes) : word_(marking) {
+SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots)
+    : word_(marking), slots_(slots) {
   assert(marking <= Word::field);
-  memory_.bytes.resize(value_bytes);
+  for (Memory& memory : slots_) memory.bytes.resize(value_bytes);
 }
 
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,

@@ -35,8 +35,9 @@ namespace tessera {
 /// that only give are never held back. A registration names needs exactly, not their union, because a side
 /// must not be held back for a need that is met in part.
 ///
-/// The memory belongs to whoever has taken the token the net protects it with. That token passes through the
-/// word, whose compare-and-swaps acquire and release, so the bytes need no atomics.
+/// The memory has one or more slots; each belongs to whoever has taken the token the net protects it with.
+/// That token passes through the word, whose compare-and-swaps acquire and release, so the bytes need no
+/// atomics.
 ///
 /// Threads: one thread per side; `connect` before they start.
 class alignas(64) SharedChannel {
@@ -44,7 +45,7 @@ class alignas(64) SharedChannel {
   static constexpr std::size_t max_places = 10;
   static constexpr std::size_t max_needs = 10;  ///< different ones, per side
 
-  SharedChannel(std::uint32_t marking, std::size_t value_bytes);
+  SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1);
 
   /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
@@ -58,15 +59,18 @@ class alignas(64) SharedChannel {
   /// changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
 
-  /// The value in transit.
+  /// A value in transit.
   struct Memory {
     std::vector<std::byte> bytes;
     Time stamp{};
     std::uint64_t sequence = 0;  ///< of the write that left it; 0: none yet
     bool valid = false;
   };
-  /// Only while the calling side holds the token that protects it.
-  [[nodiscard]] Memory& memory() { return memory_; }
+  /// Only while the calling side holds the token that protects the slot.
+  [[nodiscard]] Memory& memory(std::size_t slot = 0) { return slots_[slot]; }
+  [[nodiscard]] std::size_t slots() const { return slots_.size(); }
+  /// Counts the writes to all slots, from 1. Only for the sender.
+  [[nodiscard]] std::uint64_t next_sequence() { return ++writes_; }
 
   [[nodiscard]] std::uint16_t marking() const;
 
@@ -85,7 +89,8 @@ class alignas(64) SharedChannel {
 
   std::atomic<std::uint64_t> word_;
   std::array<Party, 2> parties_;
-  Memory memory_;
+  std::vector<Memory> slots_;
+  std::uint64_t writes_ = 0;  // the sender's own
 };
 
 }  // namespace tessera

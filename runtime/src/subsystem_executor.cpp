@@ -154,10 +154,10 @@ void SubsystemExecutor::start_operation(std::uint32_t place, Time now) {
       operations_.count();
       break;
     case Does::Kind::write:
-      operations_.write(entry.subject, now);
+      operations_.write(entry.subject, entry.slot, now);
       break;
     case Does::Kind::read:
-      operations_.read(entry.subject, now);
+      operations_.read(entry.subject, entry.slot, now);
       break;
     case Does::Kind::decide:
       decide(place, now);

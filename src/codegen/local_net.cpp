@@ -114,17 +114,24 @@ class Extraction {
       case net::Operation::Kind::next_iteration:
         return "tessera::counts()";
       case net::Operation::Kind::write:
-        return fmt::format("tessera::writes({})", quoted(port(place.operation.subject, true)));
+        return transfer("writes", place.operation, true);
       case net::Operation::Kind::read:
-        return fmt::format("tessera::reads({})", quoted(port(place.operation.subject, false)));
+        return transfer("reads", place.operation, false);
     }
     return {};
   }
 
+  [[nodiscard]] std::string transfer(std::string_view what, const net::Operation& operation,
+                                     bool sends) const {
+    const std::string slot = operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
+    return fmt::format("tessera::{}({}{})", what, quoted(port(operation.subject, sends)), slot);
+  }
+
   void add_transition(TransitionId id) {
     const net::Transition& transition = net_[id];
-    LocalNet::Transition row{std::string(local(transition.name)), {}, {}, guard(transition.condition)};
+    LocalNet::Transition row{std::string(local(transition.name)), {}, {}, {}};
     const bool sends = BlockName(row.name).sends;
+    row.guard = guard(id, sends);
     for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
     for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
     latch(id, transition.condition);
@@ -137,7 +144,8 @@ class Extraction {
     return fmt::format("{}/{}", port(place.channel, sends), last_part(place.name));
   }
 
-  static std::string guard(const net::Condition& condition) {
+  [[nodiscard]] std::string guard(TransitionId id, bool sends) const {
+    const net::Condition& condition = net_[id].condition;
     switch (condition.kind) {
       case net::Condition::Kind::none:
         return {};
@@ -150,7 +158,8 @@ class Extraction {
       case net::Condition::Kind::next:
         return fmt::format("tessera::if_next({})", condition.subject);
       case net::Condition::Kind::elapsed:
-        return "tessera::if_elapsed";
+        if (channel_of(id) != spec::none) return "tessera::if_elapsed";
+        return fmt::format("tessera::if_elapsed_at({})", quoted(port(condition.subject, sends)));
     }
     return {};
   }

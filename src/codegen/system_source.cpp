@@ -47,9 +47,22 @@ std::string instance_rows(const Project& project) {
   return fmt::to_string(fmt::join(rows, ""));
 }
 
-std::string memory_of(const spec::Channel& channel) {
+std::string memory_of(const spec::Model& model, const spec::Channel& channel) {
+  if (channel.model != spec::none) return "models::" + model.models[channel.model].name;
   if (channel.send == Mode::blocking) return "tessera::acknowledged";
   return channel.receive == Mode::blocking ? "tessera::buffered" : "tessera::asynchronous";
+}
+
+/// The shared places of the author's communication models.
+std::string models_table(const spec::Model& model) {
+  std::string rows;
+  for (const spec::CommunicationModel& one : model.models) {
+    std::string places;
+    for (const spec::SharedPlace& place : one.shared)
+      places += fmt::format("{}{{\"{}\", {}}}", places.empty() ? "" : ", ", place.name, place.tokens);
+    rows += fmt::format("[[maybe_unused]] constexpr tessera::FusedPlace {}[] = {{{}}};\n", one.name, places);
+  }
+  return rows.empty() ? rows : fmt::format("namespace models {{\n{}}}  // namespace models\n", rows);
 }
 
 /// A channel that no behaviour uses has no places and no row.
@@ -59,12 +72,16 @@ std::string channel_rows(const spec::Model& model, const std::vector<ChannelPort
     const spec::Channel& channel = model.channels[at];
     if (ports[at].from.empty() && ports[at].to.empty()) continue;
     std::string times;
-    if (channel.send_timeout || channel.receive_timeout)
-      times = ", " + duration(channel.send_timeout.value_or(spec::Duration{0}));
-    if (channel.receive_timeout) times += ", " + duration(*channel.receive_timeout);
+    const std::uint32_t slots = channel.model == spec::none ? 1 : model.models[channel.model].slots;
+    const auto time = [](const std::optional<spec::Duration>& timeout) {
+      return ", " + duration(timeout.value_or(spec::Duration{0}));
+    };
+    if (channel.send_timeout || channel.receive_timeout || slots > 1) times = time(channel.send_timeout);
+    if (channel.receive_timeout || slots > 1) times += time(channel.receive_timeout);
+    if (slots > 1) times += fmt::format(", {}", slots);
     rows += fmt::format("    {{\"{}\", {{{}, \"{}\"}}, {{{}, \"{}\"}}, {}{}}},\n",
                         model.channel_name(channel), channel.from.instance, ports[at].from,
-                        channel.to.instance, ports[at].to, memory_of(channel), times);
+                        channel.to.instance, ports[at].to, memory_of(model, channel), times);
   }
   return rows;
 }
@@ -178,7 +195,7 @@ namespace {{
 using namespace std::chrono_literals;
 {4}
 // clang-format off
-{5}
+{11}{5}
 {6}
 {7}
 {8}
@@ -200,7 +217,7 @@ const tessera::System& system() {{ return whole; }}
                                     table("Channel", "channels", channel_rows(model, ports)),
                                     table("CppDriver", "drivers", drivers),
                                     table("VerifiedProperty", "verdicts", verdict_rows(report)),
-                                    report.net_hash, report.verification_hash)};
+                                    report.net_hash, report.verification_hash, models_table(model))};
 }
 
 File main_source(const Project& project) {

@@ -1,11 +1,10 @@
 #include <array>
 
+#include "layers/built_in.hpp"
 #include "layers/sheet.hpp"
 
 namespace tessera::layers {
 namespace {
-
-using spec::Mode;
 
 /// One channel of a snd or rcv page.
 struct Block {
@@ -45,82 +44,47 @@ class BlockPen {
   BlockPen(const Draft& draft, Sheet& sheet, Direction direction)
       : draft_(draft), sheet_(sheet), direction_(direction) {}
 
-  /// Returns the output place, which is the last to be drawn of those that are the page's own.
+  /// Draws the side of the channel's model between the given input place and the output place it returns.
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string out_name) {
-    block_ = &block;
-    in_ = in;
     const spec::Channel& channel = draft_.model.channels[block.channel];
-    const bool sends = direction_ == Direction::send;
-    work_ = sheet_.place(local("2"),
-                         {sends ? net::Operation::Kind::write : net::Operation::Kind::read, block.channel});
-    if (sends && channel.send == Mode::blocking) wait_ = sheet_.place(local("wait"));
-    out_ = sheet_.place(std::move(out_name));
-    const ChannelPlaces& memory = draft_.memory[block.channel];
-    if (memory.channel.valid())
-      exchange(memory);
-    else
-      hand_over(channel, memory);
-    return out_;
+    const spec::CommunicationModel& model = model_of(draft_.model, channel);
+    const spec::ModelSide& side = direction_ == Direction::send ? model.send : model.receive;
+    const auto local = [&](const std::string& part) { return block.name + "." + part; };
+    std::vector<std::uint32_t> nodes(side.places.size()), shared;
+    for (std::size_t place = ModelSide::out + 1; place < side.places.size(); ++place)
+      nodes[place] = sheet_.place(local(side.places[place].name), operation(side.places[place], block));
+    nodes[ModelSide::in] = in;
+    nodes[ModelSide::out] = sheet_.place(std::move(out_name));
+    for (std::size_t place = 0; place < model.shared.size(); ++place)
+      shared.push_back(sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel][place]));
+    for (const ModelSide::Transition& transition : side.transitions) {
+      std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
+      for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
+      for (const std::uint32_t place : transition.gives) to.push_back(shared[place]);
+      sheet_.transition(local(transition.name), std::move(from), std::move(to),
+                        transition.elapsed ? elapsed(channel, block) : net::Condition{});
+    }
+    return nodes[ModelSide::out];
   }
 
  private:
-  /// Both sides non-blocking, the paper's fully asynchronous model.
-  void exchange(const ChannelPlaces& memory) {
-    const std::uint32_t free = sheet_.fused(local("channel"), memory.channel);
-    sheet_.transition(local("t1"), {in_, free}, {work_});
-    sheet_.transition(local("t2"), {work_}, {out_, free});
+  using ModelSide = spec::ModelSide;
+
+  [[nodiscard]] net::Operation operation(const ModelSide::Place& place, const Block& block) const {
+    if (place.slot == ModelSide::no_slot) return {};
+    const auto kind =
+        direction_ == Direction::send ? net::Operation::Kind::write : net::Operation::Kind::read;
+    return {kind, block.channel, place.slot};
   }
 
-  void hand_over(const spec::Channel& channel, const ChannelPlaces& memory) {
-    empty_ = sheet_.fused(local("empty"), memory.empty);
-    full_ = sheet_.fused(local("full"), memory.full);
-    if (memory.ack.valid()) ack_ = sheet_.fused(local("ack"), memory.ack);
-    if (direction_ == Direction::receive)
-      receive(channel);
-    else if (channel.send == Mode::blocking)
-      send_and_wait(channel);
-    else
-      send_or_overwrite();
+  [[nodiscard]] net::Condition elapsed(const spec::Channel& channel, const Block& block) const {
+    const auto timeout = direction_ == Direction::send ? channel.send_timeout : channel.receive_timeout;
+    return {net::Condition::Kind::elapsed, net::Condition::Truth::free, block.channel, in_words(*timeout)};
   }
-
-  void send_or_overwrite() {
-    sheet_.transition(local("t1"), {in_, empty_}, {work_});
-    sheet_.transition(local("t1o"), {in_, full_}, {work_});
-    sheet_.transition(local("t2"), {work_}, {out_, full_});
-  }
-
-  void send_and_wait(const spec::Channel& channel) {
-    sheet_.transition(local("t1"), {in_, empty_}, {work_});
-    sheet_.transition(local("t2"), {work_}, {wait_, full_});
-    sheet_.transition(local("t3"), {wait_, ack_}, {out_});
-    if (channel.send_timeout)
-      sheet_.transition(local("timeout"), {wait_, full_}, {out_, empty_}, elapsed(*channel.send_timeout));
-  }
-
-  void receive(const spec::Channel& channel) {
-    sheet_.transition(local("t1"), {in_, full_}, {work_});
-    std::vector<std::uint32_t> released{out_, empty_};
-    if (channel.send == Mode::blocking) released.push_back(ack_);
-    sheet_.transition(local("t2"), {work_}, std::move(released));
-    if (channel.receive == Mode::non_blocking)
-      sheet_.transition(local("skip"), {in_, empty_}, {out_, empty_});
-    else if (channel.receive_timeout)
-      sheet_.transition(local("timeout"), {in_, empty_}, {out_, empty_}, elapsed(*channel.receive_timeout));
-  }
-
-  [[nodiscard]] net::Condition elapsed(spec::Duration timeout) const {
-    return {net::Condition::Kind::elapsed, net::Condition::Truth::free, block_->channel, in_words(timeout)};
-  }
-
-  [[nodiscard]] std::string local(const char* part) const { return block_->name + "." + part; }
 
   const Draft& draft_;
   Sheet& sheet_;
   Direction direction_;
-  // Of the block at hand:
-  const Block* block_ = nullptr;
-  std::uint32_t in_ = 0, work_ = 0, wait_ = 0, out_ = 0;
-  std::uint32_t empty_ = 0, full_ = 0, ack_ = 0;
 };
 
 /// The output place of a block is the input place of the next.

@@ -1,8 +1,15 @@
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <span>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include "layers/built_in.hpp"
 #include "layers/layers.hpp"
+#include "layers/pair_invariants.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -134,76 +141,121 @@ class Subsystems {
   std::vector<Invariant> branches_;  // second and later branches
 };
 
-/// Per channel: its memory is free, full, or in use by one side. And with an acknowledgement: a value that a
-/// waiting producer has sent is unread, being read, or acknowledged.
+/// What holds of the memory of each channel by its model, summed over all behaviours that use it. First those
+/// that say that one of several places is marked, then those that say how much places of both sides hold
+/// together.
 class Channels {
  public:
   Channels(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net,
            const Places& places)
-      : pages_(pages),
-        net_(net),
-        places_(places),
-        memory_(model.channels.size()),
-        acknowledged_(model.channels.size()) {
-    for (spec::Index channel = 0; channel < model.channels.size(); ++channel) {
-      const std::string name = model.channel_name(model.channels[channel]);
-      memory_[channel] = {"one side at a time in " + name, {}, 1};
-      acknowledged_[channel] = {"one acknowledgement per value of " + name, {}, 0};
-      blocks_.push_back(model.channels[channel].send == spec::Mode::blocking);
-    }
-  }
+      : model_(model), pages_(pages), net_(net), places_(places), of_channel_(model.channels.size()) {}
 
   std::vector<Invariant> result() {
     for (const PlaceId place : places_.fused()) gather_fused(place);
     for (std::uint32_t page = 0; page < pages_.pages.size(); ++page)
       if (pages_.pages[page].layer == net::Layer::communication) gather(net::PageId{page});
-    std::vector<Invariant> all;
-    for (auto* invariants : {&memory_, &acknowledged_})
-      for (Invariant& invariant : *invariants)
-        if (!invariant.terms.empty()) all.push_back(std::move(invariant));
-    return all;
+    std::vector<Invariant> units, sums;
+    for (Gathered& channel : of_channel_)
+      for (std::size_t index = 0; index < channel.invariants.size(); ++index)
+        ((*channel.known)[index].is_unit() ? units : sums).push_back(std::move(channel.invariants[index]));
+    std::ranges::move(sums, std::back_inserter(units));
+    return units;
   }
 
  private:
-  void gather_fused(PlaceId place) {
-    const std::uint32_t channel = net_[place].channel;
-    const bool acknowledges = net_[place].name.ends_with(".ack");
-    if (!acknowledges) memory_[channel].terms.push_back({place});
-    if (acknowledges || (blocks_[channel] && net_[place].name.ends_with(".full")))
-      acknowledged_[channel].terms.push_back({place});
+  struct Gathered {
+    const spec::CommunicationModel* model = nullptr;
+    const std::vector<PairInvariant>* known = nullptr;
+    std::vector<Invariant> invariants;  // as known
+    std::uint32_t shared = 0;           // places gathered
+  };
+
+  Gathered& at(std::uint32_t channel) {
+    Gathered& gathered = of_channel_[channel];
+    if (gathered.model != nullptr) return gathered;
+    gathered.model = &model_of(model_, model_.channels[channel]);
+    const auto [known, added] = known_.try_emplace(gathered.model);
+    if (added) known->second = pair_invariants(*gathered.model);
+    gathered.known = &known->second;
+    const std::string name = model_.channel_name(model_.channels[channel]);
+    for (const PairInvariant& invariant : known->second)
+      gathered.invariants.push_back(
+          {in_words(invariant, *gathered.model) + " in " + name, {}, invariant.total});
+    return gathered;
   }
 
+  /// "one of empty, full, send.2, receive.2", "full + receive.2 + ack - send.wait".
+  static std::string in_words(const PairInvariant& invariant, const spec::CommunicationModel& model) {
+    std::string more, less;
+    const bool unit = invariant.is_unit();
+    const auto count = [&](std::int32_t weight, const std::string& name) {
+      const std::int32_t size = std::abs(weight);
+      const std::string term = (size == 1 ? "" : std::to_string(size) + " ") + name;
+      if (weight > 0) more += (more.empty() ? "" : unit ? ", " : " + ") + term;
+      if (weight < 0) less += " - " + term;
+    };
+    for (std::size_t place = 0; place < model.shared.size(); ++place)
+      count(invariant.shared[place], model.shared[place].name);
+    for (std::size_t place = 0; place < model.send.places.size(); ++place)
+      count(invariant.send[place], "send." + model.send.places[place].name);
+    for (std::size_t place = 0; place < model.receive.places.size(); ++place)
+      count(invariant.receive[place], "receive." + model.receive.places[place].name);
+    return (unit ? "one of " : "") + more + less;
+  }
+
+  /// Fused places follow one another, channel by channel, as the model has them.
+  void gather_fused(PlaceId place) {
+    Gathered& channel = at(net_[place].channel);
+    for (std::size_t index = 0; index < channel.invariants.size(); ++index)
+      add_term(channel.invariants[index], place, (*channel.known)[index].shared[channel.shared]);
+    ++channel.shared;
+  }
+
+  /// The blocks of a page are told apart by their names; each touches its channel's memory.
   void gather(net::PageId id) {
     const net::Page& page = pages_.pages[id.value];
+    std::unordered_map<std::string_view, std::uint32_t> channel_of;
+    for (const net::PageTransition& transition : page.transitions)
+      for (const auto* ends : {&transition.inputs, &transition.outputs})
+        for (const std::uint32_t end : *ends)
+          if (const net::FusionId set = page.nodes[end].fusion; set.valid())
+            channel_of[block_of(transition.name)] = pages_.fusions[set.value].channel;
     const auto places = places_.of(id);
     for (std::uint32_t node = 0; node < page.nodes.size(); ++node) {
-      const net::Operation& operation = page.nodes[node].operation;
-      if (operation.kind == net::Operation::Kind::none) continue;
-      memory_[operation.subject].terms.push_back({places[node]});
-      if (operation.kind == net::Operation::Kind::read && blocks_[operation.subject])
-        acknowledged_[operation.subject].terms.push_back({places[node]});
+      if (page.nodes[node].fusion.valid()) continue;
+      const std::string_view name = page.nodes[node].name;
+      if (const auto channel = channel_of.find(block_of(name)); channel != channel_of.end())
+        gather_own(at(channel->second), page.name == "snd", name.substr(name.rfind('.') + 1), places[node]);
     }
-    for (const net::PageTransition& transition : page.transitions) gather_wait(page, transition, places);
   }
 
-  /// What is taken together with an acknowledgement is the wait for it.
-  void gather_wait(const net::Page& page, const net::PageTransition& transition,
-                   std::span<const PlaceId> places) {
-    std::uint32_t channel = UINT32_MAX;
-    for (const std::uint32_t input : transition.inputs)
-      if (const net::FusionId set = page.nodes[input].fusion;
-          set.valid() && pages_.fusions[set.value].name.ends_with(".ack"))
-        channel = pages_.fusions[set.value].channel;
-    if (channel == UINT32_MAX) return;
-    for (const std::uint32_t input : transition.inputs)
-      if (!page.nodes[input].fusion.valid()) acknowledged_[channel].terms.push_back({places[input], -1});
+  static std::string_view block_of(std::string_view name) {
+    const std::size_t dot = name.rfind('.');
+    return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
   }
 
+  static void gather_own(Gathered& channel, bool sends, std::string_view name, PlaceId place) {
+    const std::vector<spec::ModelSide::Place>& own =
+        (sends ? channel.model->send : channel.model->receive).places;
+    const auto found = std::ranges::find(own, name, &spec::ModelSide::Place::name);
+    if (found == own.end()) return;
+    const auto number = static_cast<std::size_t>(found - own.begin());
+    for (std::size_t index = 0; index < channel.invariants.size(); ++index) {
+      const PairInvariant& known = (*channel.known)[index];
+      add_term(channel.invariants[index], place, (sends ? known.send : known.receive)[number]);
+    }
+  }
+
+  static void add_term(Invariant& invariant, PlaceId place, std::int32_t weight) {
+    if (weight != 0) invariant.terms.push_back({place, weight});
+  }
+
+  const spec::Model& model_;
   const net::HierarchicalNet& pages_;
   const net::Net& net_;
   const Places& places_;
-  std::vector<Invariant> memory_, acknowledged_;  // per channel
-  std::vector<bool> blocks_;                      // per channel: does the producer?
+  std::unordered_map<const spec::CommunicationModel*, std::vector<PairInvariant>> known_;
+  std::vector<Gathered> of_channel_;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "layers/built_in.hpp"
+
 namespace tessera::layers {
 
 Draft::Draft(const spec::Model& specification)
@@ -11,17 +13,9 @@ Draft::Draft(const spec::Model& specification)
     if (!used[index]) continue;
     const spec::Channel& channel = model.channels[index];
     const std::string name = model.channel_name(channel);
-    const auto set = [&](const char* part, std::uint32_t tokens) {
-      net.fusions.push_back({name + part, tokens, index, channel.span});
-      return net::FusionId{static_cast<std::uint32_t>(net.fusions.size() - 1)};
-    };
-    const bool producer_blocks = channel.send == spec::Mode::blocking;
-    if (!producer_blocks && channel.receive == spec::Mode::non_blocking) {
-      memory[index].channel = set(".channel", 1);
-    } else {
-      memory[index].empty = set(".empty", 1);
-      memory[index].full = set(".full", 0);
-      if (producer_blocks) memory[index].ack = set(".ack", 0);
+    for (const spec::SharedPlace& place : model_of(model, channel).shared) {
+      memory[index].push_back({static_cast<std::uint32_t>(net.fusions.size())});
+      net.fusions.push_back({name + "." + place.name, place.tokens, index, channel.span});
     }
   }
 }

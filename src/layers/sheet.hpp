@@ -9,12 +9,6 @@
 
 namespace tessera::layers {
 
-/// The fusion sets of a channel's memory: `channel` alone if both sides are non-blocking, else `empty` and
-/// `full`, and `ack` if the producer blocks.
-struct ChannelPlaces {
-  net::FusionId channel, empty, full, ack;
-};
-
 /// What the five layers draw into, together.
 struct Draft {
   explicit Draft(const spec::Model& specification);
@@ -22,7 +16,8 @@ struct Draft {
   const spec::Model& model;
   Wiring wiring;
   net::HierarchicalNet net;
-  std::vector<ChannelPlaces> memory;  ///< per channel; invalid ids for channels that no behaviour uses
+  /// Per channel the fusion sets of the shared places of its model; none for channels that no behaviour uses.
+  std::vector<std::vector<net::FusionId>> memory;
 };
 
 /// One page while it is drawn. Its id exists from the start, so that pages below it can name it as their

@@ -37,6 +37,7 @@ struct Operation {
     read                  ///< memory of channel `subject` into the input buffer
   } kind = Kind::none;
   std::uint32_t subject = UINT32_MAX;
+  std::uint32_t slot = 0;  ///< of the channel's memory, that is written or read
   bool operator==(const Operation&) const = default;
 };
 

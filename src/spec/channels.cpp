@@ -13,7 +13,8 @@ namespace {
 using diagnostics::quoted;
 
 constexpr const char* channel_hint =
-    "write AGENT.SUBSYSTEM.OUTPUT -> AGENT.SUBSYSTEM.INPUT, or a map { from, to, send, receive, timeout }";
+    "write AGENT.SUBSYSTEM.OUTPUT -> AGENT.SUBSYSTEM.INPUT, or a map { from, to, send, receive, model, "
+    "timeout }";
 
 /// A type without its unit.
 Type bare(Type type) {
@@ -30,8 +31,8 @@ bool is_usual(SubsystemKind from, SubsystemKind to, bool same_agent) {
 
 class Reader {
  public:
-  Reader(const Types& types, const Groups& groups, Model& model, Diagnostics& out)
-      : types_(types), lookup_(model, groups), model_(model), out_(out) {}
+  Reader(const Types& types, const Groups& groups, Models& models, Model& model, Diagnostics& out)
+      : types_(types), lookup_(model, groups), models_(models), model_(model), out_(out) {}
 
   void read(const Entry& section) {
     for (const Node* item : items_of(*section.value, section.span, "channels", out_)) {
@@ -62,16 +63,20 @@ class Reader {
   }
 
   void read_map(const Node& item) {
-    const Section section(item, item.span, "a channel",
-                          {"from", "to", "send", "receive", "timeout", "send_timeout", "receive_timeout"},
-                          out_);
+    const Section section(
+        item, item.span, "a channel",
+        {"from", "to", "send", "receive", "model", "timeout", "send_timeout", "receive_timeout"}, out_);
     const auto from = read_path(section, "from");
     const auto to = read_path(section, "to");
     Channel channel;
     channel.span = from ? from->whole : item.span;
-    channel.send = read_mode(section.find("send"));
-    channel.receive = read_mode(section.find("receive"));
-    read_timeouts(section, channel);
+    if (const Entry* model = section.find("model")) {
+      read_model(section, *model, channel);
+    } else {
+      channel.send = read_mode(section.find("send"));
+      channel.receive = read_mode(section.find("receive"));
+      read_timeouts(section, channel);
+    }
     join(from, to, channel);
   }
 
@@ -102,12 +107,51 @@ class Reader {
     return Mode::blocking;
   }
 
-  void read_timeouts(const Section& section, Channel& channel) {
-    const auto read = [&](std::string_view key) -> std::optional<Duration> {
+  void read_model(const Section& section, const Entry& entry, Channel& channel) {
+    for (const std::string_view key : {"send", "receive"})
+      if (const Entry* mode = section.find(key))
+        out_.error("E309", mode->span, quoted(key) + " beside 'model'", "the model says how both sides wait");
+    const Node* name = text_of(*entry.value, entry.span, "'model'", out_, "the name of an entry of 'models'");
+    if (name == nullptr) return;
+    channel.model = models_.find(*name, out_);
+    if (channel.model != none) read_timeouts_of_model(section, *name, channel);
+  }
+
+  /// A timeout for every side that has a transition for it, and no other.
+  void read_timeouts_of_model(const Section& section, const Node& name, Channel& channel) {
+    const CommunicationModel& model = model_.models[channel.model];
+    const bool sends = model.send.has_timeout(), receives = model.receive.has_timeout();
+    const auto refuse = [&](std::string_view key, bool has, const std::string& who) {
       const Entry* entry = section.find(key);
-      return entry == nullptr ? std::nullopt
-                              : read_duration(*entry->value, entry->span, std::string(key), out_);
+      if (entry != nullptr && !has)
+        out_.error("E306", entry->span,
+                   quoted(key) + " where " + who + " of model " + quoted(name.text) + " waits for it",
+                   "write it at a transition as when: elapsed");
     };
+    refuse("timeout", sends || receives, "no side");
+    refuse("send_timeout", sends, "no transition of 'send'");
+    refuse("receive_timeout", receives, "no transition of 'receive'");
+    const auto both = read_timeout(section, "timeout");
+    const auto send = read_timeout(section, "send_timeout");
+    const auto receive = read_timeout(section, "receive_timeout");
+    const auto require = [&](bool has, const std::string& side) {
+      if (!has || section.find("timeout") != nullptr || section.find(side + "_timeout") != nullptr) return;
+      out_.error("E309", name.span, quoted(side) + " of model " + quoted(name.text) + " needs a timeout",
+                 "write timeout: 200 ms, or " + side + "_timeout: 200 ms");
+    };
+    require(sends, "send");
+    require(receives, "receive");
+    if (sends) channel.send_timeout = send ? send : both;
+    if (receives) channel.receive_timeout = receive ? receive : both;
+  }
+
+  std::optional<Duration> read_timeout(const Section& section, std::string_view key) {
+    const Entry* entry = section.find(key);
+    return entry == nullptr ? std::nullopt
+                            : read_duration(*entry->value, entry->span, std::string(key), out_);
+  }
+
+  void read_timeouts(const Section& section, Channel& channel) {
     const auto needs_blocking = [&](std::string_view key, bool blocks, const std::string& problem) {
       const Entry* entry = section.find(key);
       if (entry == nullptr || blocks) return;
@@ -120,9 +164,9 @@ class Reader {
     needs_blocking("timeout", sends || receives, "neither side blocks");
     needs_blocking("send_timeout", sends, "the sender does not block");
     needs_blocking("receive_timeout", receives, "the receiver does not block");
-    const auto both = read("timeout");
-    const auto send = read("send_timeout");
-    const auto receive = read("receive_timeout");
+    const auto both = read_timeout(section, "timeout");
+    const auto send = read_timeout(section, "send_timeout");
+    const auto receive = read_timeout(section, "receive_timeout");
     if (sends) channel.send_timeout = send ? send : both;
     if (receives) channel.receive_timeout = receive ? receive : both;
   }
@@ -237,6 +281,7 @@ class Reader {
 
   const Types& types_;
   Lookup lookup_;
+  Models& models_;
   Model& model_;
   Diagnostics& out_;
   Excuses excuses_;
@@ -245,10 +290,10 @@ class Reader {
 
 }  // namespace
 
-Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups, Model& model,
-                      Diagnostics& out) {
+Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups, Models& models,
+                      Model& model, Diagnostics& out) {
   if (entry == nullptr) return {};
-  Reader reader(types, groups, model, out);
+  Reader reader(types, groups, models, model, out);
   reader.read(*entry);
   return reader.take_excuses();
 }

@@ -6,6 +6,7 @@
 #include "spec/document.hpp"
 #include "spec/fleets.hpp"
 #include "spec/model.hpp"
+#include "spec/models.hpp"
 #include "spec/types.hpp"
 
 namespace tessera::spec {
@@ -24,9 +25,10 @@ struct Excuses {
 ///
 /// Errors: E101 and E112 paths; E104 form; E207 and E208 types and units of the ends; E301 two sources; E303
 /// index;
-///         E304 the wrong end; E306 timeouts where nothing blocks; E307 index forms that do not go together.
+///         E304 the wrong end; E306 timeouts where nothing blocks; E307 index forms that do not go together;
+///         E309 `send` or `receive` beside `model`, a model without its timeout.
 /// Warnings: W310 an unusual direction.
 [[nodiscard]] Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups,
-                                    Model& model, Diagnostics& out);
+                                    Models& models, Model& model, Diagnostics& out);
 
 }  // namespace tessera::spec

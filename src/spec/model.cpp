@@ -43,4 +43,12 @@ std::string Model::channel_name(const Channel& channel) const {
          subsystem(channel.to.instance).inputs[channel.to.buffer].name;
 }
 
+bool Model::sender_waits(const Channel& channel) const {
+  return channel.model == none ? channel.send == Mode::blocking : models[channel.model].send.waits;
+}
+
+bool Model::receiver_waits(const Channel& channel) const {
+  return channel.model == none ? channel.receive == Mode::blocking : models[channel.model].receive.waits;
+}
+
 }  // namespace tessera::spec

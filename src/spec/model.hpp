@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
+#include "spec/communication_model.hpp"
 
 /// The specification as data: what section "The specification file" of docs/specification.md describes, with
 /// every default filled in and every name resolved to an index. Nothing here knows about nets.
@@ -183,6 +184,7 @@ struct Channel {
   ChannelEnd from, to;
   Mode send = Mode::non_blocking;
   Mode receive = Mode::non_blocking;
+  Index model = none;  ///< into Model::models; none: the built-in one of `send` and `receive`
   std::optional<Duration> send_timeout, receive_timeout;
   Span span;
 };
@@ -265,9 +267,10 @@ struct Model {
   std::vector<Parameter> parameters;  ///< of the system, visible in every subsystem
   std::vector<Definition> definitions;
   std::vector<Agent> agents;
-  std::vector<Instance> instances;  ///< every subsystem of every agent, agent by agent
-  std::vector<Channel> channels;    ///< in the order of the file, fleets expanded agent by agent
-  std::vector<Driver> drivers;      ///< of the real robot (`drivers:`)
+  std::vector<Instance> instances;         ///< every subsystem of every agent, agent by agent
+  std::vector<CommunicationModel> models;  ///< of the author
+  std::vector<Channel> channels;           ///< in the order of the file, fleets expanded agent by agent
+  std::vector<Driver> drivers;             ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
   std::optional<Simulation> simulation;
 
@@ -279,6 +282,9 @@ struct Model {
   [[nodiscard]] std::string instance_path(Index instance) const;
   /// "robot.control.motion->robot.motor.velocity": the name of the channel's fused places.
   [[nodiscard]] std::string channel_name(const Channel& channel) const;
+  /// May who sends to or receives from the channel have to wait there?
+  [[nodiscard]] bool sender_waits(const Channel& channel) const;
+  [[nodiscard]] bool receiver_waits(const Channel& channel) const;
 };
 
 }  // namespace tessera::spec

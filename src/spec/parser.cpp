@@ -6,6 +6,7 @@
 #include "spec/document.hpp"
 #include "spec/drivers.hpp"
 #include "spec/fleets.hpp"
+#include "spec/models.hpp"
 #include "spec/names.hpp"
 #include "spec/properties.hpp"
 #include "spec/section.hpp"
@@ -36,13 +37,6 @@ std::string read_system(const Section& file, Diagnostics& out) {
   return text->text;
 }
 
-void refuse_models(const Section& file, Diagnostics& out) {
-  if (const Entry* models = file.find("models")) {
-    out.error("E113", models->span, "communication models of your own are not supported yet",
-              "use the blocks that 'send' and 'receive' of a channel choose from");
-  }
-}
-
 Model read_model(const Document& document, Diagnostics& out) {
   const Section file(document.root(), document.root().span, "a specification",
                      {"tessera", "system", "types", "parameters", "templates", "agents", "channels",
@@ -51,14 +45,16 @@ Model read_model(const Document& document, Diagnostics& out) {
   Model model;
   if (!file.readable()) return model;
   check_version(file, out);
-  refuse_models(file, out);
   model.system = read_system(file, out);
   Types types;
   types.read(file.find("types"), out);
   model.parameters = read_parameters(file.find("parameters"), types, out);
   const Entry* agents = file.require("agents", "a system is made of agents");
   const Groups groups = read_agents(file.find("templates"), agents, {types, model.parameters}, model, out);
-  const Excuses excuses = read_channels(file.find("channels"), types, groups, model, out);
+  Models models;
+  models.read(file.find("models"), model, out);
+  const Excuses excuses = read_channels(file.find("channels"), types, groups, models, model, out);
+  models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);

@@ -102,11 +102,11 @@ class Check {
   [[nodiscard]] bool can_wait(const Behaviour& behaviour, Index instance) const {
     const auto receives = [&](Index i) {
       const Channel& channel = model_.channels[i];
-      return channel.receive == Mode::blocking && is_listed(behaviour.receive, channel.to.buffer);
+      return model_.receiver_waits(channel) && is_listed(behaviour.receive, channel.to.buffer);
     };
     const auto sends = [&](Index i) {
       const Channel& channel = model_.channels[i];
-      return channel.send == Mode::blocking && is_listed(behaviour.send, channel.from.buffer);
+      return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer);
     };
     return behaviour.takes > Duration{0} ||
            std::any_of(in_[instance].begin(), in_[instance].end(), receives) ||

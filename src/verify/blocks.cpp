@@ -1,6 +1,8 @@
 #include "verify/blocks.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <vector>
 
 namespace tessera::verify {
 namespace {
@@ -33,7 +35,7 @@ bool moves_are(const Steps& steps, PlaceId from, std::uint32_t channel, std::spa
     const net::Condition& condition = steps.net()[step.id].condition;
     const bool elapsed = condition.kind == net::Condition::Kind::elapsed;
     if (!elapsed && condition.kind != net::Condition::Kind::none) return false;
-    return step.from.valid() && step.channel == channel &&
+    return step.from.valid() && step.channel == channel && !step.own_model &&
            std::ranges::count(expected, Move{step.to, step.takes, step.gives, elapsed}) == 1;
   });
 }
@@ -108,6 +110,35 @@ class Match {
   std::uint32_t channel_ = 0;
 };
 
+std::string_view block_of(const Steps& steps, const Step& step) {
+  const std::string_view name = steps.net()[step.id].name;
+  return name.substr(0, name.rfind('.'));
+}
+
+/// Follows the transitions of one block from `in` to the only place that none of them leaves.
+std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
+  const auto starts = steps.from(in);
+  if (starts.empty() || starts.front().channel == UINT32_MAX) return std::nullopt;
+  Block block{.communication = {.channel = starts.front().channel, .own_model = true}, .out = {}};
+  const std::string_view name = block_of(steps, starts.front());
+  std::vector<PlaceId> reached{in};
+  for (std::size_t at = 0; at < reached.size(); ++at) {
+    bool left = false;
+    for (const Step& step : steps.from(reached[at])) {
+      if (block_of(steps, step) != name) continue;
+      const bool foreign = step.channel != UINT32_MAX && step.channel != block.communication.channel;
+      if (foreign || !step.from.valid() || !step.to.valid()) return std::nullopt;
+      left = true;
+      if (std::ranges::find(reached, step.to) == reached.end()) reached.push_back(step.to);
+    }
+    if (!left && block.out.valid()) return std::nullopt;
+    if (!left) block.out = reached[at];
+    if (steps.net()[reached[at]].operation.kind == Operation::Kind::read)
+      block.communication.side = Side::receive;
+  }
+  return block.out.valid() ? std::optional(block) : std::nullopt;
+}
+
 }  // namespace
 
 Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 0) {
@@ -148,7 +179,8 @@ std::optional<Step> Steps::read(net::TransitionId id) {
         continue;
       }
       const std::uint8_t part = memory_of(place);
-      if (part == 0 || (step.channel != UINT32_MAX && step.channel != place.channel)) return false;
+      if (step.channel != UINT32_MAX && step.channel != place.channel) return false;
+      step.own_model = step.own_model || part == 0;
       step.channel = place.channel;
       memory |= part;
     }
@@ -159,6 +191,9 @@ std::optional<Step> Steps::read(net::TransitionId id) {
   return step;
 }
 
-std::optional<Block> block_at(const Steps& steps, PlaceId in) { return Match(steps, in).result(); }
+std::optional<Block> block_at(const Steps& steps, PlaceId in) {
+  if (const std::optional<Block> block = Match(steps, in).result()) return block;
+  return own_block_at(steps, in);
+}
 
 }  // namespace tessera::verify

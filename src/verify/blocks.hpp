@@ -18,6 +18,7 @@ struct Step {
   net::PlaceId from, to;  ///< invalid if there are several: a fork or a join
   std::uint32_t channel = UINT32_MAX;
   std::uint8_t takes = 0, gives = 0;  ///< Memory
+  bool own_model = false;             ///< it uses fused places that no built-in block has
 };
 
 /// The steps of every subsystem, by the places that they take their tokens from.
@@ -53,7 +54,8 @@ struct Block {
   net::PlaceId out;
 };
 
-/// The block that starts at `in`, if exactly the transitions of one start there.
+/// The block that starts at `in`: a built-in one if exactly the transitions of one start there, else one of
+/// the author's model, whose transitions share the name of their block and lead to one place.
 [[nodiscard]] std::optional<Block> block_at(const Steps& steps, net::PlaceId in);
 
 }  // namespace tessera::verify

@@ -247,6 +247,7 @@ class Channels {
     }
     communication.channel = number;
     ChannelFlow& channel = all[number];
+    channel.own_model = channel.own_model || communication.own_model;
     const bool sends = communication.side == Side::send;
     std::optional<std::uint32_t>& end = sends ? channel.sender : channel.receiver;
     bool& blocks = sends ? channel.send_blocks : channel.receive_blocks;

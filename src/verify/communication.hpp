@@ -17,7 +17,8 @@ struct Communication {
   std::uint32_t channel = 0;
   Side side = Side::send;
   bool blocking = false;
-  bool timeout = false;  ///< only of a blocking side
+  bool timeout = false;    ///< only of a blocking side
+  bool own_model = false;  ///< by a model of the author's: who waits for what is not known
   bool operator==(const Communication&) const = default;
 };
 
@@ -51,6 +52,7 @@ struct ChannelFlow {
   std::optional<std::uint32_t> sender, receiver;
   bool send_blocks = false, send_timeout = false;
   bool receive_blocks = false, receive_timeout = false;
+  bool own_model = false;  ///< of the author's, at one end at least
   bool always_readable =
       false;  ///< both sides non-blocking: reading never depends on a value having been sent
 };

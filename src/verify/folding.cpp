@@ -46,7 +46,7 @@ std::vector<Stage> essence(const BehaviourFlow& behaviour, const std::vector<Cha
 class Folding {
  public:
   Folding(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels)
-      : subsystem_(subsystem), rest_(subsystem.behaviours.size(), true) {
+      : subsystem_(subsystem), channels_(channels), rest_(subsystem.behaviours.size(), true) {
     for (const BehaviourFlow& behaviour : subsystem.behaviours) {
       stages_.push_back(essence(behaviour, channels));
       folded_.can_end = folded_.can_end || behaviour.ends;
@@ -59,6 +59,8 @@ class Folding {
         return refuse("after '" + behaviour.name + "' none of the initial conditions may hold");
     // A subsystem that holds nobody up and is held up by nobody may do what it likes.
     if (std::ranges::all_of(stages_, [](const auto& stages) { return stages.empty(); })) return folded_;
+    if (const std::string name = own_model(); !name.empty())
+      return refuse("'" + name + "' has a communication model of its own");
     std::uint32_t at = 0;
     while (!same_from(at)) {
       if (!peel(at)) return refuse("its behaviours use different channels, or in different orders");
@@ -72,6 +74,15 @@ class Folding {
   Folded refuse(std::string why) {
     folded_.why_not = "'" + subsystem_.name + "': " + std::move(why);
     return folded_;
+  }
+
+  /// A channel of the author's own model.
+  [[nodiscard]] std::string own_model() const {
+    for (const BehaviourFlow& behaviour : subsystem_.behaviours)
+      for (const Stage& stage : behaviour.stages)
+        for (const Communication& communication : stage)
+          if (channels_[communication.channel].own_model) return channels_[communication.channel].name;
+    return {};
   }
 
   [[nodiscard]] bool same_from(std::uint32_t start) const {
@@ -108,6 +119,7 @@ class Folding {
   }
 
   const SubsystemFlow& subsystem_;
+  const std::vector<ChannelFlow>& channels_;
   Flags rest_;                              // per behaviour: not taken off as a start-up
   std::vector<std::vector<Stage>> stages_;  // per behaviour
   Folded folded_;
@@ -121,7 +133,9 @@ bool waits_to_send(const ChannelFlow& channel) {
 bool waits_to_receive(const ChannelFlow& channel) {
   return channel.receiver && channel.receive_blocks && !channel.receive_timeout;
 }
-bool holds_up(const ChannelFlow& channel) { return waits_to_send(channel) || waits_to_receive(channel); }
+bool holds_up(const ChannelFlow& channel) {
+  return channel.own_model || waits_to_send(channel) || waits_to_receive(channel);
+}
 
 Folded fold(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels) {
   return Folding(subsystem, channels).result();

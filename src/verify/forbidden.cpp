@@ -53,14 +53,15 @@ std::uint32_t SharedMemory::id() const {
 }
 
 std::vector<SharedMemory> shared_memories(const net::Net& net) {
-  std::map<std::uint32_t, SharedMemory> memories;  // by channel
+  std::map<std::pair<std::uint32_t, std::uint32_t>, SharedMemory> memories;  // by channel and slot
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     const net::Operation& operation = net.places()[index].operation;
-    if (operation.kind == net::Operation::Kind::write) memories[operation.subject].writes.push_back({index});
-    if (operation.kind == net::Operation::Kind::read) memories[operation.subject].reads.push_back({index});
+    const std::pair memory(operation.subject, operation.slot);
+    if (operation.kind == net::Operation::Kind::write) memories[memory].writes.push_back({index});
+    if (operation.kind == net::Operation::Kind::read) memories[memory].reads.push_back({index});
   }
   std::vector<SharedMemory> all;
-  for (auto& [channel, memory] : memories) all.push_back(std::move(memory));
+  for (auto& [channel_and_slot, memory] : memories) all.push_back(std::move(memory));
   return all;
 }
 

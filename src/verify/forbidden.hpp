@@ -20,7 +20,7 @@ struct PagePlaces {
 /// The page is entered while it is in use, or left while it is.
 [[nodiscard]] explore::Formula unsound(const PagePlaces& page);
 
-/// Shared memory: the places that write to it and those that read from it.
+/// Shared memory, a slot of a channel: the places that write to it and those that read from it.
 struct SharedMemory {
   std::vector<net::PlaceId> writes, reads;
 

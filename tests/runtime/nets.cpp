@@ -131,6 +131,35 @@ const Transition store_receive[] = {RECEIVER,
                                     {"run.free1", {"run.get1"}, {"run.rcv.out", "x/lock", "x/free1"}},
                                     {"run.free2", {"run.get2"}, {"run.rcv.out", "x/lock", "x/free2"}}};
 
+constexpr FusedPlace queue_places[] = {{"empty_1", 1}, {"full_1", 0}, {"empty_2", 1}, {"full_2", 0},
+                                       {"put_1", 1},   {"put_2", 0},  {"get_1", 1},   {"get_2", 0}};
+constexpr Place queue_send_places[] = {{"in"},
+                                       {"out"},
+                                       BEHAVIOUR_PLACES("run"),
+                                       {"run.snd.x.first", writes("x", 1)},
+                                       {"run.snd.x.second", writes("x", 2)}};
+const Transition queue_send[] = {
+    SENDER,
+    {"run.snd.x.begin_1", {"run.snd.in", "x/put_1", "x/empty_1"}, {"run.snd.x.first"}},
+    {"run.snd.x.end_1", {"run.snd.x.first"}, {"run.snd.out", "x/full_1", "x/put_2"}},
+    {"run.snd.x.begin_2", {"run.snd.in", "x/put_2", "x/empty_2"}, {"run.snd.x.second"}},
+    {"run.snd.x.end_2", {"run.snd.x.second"}, {"run.snd.out", "x/full_2", "x/put_1"}}};
+constexpr Place queue_receive_places[] = {{"in"},
+                                          {"out"},
+                                          BEHAVIOUR_PLACES("run"),
+                                          {"run.rcv.x.first", reads("x", 1)},
+                                          {"run.rcv.x.second", reads("x", 2)}};
+const Transition queue_receive[] = {
+    RECEIVER,
+    {"run.rcv.x.begin_1", {"run.rcv.in", "x/get_1", "x/full_1"}, {"run.rcv.x.first"}},
+    {"run.rcv.x.end_1", {"run.rcv.x.first"}, {"run.rcv.out", "x/empty_1", "x/get_2"}},
+    {"run.rcv.x.begin_2", {"run.rcv.in", "x/get_2", "x/full_2"}, {"run.rcv.x.second"}},
+    {"run.rcv.x.end_2", {"run.rcv.x.second"}, {"run.rcv.out", "x/empty_2", "x/get_1"}}};
+const Transition impatient_receive[] = {
+    RECEIVER,
+    B_RECEIVE("run", "x", "run.rcv.in", "run.rcv.out"),
+    {"run.rcv.x.give_up", {"run.rcv.in"}, {"run.rcv.out"}, if_elapsed_at("x")}};
+
 }  // namespace
 
 const SubsystemNet alone{run_only, {}, alone_places, alone_transitions};
@@ -155,5 +184,9 @@ const SubsystemNet paper_motor{drive_only, velocity_in, paper_motor_places, pape
 const SubsystemNet store_sender{run_only, sends_x, store_send_places, store_send};
 const SubsystemNet store_receiver{run_only, receives_x, store_receive_places, store_receive};
 const std::span<const FusedPlace> two_slots{store};
+const SubsystemNet queue_sender{run_only, sends_x, queue_send_places, queue_send};
+const SubsystemNet queue_receiver{run_only, receives_x, queue_receive_places, queue_receive};
+const std::span<const FusedPlace> queue{queue_places};
+const SubsystemNet impatient_receiver{run_only, receives_x, receiver_places, impatient_receive};
 
 }  // namespace tessera::testing::nets

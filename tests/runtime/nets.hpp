@@ -22,5 +22,10 @@ extern const SubsystemNet paper_sensor, paper_control, paper_motor;
 /// A store of two items under a lock, drawn by hand: fused places of `two_slots`.
 extern const SubsystemNet store_sender, store_receiver;
 extern const std::span<const FusedPlace> two_slots;
+/// A queue of two slots, as in the third example: fused places of `queue`.
+extern const SubsystemNet queue_sender, queue_receiver;
+extern const std::span<const FusedPlace> queue;
+/// One slot; the receiver gives up by a transition that touches no fused place.
+extern const SubsystemNet impatient_receiver;
 
 }  // namespace tessera::testing::nets

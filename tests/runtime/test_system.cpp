@@ -111,14 +111,14 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
 
 void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uint32_t to,
                          std::string_view in_port, std::span<const FusedPlace> places, Duration send_timeout,
-                         Duration receive_timeout) {
+                         Duration receive_timeout, std::uint16_t slots) {
   const auto path = [&](std::uint32_t instance) {
     return std::string(instances_[instance].agent) + '.' + std::string(instances_[instance].name);
   };
   names_.push_back(std::make_unique<std::string>(path(from) + '.' + std::string(out_port) + "->" + path(to) +
                                                  '.' + std::string(in_port)));
   channels_.push_back(
-      {*names_.back(), {from, out_port}, {to, in_port}, places, send_timeout, receive_timeout});
+      {*names_.back(), {from, out_port}, {to, in_port}, places, send_timeout, receive_timeout, slots});
 }
 
 const System& TestSystem::system() {

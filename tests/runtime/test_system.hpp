@@ -54,7 +54,7 @@ class TestSystem {
                     Duration stale = Duration{0}, Kind kind = Kind::control);
   void connect(std::uint32_t from, std::string_view out_port, std::uint32_t to, std::string_view in_port,
                std::span<const FusedPlace> places, Duration send_timeout = Duration{0},
-               Duration receive_timeout = Duration{0});
+               Duration receive_timeout = Duration{0}, std::uint16_t slots = 1);
   /// Made up from what was added; valid until the next change.
   [[nodiscard]] const System& system();
 

@@ -21,11 +21,16 @@ inline constexpr int tables_version = 1;
 struct Does {
   enum class Kind : std::uint8_t { nothing, call, count, write, read, decide, route } kind = Kind::nothing;
   std::string_view subject;  ///< behaviour (call, decide, route) or port (write, read)
+  std::uint16_t slot = 1;    ///< of the channel's memory, from 1 (write, read)
 };
 [[nodiscard]] constexpr Does calls(std::string_view behaviour) { return {Does::Kind::call, behaviour}; }
 [[nodiscard]] constexpr Does counts() { return {Does::Kind::count, {}}; }
-[[nodiscard]] constexpr Does writes(std::string_view port) { return {Does::Kind::write, port}; }
-[[nodiscard]] constexpr Does reads(std::string_view port) { return {Does::Kind::read, port}; }
+[[nodiscard]] constexpr Does writes(std::string_view port, std::uint16_t slot = 1) {
+  return {Does::Kind::write, port, slot};
+}
+[[nodiscard]] constexpr Does reads(std::string_view port, std::uint16_t slot = 1) {
+  return {Does::Kind::read, port, slot};
+}
 [[nodiscard]] constexpr Does decides(std::string_view behaviour) { return {Does::Kind::decide, behaviour}; }
 [[nodiscard]] constexpr Does routes(std::string_view behaviour) { return {Does::Kind::route, behaviour}; }
 
@@ -33,10 +38,12 @@ struct Does {
 struct Guard {
   enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
   std::uint16_t entry = 0;  ///< of `next`, from 0
+  std::string_view port{};  ///< elapsed: whose timeout; empty: of the channel that the transition touches
 };
 inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
     if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
+[[nodiscard]] constexpr Guard if_elapsed_at(std::string_view port) { return {Guard::Kind::elapsed, 0, port}; }
 
 /// A place of a subsystem; its name lacks the subsystem's path ("follow.snd.motion.2").
 struct Place {
@@ -105,6 +112,7 @@ struct Channel {
   End from, to;
   std::span<const FusedPlace> places;
   Duration send_timeout{0}, receive_timeout{0};  ///< zero: waits for ever
+  std::uint16_t slots{1};                        ///< values that the memory holds
 };
 
 /// A real buffer served by the user's C++; exactly one of the two is set.

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+
+/// How the two sides of a channel share its memory, as a pair of Petri nets with fused places (paper, sec.
+/// IV-E).
+namespace tessera::spec {
+
+/// What the controller's channel word has room for; tessera::SharedChannel says why.
+inline constexpr std::size_t most_shared_places = 10;
+inline constexpr std::size_t most_needs = 10;  ///< different sets of shared places that one side takes
+inline constexpr std::uint32_t most_slots = 16;
+
+/// A place that both sides see. It belongs to the channel, whatever behaviours use it.
+struct SharedPlace {
+  std::string name;
+  std::uint32_t tokens = 0;  ///< initially, 0 or 1
+  diagnostics::Span span;
+};
+
+/// One side: a net whose single token stands for the behaviour that sends or receives. So every transition
+/// takes one place of the side and gives one, besides shared places.
+struct ModelSide {
+  static constexpr std::uint32_t no_slot = UINT32_MAX;
+
+  struct Place {
+    std::string name;
+    std::uint32_t slot = no_slot;  ///< of the memory that is written (send) or read (receive), from 0
+    diagnostics::Span span;
+  };
+  struct Transition {
+    std::string name;
+    std::uint32_t from = 0, to = 0;           ///< into places
+    std::vector<std::uint32_t> takes, gives;  ///< into CommunicationModel::shared
+    bool elapsed = false;                     ///< fires only once the timeout of the channel has passed
+    diagnostics::Span span;
+  };
+
+  static constexpr std::uint32_t in = 0, out = 1;  ///< places that every side has
+  std::vector<Place> places;
+  std::vector<Transition> transitions;
+  /// Whether a side that meets nobody comes to a stand, however the shared places are marked: who uses it
+  /// takes time, by waiting for the other side or for a timeout.
+  bool waits = false;
+
+  /// Whether it has a transition that waits for the timeout.
+  [[nodiscard]] bool has_timeout() const;
+};
+
+struct CommunicationModel {
+  std::string name;
+  std::uint32_t slots = 1;  ///< values that the memory holds
+  std::vector<SharedPlace> shared;
+  ModelSide send, receive;
+  diagnostics::Span span;
+};
+
+/// What ModelSide::waits says. Precondition: at most most_shared_places shared places. O(2^shared *
+/// transitions).
+[[nodiscard]] bool comes_to_a_stand(const CommunicationModel& model, const ModelSide& side);
+
+}  // namespace tessera::spec

@@ -1,0 +1,55 @@
+import type { NetModel, Operation, Page, PageNode, PageTransition } from "./net";
+
+/** What is written beside the symbols. */
+
+export const layerTitle: Record<Page["layer"], string> = {
+  system: "multi-agent system",
+  agent: "agent",
+  subsystem: "subsystem",
+  behaviour: "behaviour",
+  communication: "communication",
+};
+
+export const pageName = (page: Page) => (page.parent === null ? "system" : page.name);
+
+export function operationText(page: Page, operation: Operation | null): string {
+  switch (operation?.kind) {
+    case "transition_function":
+      return `${page.name}()`;
+    case "next_iteration":
+      return "i := i + 1";
+    case "write":
+      return "write";
+    case "read":
+      return "read";
+    default:
+      return "";
+  }
+}
+
+/** The condition in brackets, or nothing when it always holds. */
+export function conditionText(transition: PageTransition, limit = 26): string {
+  const text = transition.condition?.text ?? "";
+  if (!text) return "";
+  return `[${text.length > limit ? `${text.slice(0, limit - 1)}…` : text}]`;
+}
+
+/** The local name: of a fused place its last part, with its buffer. */
+export const nodeName = (node: PageNode) => node.name;
+
+/** What a screen reader says of an element. */
+export function spoken(net: NetModel, path: string): string {
+  const element = net.find(path);
+  if (!element) return path || "system";
+  if (element.kind === "page") {
+    const page = net.page(net.pageByPath.get(path)!);
+    return `${layerTitle[page.layer]} ${path || "system"}`;
+  }
+  if (element.kind === "transition") {
+    const transition = net.page(element.page).transitions[element.index]!;
+    const condition = transition.condition?.text;
+    return `transition ${path}${condition ? `, condition ${condition}` : ""}`;
+  }
+  const operation = operationText(net.page(element.page), net.page(element.page).nodes[element.index]!.operation);
+  return `place ${path}${operation ? `, ${operation}` : ""}`;
+}

@@ -1,0 +1,33 @@
+import { useStore, useStudio } from "../app/use";
+import type { PanelName } from "../live/studio";
+import { InspectPanel } from "./inspect_panel";
+
+const panels: { name: PanelName; title: string }[] = [
+  { name: "inspect", title: "Element" },
+];
+
+export function SidePanel() {
+  const studio = useStudio();
+  const panel = useStore(studio.view, (view) => view.panel);
+  return (
+    <>
+      <div className="tabs" role="tablist" aria-label="Panels">
+        {panels.map(({ name, title }) => (
+          <button key={name} role="tab" id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel" onClick={() => studio.view.set({ panel: name })}>
+            {title}
+          </button>
+        ))}
+      </div>
+      <div className="panel" id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}>
+        <Content panel={panel} />
+      </div>
+    </>
+  );
+}
+
+function Content({ panel }: { panel: PanelName }) {
+  switch (panel) {
+    default:
+      return <InspectPanel />;
+  }
+}

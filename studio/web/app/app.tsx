@@ -1,11 +1,14 @@
 import { lazy, Suspense, useEffect } from "react";
 import { NetCanvas } from "../canvas/net_canvas";
+import { StructureCanvas } from "../canvas/structure_canvas";
 import { ConflictDialog } from "../panels/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
+import { Player } from "../panels/player";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
+import { Boundary } from "./boundary";
 import { Split } from "./split";
 import { useStore, useStudio } from "./use";
 
@@ -32,9 +35,15 @@ export function App() {
             </Suspense>
           ) : null
         }
-        right={<SidePanel />}
+        right={
+          <Boundary>
+            <SidePanel />
+          </Boundary>
+        }
       >
-        <Centre />
+        <Boundary>
+          <Centre />
+        </Boundary>
       </Split>
       <Problems />
       {searching && <Search />}
@@ -47,13 +56,16 @@ function Centre() {
   const studio = useStudio();
   const { project, problem } = useStore(studio.project, (all) => all);
   const net = useStore(studio.draft.store, (draft) => draft.net);
+  const view = useStore(studio.view, (all) => all.view);
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
   if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
   if (!loaded) return <Empty title="Opening…" text="" />;
   return (
     <main className="centre">
-      {net === null ? (
+      {view === "structure" ? (
+        <StructureCanvas />
+      ) : net === null ? (
         <Empty title="No drawing yet" text="The specification has errors. They are listed below and marked in the text; the drawing appears when they are gone." />
       ) : (
         <>
@@ -61,6 +73,7 @@ function Centre() {
           <NetCanvas net={net} />
         </>
       )}
+      <Player />
     </main>
   );
 }

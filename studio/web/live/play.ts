@@ -22,13 +22,18 @@ const nothing: PlayState = { what: "nothing", title: "", position: 0, length: 0,
 export class Play {
   readonly store = new Store<PlayState>(nothing);
   private walk: Walk | null = null;
-  private net: NetModel | null = null;
+  /** The net that is played on: that of the text when it began. */
+  net: NetModel | null = null;
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly stage: Stage) {}
 
   get steps(): readonly number[] {
     return this.walk?.steps ?? [];
+  }
+
+  get marking(): Int32Array | undefined {
+    return this.walk?.marking;
   }
 
   game(net: NetModel): void {

@@ -3,8 +3,10 @@ import { Connection } from "./connection";
 import { Draft, message } from "./draft";
 import type { Project } from "./protocol";
 import { Play } from "./play";
+import { findThing, type Structure } from "../model/structure";
 import { Stage } from "./stage";
 import { Store } from "./store";
+import { Verifier } from "./verifier";
 
 export type View = "net" | "structure";
 export type PanelName = "inspect" | "verify" | "play" | "run" | "recordings";
@@ -42,6 +44,7 @@ export class Studio {
   readonly draft = new Draft(this.api);
   readonly stage = new Stage();
   readonly play = new Play(this.stage);
+  readonly verifier = new Verifier(this.api, this.draft, this.connection);
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "net",
@@ -97,6 +100,13 @@ export class Studio {
     const span = path === null ? undefined : this.draft.store.get().net?.find(path)?.span;
     this.view.set({ selected: path });
     if (showLine && span && span.line > 0) this.showLine(span.line);
+  }
+
+  /** Selects something of the structure, with its line and its form. */
+  choose(path: string | null, structure: Structure): void {
+    const line = path === null ? undefined : findThing(structure, path)?.of.line;
+    this.view.set({ selected: path, ...(path === null ? {} : { panel: "inspect" }) });
+    if (line) this.showLine(line);
   }
 
   showLine(line: number): void {

@@ -1,26 +1,66 @@
 import { useStore, useStudio } from "../app/use";
+import { useComplaints, useStructure } from "../app/use_structure";
 import { layerTitle, operationText } from "../model/labels";
 import type { Element, NetModel } from "../model/net";
+import { findThing, type Thing } from "../model/structure";
+import { EditForm } from "./edit_forms";
 
-/** What the selected element is. */
+/** What the selected element is, and what can be changed about it. */
 export function InspectPanel() {
   const studio = useStudio();
+  const structure = useStructure();
+  const complaints = useComplaints(structure);
   const net = useStore(studio.draft.store, (draft) => draft.net);
-  const selected = useStore(studio.view, (view) => view.selected);
-  const element = selected === null ? undefined : net?.find(selected);
-  if (!net || !element) return <p className="faint">Select something in the drawing to see what it is.</p>;
+  const view = useStore(studio.view, (all) => all.view);
+  const selected = useStore(studio.view, (all) => all.selected);
+  if (selected === null) return <p className="faint">Select something in the drawing to see what it is and to change it.</p>;
+  const thing = findThing(structure, selected);
+  const element = net?.find(selected);
+  if (!thing && !element) return <p className="faint">{selected} is not there any more.</p>;
+  const line = thing?.of.line ?? element!.span.line;
   return (
     <div className="inspect">
-      <h2>{element.path.split(".").at(-1) || "system"}</h2>
-      <p className="path">{element.path || "system"}</p>
-      <dl>{facts(net, element).map(([term, value]) => [<dt key={term}>{term}</dt>, <dd key={`${term}.`}>{value}</dd>])}</dl>
-      {element.span.line > 0 && (
-        <button className="link" onClick={() => studio.showLine(element.span.line)}>
-          Line {element.span.line} of the specification
-        </button>
+      <h2>{title(thing, selected)}</h2>
+      <p className="path">{thing?.kind === "channel" ? "" : selected || "system"}</p>
+      {(thing ? (complaints.get(selected)?.messages ?? []) : []).map((text) => (
+        <p key={text} className="problem-hint">
+          {text}
+        </p>
+      ))}
+      {thing && <EditForm key={selected} structure={structure} thing={thing} />}
+      {net && element && (
+        <>
+          {thing && <h3>Its net</h3>}
+          <dl>{facts(net, element).map(([term, value]) => [<dt key={term}>{term}</dt>, <dd key={`${term}.`}>{value}</dd>])}</dl>
+        </>
       )}
+      <div className="links">
+        {line > 0 && (
+          <button className="link" onClick={() => studio.showLine(line)}>
+            Line {line} of the specification
+          </button>
+        )}
+        {view === "structure" && element && (
+          <button className="link" onClick={() => studio.flyTo(selected)}>
+            Show its net
+          </button>
+        )}
+        {view === "net" && thing && (
+          <button className="link" onClick={() => studio.view.set({ view: "structure" })}>
+            Show it in the structure
+          </button>
+        )}
+      </div>
     </div>
   );
+}
+
+const kinds: Record<Thing["kind"], string> = { agent: "Agent", subsystem: "Subsystem", behaviour: "Behaviour", buffer: "Buffer", channel: "Channel" };
+
+function title(thing: Thing | undefined, selected: string): string {
+  if (thing?.kind === "channel") return "Channel";
+  const name = selected.split(".").at(-1) || "system";
+  return thing ? `${kinds[thing.kind]} ${name}` : name;
 }
 
 function facts(net: NetModel, element: Element): [string, string][] {

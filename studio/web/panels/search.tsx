@@ -27,7 +27,7 @@ export function Search() {
   const found = useMemo(() => rank(text, all, (one) => one.path).slice(0, 12), [text, all]);
   const dialog = useRef<HTMLDialogElement>(null);
   const close = () => studio.view.set({ searching: false });
-  useEffect(() => dialog.current?.showModal(), []);
+  useEffect(() => void dialog.current?.showModal(), []);
   const take = (one: Found | undefined) => {
     if (one) studio.flyTo(one.path);
     close();

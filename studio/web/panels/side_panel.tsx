@@ -1,9 +1,13 @@
 import { useStore, useStudio } from "../app/use";
 import type { PanelName } from "../live/studio";
 import { InspectPanel } from "./inspect_panel";
+import { PlayPanel } from "./play_panel";
+import { VerifyPanel } from "./verify_panel";
 
 const panels: { name: PanelName; title: string }[] = [
   { name: "inspect", title: "Element" },
+  { name: "verify", title: "Verify" },
+  { name: "play", title: "Play" },
 ];
 
 export function SidePanel() {
@@ -27,6 +31,10 @@ export function SidePanel() {
 
 function Content({ panel }: { panel: PanelName }) {
   switch (panel) {
+    case "verify":
+      return <VerifyPanel />;
+    case "play":
+      return <PlayPanel />;
     default:
       return <InspectPanel />;
   }

@@ -8,6 +8,7 @@ import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
+import { Watch } from "../panels/watch";
 import { Boundary } from "./boundary";
 import { Split } from "./split";
 import { useStore, useStudio } from "./use";
@@ -55,7 +56,10 @@ export function App() {
 function Centre() {
   const studio = useStudio();
   const { project, problem } = useStore(studio.project, (all) => all);
-  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const edited = useStore(studio.draft.store, (draft) => draft.net);
+  const shown = useStore(studio.stage.shown, (all) => all);
+  // What plays or runs is drawn as it was when it began.
+  const net = shown.mode === "edit" ? edited : shown.net;
   const view = useStore(studio.view, (all) => all.view);
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
@@ -69,11 +73,13 @@ function Centre() {
         <Empty title="No drawing yet" text="The specification has errors. They are listed below and marked in the text; the drawing appears when they are gone." />
       ) : (
         <>
-          {!current && <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>}
+          {net !== edited && <div className="strip">The text changed since; this is the net that {shown.mode === "live" ? "runs" : "is played"}.</div>}
+          {!current && net === edited && <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>}
           <NetCanvas net={net} />
         </>
       )}
       <Player />
+      <Watch />
     </main>
   );
 }

@@ -6,7 +6,7 @@ import { useStore, useStudio } from "./use";
 /** Running behaviour by path of subsystem ("robot.control" -> "follow"), while something plays. */
 export function useRunning(): ReadonlyMap<string, string> {
   const studio = useStudio();
-  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const net = useStore(studio.stage.shown, (all) => all.net);
   const [text, setText] = useState("");
   useEffect(() => {
     const look = () => setText(net && studio.stage.mode !== "edit" && studio.stage.is(net) ? running(net, studio.stage.marking) : "");

@@ -1,5 +1,6 @@
 import { fire, initialMarking, isEnabled, type Marking } from "../model/game";
 import type { NetModel } from "../model/net";
+import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
 
@@ -15,6 +16,8 @@ export class Stage {
   firedAt = new Float64Array();
   /** Per page, whether a token is somewhere inside. */
   occupied = new Uint8Array();
+  /** The net that is shown, and how it came there. */
+  readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
   private net: NetModel | null = null;
   private ancestors: number[][] = [];
   private readonly listeners = new Set<() => void>();
@@ -28,6 +31,7 @@ export class Stage {
     this.marking = initialMarking(net);
     this.counts = new Uint32Array(net.transitions.length);
     this.firedAt = new Float64Array(net.transitions.length).fill(-Infinity);
+    this.shown.set({ net, mode });
     this.touch();
   }
 

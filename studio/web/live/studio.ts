@@ -4,6 +4,8 @@ import { Draft, message } from "./draft";
 import type { Project } from "./protocol";
 import { Play } from "./play";
 import { findThing, type Structure } from "../model/structure";
+import { Recordings } from "./recordings";
+import { Runner } from "./runner";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Verifier } from "./verifier";
@@ -45,6 +47,8 @@ export class Studio {
   readonly stage = new Stage();
   readonly play = new Play(this.stage);
   readonly verifier = new Verifier(this.api, this.draft, this.connection);
+  readonly runner = new Runner(this.api, this.draft, this.stage, this.connection);
+  readonly recordings = new Recordings(this.api, this.draft, this.stage);
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "net",

@@ -34,6 +34,7 @@ export function InspectPanel() {
           <dl>{facts(net, element).map(([term, value]) => [<dt key={term}>{term}</dt>, <dd key={`${term}.`}>{value}</dd>])}</dl>
         </>
       )}
+      {net && element?.kind === "place" && <Breakpoint place={net.placeByName.get(selected)!} />}
       <div className="links">
         {line > 0 && (
           <button className="link" onClick={() => studio.showLine(line)}>
@@ -51,6 +52,19 @@ export function InspectPanel() {
           </button>
         )}
       </div>
+    </div>
+  );
+}
+
+/** A run under simulated time pauses when a token arrives here. */
+function Breakpoint({ place }: { place: number }) {
+  const studio = useStudio();
+  const set = useStore(studio.runner.store, (all) => all.breakpoints.includes(place));
+  return (
+    <div className="buttons">
+      <button aria-pressed={set} onClick={() => studio.runner.toggleBreakpoint(place)}>
+        {set ? "Remove the breakpoint" : "Pause a run here"}
+      </button>
     </div>
   );
 }

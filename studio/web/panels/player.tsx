@@ -4,6 +4,46 @@ import { Icon } from "./icons";
 /** Below the drawing while something is stepped through: back, forward, let it run, to any position. */
 export function Player() {
   const studio = useStudio();
+  const recording = useStore(studio.recordings.store, (all) => all.open);
+  return recording === null ? <StepPlayer /> : <RecordingPlayer />;
+}
+
+const clock = (nanoseconds: number) => (nanoseconds / 1e9).toFixed(2);
+
+function RecordingPlayer() {
+  const studio = useStudio();
+  const { open, time, first, last, playing, speed } = useStore(studio.recordings.store, (all) => all);
+  const { recordings } = studio;
+  return (
+    <div className="player" role="group" aria-label={`Recording ${open}`}>
+      <span className="title">{open}</span>
+      <button className="icon" aria-label="Back to the last firing" onClick={() => recordings.step(-1)}>
+        <Icon name="back" />
+      </button>
+      <button className="icon" aria-label={playing ? "Pause" : "Play"} onClick={() => (time >= last && recordings.seek(first), recordings.play(!playing))}>
+        <Icon name={playing ? "pause" : "play"} />
+      </button>
+      <button className="icon" aria-label="To the next firing" onClick={() => recordings.step(1)}>
+        <Icon name="forward" />
+      </button>
+      <input type="range" aria-label="Time" aria-valuetext={`${clock(time)} seconds`} min={first} max={Math.max(first + 1, last)} step="any" value={time} onChange={(event) => recordings.seek(Number(event.target.value))} />
+      <span className="position">
+        {clock(time)} / {clock(last)} s
+      </span>
+      <select aria-label="Speed" value={speed} onChange={(event) => recordings.setSpeed(Number(event.target.value))}>
+        {[0.1, 0.5, 1, 2, 10, 100].map((one) => (
+          <option key={one} value={one}>
+            {one} ×
+          </option>
+        ))}
+      </select>
+      <button onClick={() => recordings.close()}>Close</button>
+    </div>
+  );
+}
+
+function StepPlayer() {
+  const studio = useStudio();
   const play = useStore(studio.play.store, (all) => all);
   if (play.what === "nothing") return null;
   const { play: player } = studio;

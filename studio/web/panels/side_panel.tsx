@@ -2,12 +2,16 @@ import { useStore, useStudio } from "../app/use";
 import type { PanelName } from "../live/studio";
 import { InspectPanel } from "./inspect_panel";
 import { PlayPanel } from "./play_panel";
+import { RecordingsPanel } from "./recordings_panel";
+import { RunPanel } from "./run_panel";
 import { VerifyPanel } from "./verify_panel";
 
 const panels: { name: PanelName; title: string }[] = [
   { name: "inspect", title: "Element" },
   { name: "verify", title: "Verify" },
   { name: "play", title: "Play" },
+  { name: "run", title: "Run" },
+  { name: "recordings", title: "Recordings" },
 ];
 
 export function SidePanel() {
@@ -35,6 +39,10 @@ function Content({ panel }: { panel: PanelName }) {
       return <VerifyPanel />;
     case "play":
       return <PlayPanel />;
+    case "run":
+      return <RunPanel />;
+    case "recordings":
+      return <RecordingsPanel />;
     default:
       return <InspectPanel />;
   }

@@ -7,6 +7,7 @@ import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { basename, dirname, extname, join, normalize, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { addRuns } from "./fixture-runs.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const dist = process.env.STUDIO_DIST ?? resolve(here, "../dist");
@@ -50,6 +51,7 @@ export async function serve(folder, { port = 0, token = randomBytes(16).toString
 
   const runs = new Map();
   const state = { root, file, send, runs, text: () => readFileSync(file, "utf8"), analyse };
+  addRuns(state);
   const routes = [
     ["GET", /^\/api\/project$/, () => ({ name: basename(folder), folder: root, file: "spec.yaml", version: "0.1.0", worlds: [{ name: "line_world.xml", tracks: ["oval.png", "curves.png"] }] })],
     ["GET", /^\/api\/spec$/, async () => { const text = state.text(); return { text, revision: revisionOf(text), analysis: await analyse(text) }; }],

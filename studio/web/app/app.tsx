@@ -46,6 +46,7 @@ export function App() {
           <Centre />
         </Boundary>
       </Split>
+      <Watch />
       <Problems />
       {searching && <Search />}
       <ConflictDialog />
@@ -79,7 +80,6 @@ function Centre() {
         </>
       )}
       <Player />
-      <Watch />
     </main>
   );
 }

@@ -1,4 +1,5 @@
 import { useStore, useStudio } from "../app/use";
+import { ExportButtons } from "./export_button";
 import { layerTitle, pageName } from "../model/labels";
 import type { NetModel } from "../model/net";
 
@@ -33,6 +34,7 @@ export function Breadcrumbs({ net, page, fly }: { net: NetModel; page: number; f
       <button className="quiet" onClick={() => foldAll(false)} title="Show the nets of the pages of this net">
         Unfold all
       </button>
+      <ExportButtons name={net.page(page).path} />
     </nav>
   );
 }

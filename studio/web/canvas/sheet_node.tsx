@@ -12,7 +12,7 @@ export interface SheetData extends Record<string, unknown> {
   /** Pages whose nets are drawn by sheets of their own. */
   open: string;
   folded: string;
-  /** How near it is: 2 means that lines and letters would be four times too large. */
+  /** How near it is: 2 means that lines and letters would be four times too large, -1 that they are small. */
   near: number;
   selected: string | null;
   flags: ReadonlyMap<string, "error" | "warning">;
@@ -35,7 +35,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
   const parts = { net, page, direction: sheet.direction };
   const drawn = net.page(page);
   return (
-    <svg ref={ref} className={`sheet layer-${drawn.layer} near-${data.near}`} width={sheet.width} height={sheet.height} style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }} data-sheet={drawn.path || "system"}>
+    <svg ref={ref} className={`sheet layer-${drawn.layer} near${data.near}`} width={sheet.width} height={sheet.height} style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }} data-sheet={drawn.path || "system"}>
       <Arcs net={net} page={page} sheet={sheet} />
       {drawn.nodes.map((node, index) => {
         const box = sheet.nodes[index]!;

@@ -6,6 +6,7 @@ import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";
 import { layoutStructure } from "../model/structure_layout";
 import { ChannelEdge, ChannelTip } from "./channel_edge";
+import { ExportButtons } from "./export_button";
 import { AgentNode, DeviceNode, SubsystemNode } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
@@ -100,6 +101,7 @@ function Drawing() {
         <button className="quiet" onClick={add}>
           Add agent
         </button>
+        <ExportButtons name={structure.system} />
       </div>
       <ChannelTip />
       <div className="canvas-area" onClick={click} onKeyDown={key}>

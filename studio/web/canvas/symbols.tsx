@@ -110,7 +110,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
       <text className="label frame-name" x={box.x + 14} y={box.y + header - 6} visibility={open ? "visible" : "hidden"}>
         {pageName(page)}
       </text>
-      <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />
+      {open && <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />}
       {!open && (
         <g className="closed-name">
           <text className="label large" x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3} textAnchor="middle" style={{ fontSize: size }}>
@@ -119,6 +119,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
           <text className="label layer" x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3 + 18} textAnchor="middle">
             {page.layer}
           </text>
+          <text className="label running" data-running={child} x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3 + 20 + size * 0.6} textAnchor="middle" style={{ fontSize: size * 0.75 }} />
         </g>
       )}
     </>

@@ -21,12 +21,16 @@ export function Split({ left, right, children }: { left: ReactNode; right: React
   const style = { "--left": left ? `${sizes.left}px` : "0px", "--right": `${sizes.right}px` } as CSSProperties;
   return (
     <div className="split" style={style}>
-      {left && <section className="pane left">{left}</section>}
-      {left && <Border label="Width of the text" size={sizes.left} sign={1} onChange={(size) => change("left", size)} />}
+      {left && (
+        <section className="side left" aria-label="Specification">
+          <div className="pane">{left}</div>
+          <Border label="Width of the text" size={sizes.left} sign={1} onChange={(size) => change("left", size)} />
+        </section>
+      )}
       {children}
-      <Border label="Width of the side panel" size={sizes.right} sign={-1} onChange={(size) => change("right", size)} />
-      <aside className="pane right" aria-label="Side panel">
-        {right}
+      <aside className="side right" aria-label="Side panel">
+        <Border label="Width of the side panel" size={sizes.right} sign={-1} onChange={(size) => change("right", size)} />
+        <div className="pane">{right}</div>
       </aside>
     </div>
   );

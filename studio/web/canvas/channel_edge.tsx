@@ -8,7 +8,8 @@ export function ChannelEdge(props: EdgeProps) {
   const { channel, selected, complaint } = props.data as unknown as { channel: Channel; selected: boolean; complaint?: "error" | "warning" };
   const [path, x, y] = getSmoothStepPath({ ...props, borderRadius: 8 });
   const blocking = channel.send === "blocking" || channel.receive === "blocking";
-  const spoken = `channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}${channel.timeout ? `, timeout ${channel.timeout}` : ""}`;
+  const written = channel.model || `${mode(channel.send)} → ${mode(channel.receive)}`;
+  const spoken = `${written}${channel.timeout ? ` ${channel.timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
   return (
     <>
       <BaseEdge id={props.id} path={path} className={`channel${blocking ? " blocking" : ""}${selected ? " selected" : ""}${complaint ? ` ${complaint}` : ""}`} markerEnd="url(#channel-tip)" interactionWidth={16} />
@@ -21,7 +22,7 @@ export function ChannelEdge(props: EdgeProps) {
           aria-label={spoken}
           title={spoken}
         >
-          {channel.model ? channel.model : `${mode(channel.send)} → ${mode(channel.receive)}`}
+          {written}
           {channel.timeout && <span className="faint"> {channel.timeout}</span>}
         </button>
       </EdgeLabelRenderer>

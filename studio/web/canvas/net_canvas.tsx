@@ -161,14 +161,17 @@ function sheetNode(data: SheetNode["data"]): SheetNode {
   return { id: String(page), type: "sheet", position: { x, y }, ...size, measured: size, data, zIndex: data.net.ancestry(page).length, style: { pointerEvents: "none" } };
 }
 
-/** The innermost page that fills a good part of the window. */
+/** The page one looks at: the outermost in the middle of the window that can be seen as a whole, or else the innermost there. */
 function currentPage(visible: Placed[], window: Box): number {
   const [cx, cy] = [window.x + window.width / 2, window.y + window.height / 2];
   let current = 0;
   for (const { page, sheet, x, y, scale } of visible) {
     const [width, height] = [sheet.width * scale, sheet.height * scale];
-    const inside = cx >= x && cx <= x + width && cy >= y && cy <= y + height;
-    if (inside && (width > 0.45 * window.width || height > 0.5 * window.height)) current = page;
+    if (cx < x || cx > x + width || cy < y || cy > y + height) continue;
+    if (page !== 0 && width < 0.3 * window.width && height < 0.3 * window.height) continue;
+    current = page;
+    const whole = x >= window.x && y >= window.y && x + width <= window.x + window.width && y + height <= window.y + window.height;
+    if (whole) break;
   }
   return current;
 }

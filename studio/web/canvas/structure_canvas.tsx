@@ -1,5 +1,5 @@
 import { Background, BackgroundVariant, Controls, ReactFlow, ReactFlowProvider, type Connection, type Edge, type Node } from "@xyflow/react";
-import { useMemo, type KeyboardEvent, type MouseEvent } from "react";
+import { useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../app/use";
 import { useComplaints, useStructure } from "../app/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
@@ -77,7 +77,10 @@ function Drawing() {
     studio.draft.edit(addChannel(structure, end(sourceHandle), end(targetHandle), { send: "non_blocking", receive: "non_blocking", timeout: "" }), "edit");
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
-  const click = (event: MouseEvent) => select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);
+  const dragged = useRef(false);
+  // The click that ends a drag is not meant for what lies under it.
+  const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
+  const click = (event: MouseEvent) => dragged.current || select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
@@ -111,6 +114,8 @@ function Drawing() {
           nodeTypes={nodeTypes}
           edgeTypes={edgeTypes}
           onConnect={connect}
+          onConnectStart={() => (dragged.current = true)}
+          onConnectEnd={dragEnds}
           nodesDraggable={false}
           elementsSelectable={false}
           zoomOnDoubleClick={false}

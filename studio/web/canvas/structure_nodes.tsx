@@ -65,7 +65,7 @@ function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: strin
     <div className={`port-list ${side}`}>
       {buffers.map((buffer, at) => (
         <div key={buffer.path} className="port">
-          <Handle id={buffer.path} type={side === "in" ? "target" : "source"} position={side === "in" ? Position.Left : Position.Right} style={{ top: head + at * row + row / 2 }} aria-label={`${side === "in" ? "input" : "output"} ${buffer.path}`} data-handle={buffer.path} />
+          <Handle id={buffer.path} type={side === "in" ? "target" : "source"} position={side === "in" ? Position.Left : Position.Right} style={{ top: head + at * row + row / 2 }} data-handle={buffer.path} />
           <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.type}`}>
             {buffer.name}
           </button>

@@ -56,6 +56,9 @@ export default function TextPane() {
       edited,
     ];
     const made = new EditorView({ parent: host.current!, state: EditorState.create({ doc: studio.draft.store.get().text, extensions }) });
+    made.scrollDOM.tabIndex = 0;
+    made.scrollDOM.setAttribute("aria-label", "Scrolled text");
+    made.scrollDOM.setAttribute("role", "region");
     view.current = made;
     mark(made, studio.draft.store.get().diagnostics);
     return () => made.destroy();

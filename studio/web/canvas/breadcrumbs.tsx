@@ -4,7 +4,7 @@ import { layerTitle, pageName } from "../model/labels";
 import type { NetModel } from "../model/net";
 
 /** Where the drawing is, from the system down; each part flies there. Beside it: fold and unfold. */
-export function Breadcrumbs({ net, page, fly }: { net: NetModel; page: number; fly: (path: string) => boolean }) {
+export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
   const studio = useStudio();
   const selected = useStore(studio.view, (view) => view.selected);
   const chain = net.ancestry(page);
@@ -15,7 +15,7 @@ export function Breadcrumbs({ net, page, fly }: { net: NetModel; page: number; f
       <ol>
         {chain.map((at) => (
           <li key={at}>
-            <button className="crumb" aria-current={at === page ? "page" : undefined} title={layerTitle[net.page(at).layer]} onClick={() => fly(net.page(at).path)}>
+            <button className="crumb" aria-current={at === page ? "page" : undefined} title={layerTitle[net.page(at).layer]} onClick={() => studio.fly(net.page(at).path)}>
               {pageName(net.page(at))}
             </button>
           </li>

@@ -1,5 +1,5 @@
 import { Background, BackgroundVariant, Controls, ReactFlow, ReactFlowProvider, useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
-import { useCallback, useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
 import { useStore, useStudio } from "../app/use";
 import { flagsOf } from "../model/flags";
 import { spoken } from "../model/labels";
@@ -41,19 +41,23 @@ function useSheets(net: NetModel): { sheets: Sheets; version: number } {
   return { sheets, version };
 }
 
-function useFlight(sheets: Sheets) {
+/** Flies to where a request leads, as soon as the sheets on the way are there; what is folded on the way is opened. */
+function useFlight(sheets: Sheets, version: number): void {
+  const studio = useStudio();
   const flow = useReactFlow();
-  return useCallback(
-    (path: string, how: "fit" | "near" = "fit") => {
-      const element = sheets.net.find(path);
-      const box = sheets.boxOf(path);
-      if (!element || !box) return false;
-      const around: Box = how === "fit" && element.kind === "page" ? box : wider(box, element.kind === "page" ? 2 : 9);
-      void flow.fitBounds(around, { duration: still.matches ? 0 : 350, padding: 0.06 });
-      return true;
-    },
-    [flow, sheets],
-  );
+  const flight = useStore(studio.view, (view) => view.flight);
+  const done = useRef(0);
+  useEffect(() => {
+    const element = flight && sheets.net.find(flight.path);
+    if (!flight || !element || flight.request === done.current) return;
+    const closed = sheets.net.ancestry(element.page).filter((page) => page !== 0 && sheets.folded(page));
+    if (closed.length > 0) return studio.foldMany(closed.map((page) => sheets.net.page(page).path), false);
+    const box = sheets.boxOf(flight.path);
+    if (!box) return;
+    done.current = flight.request;
+    const open = element.kind === "page" && (element.index < 0 || !sheets.folded(sheets.net.pageByPath.get(flight.path)!));
+    void flow.fitBounds(open ? box : wider(box, 9), { duration: still.matches ? 0 : 350, padding: 0.06 });
+  }, [flight, sheets, version, flow, studio]);
 }
 
 const wider = (box: Box, times: number): Box => {
@@ -69,7 +73,7 @@ function Drawing({ net }: { net: NetModel }) {
   const selected = useStore(studio.view, (view) => view.selected);
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);
   const flags = useMemo(() => flagsOf(net, diagnostics), [net, diagnostics]);
-  const fly = useFlight(sheets);
+  useFlight(sheets, version);
   const visible = useMemo(
     () => (width > 0 ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom }) : sheets.visible({ x: -1e6, y: -1e6, width: 2e6, height: 2e6, zoom: 1 })),
     [sheets, version, x, y, zoom, width, height],
@@ -77,7 +81,6 @@ function Drawing({ net }: { net: NetModel }) {
   const nodes = useNodes(net, sheets, visible, zoom, selected, flags);
   const current = currentPage(visible, { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom });
   useFirstView(net, sheets, version, width);
-  useRequestedFlight(fly, version);
 
   const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
   const click = (event: MouseEvent) => {
@@ -91,15 +94,15 @@ function Drawing({ net }: { net: NetModel }) {
     if (path === null) return;
     const page = net.pageByPath.get(path);
     if (page !== undefined && sheets.folded(page)) studio.fold(path, false);
-    else fly(path);
+    else studio.fly(path);
   };
   const keys = (event: KeyboardEvent) => {
-    if (canvasKey(event, { net, sheets, visible, selected, current, fly, studio, flow })) event.preventDefault();
+    if (canvasKey(event, { net, sheets, visible, selected, current, studio, flow })) event.preventDefault();
   };
   return (
     <div className="canvas" data-testid="canvas">
       <ArrowTips />
-      <Breadcrumbs net={net} page={current} fly={fly} />
+      <Breadcrumbs net={net} page={current} />
       <div className="canvas-area" role="application" aria-label="Drawing of the net. Arrow keys move, Enter opens, Escape goes up, F folds." tabIndex={0} onClick={click} onDoubleClick={doubleClick} onKeyDown={keys}>
         <ReactFlow<SheetNode>
           nodes={nodes}
@@ -192,23 +195,12 @@ function useFirstView(net: NetModel, sheets: Sheets, version: number, width: num
   }, [net, sheets, version, width, flow]);
 }
 
-/** Other parts of the page ask for a flight by the view's `flight`. */
-function useRequestedFlight(fly: (path: string, how?: "fit" | "near") => boolean, version: number): void {
-  const studio = useStudio();
-  const flight = useStore(studio.view, (view) => view.flight);
-  const done = useRef(0);
-  useEffect(() => {
-    if (flight && flight.request !== done.current && fly(flight.path, "fit")) done.current = flight.request;
-  }, [flight, fly, version]);
-}
-
 interface KeyContext {
   net: NetModel;
   sheets: Sheets;
   visible: Placed[];
   selected: string | null;
   current: number;
-  fly: (path: string, how?: "fit" | "near") => boolean;
   studio: ReturnType<typeof useStudio>;
   flow: ReturnType<typeof useReactFlow>;
 }
@@ -216,7 +208,7 @@ interface KeyContext {
 const directions: Record<string, Direction> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 
 function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
-  const { net, sheets, selected, current, fly, studio, flow } = context;
+  const { net, sheets, selected, current, studio, flow } = context;
   const direction = directions[event.key];
   if (direction) {
     const on = selected === null ? current : net.find(selected)!.page;
@@ -232,7 +224,7 @@ function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
       if (transition !== undefined && studio.stage.mode === "game") return studio.play.choose(transition);
       if (page === undefined) return false;
       if (sheets.folded(page)) studio.fold(selected!, false);
-      fly(selected!);
+      studio.fly(selected!);
       const first = net.elementsOf(page)[net.page(page).input];
       if (first && !sheets.folded(page)) studio.select(first.path);
       return true;
@@ -241,7 +233,8 @@ function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
     case "Backspace": {
       const up = net.page(current).parent ?? 0;
       studio.select(current === 0 ? null : net.page(current).path);
-      return fly(net.page(up).path);
+      studio.fly(net.page(up).path);
+      return true;
     }
     case "f":
       if (page === undefined) return false;
@@ -255,7 +248,8 @@ function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
       void flow.zoomOut();
       return true;
     case "0":
-      return fly("");
+      studio.fly("");
+      return true;
     default:
       return false;
   }

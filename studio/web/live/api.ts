@@ -24,8 +24,23 @@ export function takeToken(): string {
   return sessionStorage.getItem(key) ?? "";
 }
 
+/** Another tab was opened with the key of a server that was started anew: this one can use it too. */
+export function shareToken(token: string, taken: (token: string) => void): void {
+  const tabs = new BroadcastChannel(key);
+  tabs.onmessage = (event: MessageEvent<string>) => {
+    if (event.data === sessionStorage.getItem(key)) return;
+    sessionStorage.setItem(key, event.data);
+    taken(event.data);
+  };
+  tabs.postMessage(token);
+  // The new address in the old tab changes only what stands behind the #.
+  addEventListener("hashchange", () => {
+    if (location.hash.includes("token=")) location.reload();
+  });
+}
+
 export class Api {
-  constructor(readonly token: string) {}
+  constructor(public token: string) {}
 
   private async ask<T>(method: string, path: string, body?: unknown): Promise<T> {
     const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
@@ -65,5 +80,11 @@ export class Api {
       Array.isArray(answer) ? answer : answer.recordings,
     );
   recording = (name: string) => this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}`);
+  /** The floor picture of that name. */
+  async track(name: string): Promise<ImageBitmap> {
+    const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, { headers: { Authorization: `Bearer ${this.token}` } });
+    if (!answer.ok) throw new ApiError(answer.status, `There is no floor picture ${name}.`);
+    return createImageBitmap(await answer.blob());
+  }
   eventsAddress = () => `/api/events?token=${encodeURIComponent(this.token)}`;
 }

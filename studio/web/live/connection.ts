@@ -7,7 +7,7 @@ export interface ConnectionState {
   attempt: number;
 }
 type Handler = (data: never) => void;
-const names = ["hello", "spec", "verify", "build", "run", "firings", "values", "pose"] as const;
+const names = ["hello", "spec", "verify", "build", "log", "run", "firings", "values", "pose"] as const;
 export type EventName = (typeof names)[number];
 
 /** The event stream, opened again whenever it breaks. */
@@ -23,6 +23,13 @@ export class Connection {
     const set = this.handlers.get(name) ?? new Set();
     set.add(handler as Handler);
     this.handlers.set(name, set);
+  }
+
+  /** With another key, when the one there was did not do. */
+  openWith(token: string): void {
+    if (this.store.get().state !== "refused") return;
+    this.api.token = token;
+    this.open();
   }
 
   open(): void {

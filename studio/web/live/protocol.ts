@@ -22,6 +22,7 @@ export interface Project {
   file: string;
   version: string;
   worlds: { name: string; tracks: string[] }[];
+  simulation?: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
 }
 export interface SpecAnswer {
   text: string;
@@ -46,7 +47,8 @@ export interface Verdict {
 }
 export interface VerifyResult {
   net_hash?: string;
-  properties: Verdict[];
+  properties?: Verdict[];
+  error?: string;
 }
 export type VerifyState = "running" | "done" | "stopped" | "failed";
 export interface VerifyEvent {
@@ -61,6 +63,9 @@ export interface VerifyEvent {
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
 export interface RunInfo {
   run: string;
+  kind?: RunRequest["kind"];
+  /** The floor picture, when it is another than that of the specification. */
+  track?: string | null;
   state: RunState;
   why?: string;
   outcome?: unknown;

@@ -32,6 +32,9 @@ export class Track {
   dropped = 0;
   now = 0;
 
+  /** The floor, when there is a picture of it. */
+  floor: { image: ImageBitmap; metresPerPixel: number } | null = null;
+
   constructor(readonly net: NetModel) {
     this.timeline = new Timeline(net);
   }
@@ -48,7 +51,8 @@ export class Runner {
     private readonly stage: Stage,
     connection: Connection,
   ) {
-    connection.on<{ run: string; line: string }>("build", (event) => this.mine(event) && this.store.set({ build: [...this.store.get().build.slice(-400), event.line] }));
+    for (const name of ["build", "log"] as const)
+      connection.on<{ run: string; line: string }>(name, (event) => this.mine(event) && this.store.set({ build: [...this.store.get().build.slice(-400), event.line] }));
     connection.on<RunInfo>("run", (event) => this.mine(event) && this.told(event));
     connection.on<FiringsEvent>("firings", (event) => this.mine(event) && this.fired(event));
     connection.on<ValuesEvent>("values", (event) => this.mine(event) && this.valued(event));
@@ -67,6 +71,7 @@ export class Runner {
     if (!net) return;
     this.store.set({ ...idle, breakpoints: this.store.get().breakpoints, state: "building", kind: request.kind, speed: request.speed ?? 1 });
     this.watch(net);
+    void this.showFloor(request.track);
     try {
       const { run } = await this.api.start(request);
       this.store.set({ run });
@@ -88,8 +93,9 @@ export class Runner {
         return;
       }
       if (going.run !== this.store.get().run && net) {
-        this.store.set({ ...idle, run: going.run, state: going.state });
+        this.store.set({ ...idle, run: going.run, state: going.state, kind: going.kind ?? "simulate" });
         this.watch(net);
+        void this.showFloor(going.track ?? undefined);
       }
       this.told({ ...(await this.api.run(going.run)), run: going.run });
     } catch (error) {
@@ -100,6 +106,17 @@ export class Runner {
   private watch(net: NetModel): void {
     this.track = new Track(net);
     this.stage.reset(net, "live");
+  }
+
+  private async showFloor(chosen: string | undefined): Promise<void> {
+    const { track } = this;
+    try {
+      const own = (await this.api.project()).simulation?.track;
+      const image = chosen || own?.image;
+      if (track && image) track.floor = { image: await this.api.track(image), metresPerPixel: own?.metres_per_pixel ?? 0.005 };
+    } catch {
+      // Without the picture the path is drawn on nothing.
+    }
   }
 
   private told(info: Partial<RunInfo>): void {

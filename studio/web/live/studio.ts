@@ -1,4 +1,4 @@
-import { Api, takeToken } from "./api";
+import { Api, shareToken, takeToken } from "./api";
 import { Connection } from "./connection";
 import { Draft, message } from "./draft";
 import type { Project } from "./protocol";
@@ -79,12 +79,14 @@ export class Studio {
 
   async open(): Promise<void> {
     try {
+      const loaded = this.draft.load();
       this.project.set({ project: await this.api.project(), problem: "" });
-      await this.draft.load();
+      await loaded;
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
     this.connection.open();
+    if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
 
   /** Another server than before: what it knows of the file may be new. */
@@ -117,9 +119,14 @@ export class Studio {
     this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
   }
 
-  /** Shows an element in the drawing of the net. */
-  flyTo(path: string): void {
+  /** Moves the drawing of the net to an element. */
+  fly(path: string): void {
     this.view.set({ view: "net", flight: { path, request: (this.view.get().flight?.request ?? 0) + 1 } });
+  }
+
+  /** The same, and selects it. */
+  flyTo(path: string): void {
+    this.fly(path);
     this.select(path);
   }
 

@@ -65,8 +65,8 @@ export class Verifier {
       property: event.property ?? property,
       states: event.states ?? states,
       rate: event.rate ?? rate,
-      ...(event.result ? { verdicts: event.result.properties } : {}),
-      ...(event.error ? { problem: event.error } : {}),
+      verdicts: event.result?.properties ?? [],
+      problem: event.error ?? event.result?.error ?? "",
     });
     if (event.state === "done" && !event.result) void this.fetchResult();
   }
@@ -74,7 +74,7 @@ export class Verifier {
   private async fetchResult(): Promise<void> {
     try {
       const { result } = await this.api.verifyState(this.job!);
-      if (result) this.store.set({ verdicts: result.properties });
+      if (result) this.store.set({ verdicts: result.properties ?? [], problem: result.error ?? "" });
     } catch (error) {
       this.store.set({ state: "failed", problem: message(error) });
     }
@@ -83,7 +83,11 @@ export class Verifier {
 
 /** The firings of a violation as transitions of the net; null when there is none, or it is not of this net. */
 export function stepsOf(verdict: Verdict, net: NetModel): number[] | null {
-  if (verdict.steps && verdict.steps.length > 0) return verdict.steps;
+  if (verdict.steps && verdict.steps.length > 0) {
+    // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
+    const end = verdict.steps.findIndex((step) => step >= net.transitions.length);
+    return end < 0 ? verdict.steps : verdict.steps.slice(0, end);
+  }
   if (!verdict.trace || verdict.trace.length === 0) return null;
   const steps = verdict.trace.map((step) => net.transitionByName.get(step.transition) ?? -1);
   return steps.includes(-1) ? null : steps;

@@ -11,10 +11,11 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
     context.fillText("No path yet", 10, 20);
     return;
   }
-  const box = boundsOf(path);
+  const box = boundsOf(path, track.floor);
   const scale = Math.min((size.width - 30) / (box.right - box.left), (size.height - 34) / (box.top - box.bottom));
   const x = (at: number) => size.width / 2 + (at - (box.left + box.right) / 2) * scale;
   const y = (at: number) => (size.height - 10) / 2 - (at - (box.top + box.bottom) / 2) * scale;
+  drawFloor(context, track.floor, x, y, scale);
   context.strokeStyle = colours.accent;
   context.lineWidth = 1.5;
   context.beginPath();
@@ -28,8 +29,19 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
   drawScale(context, size, colours, scale);
 }
 
-function boundsOf(path: Track["path"]) {
+/** The picture's lower left corner is the floor's origin. */
+function drawFloor(context: CanvasRenderingContext2D, floor: Track["floor"], x: (at: number) => number, y: (at: number) => number, scale: number): void {
+  if (!floor) return;
+  const [width, height] = [floor.image.width * floor.metresPerPixel, floor.image.height * floor.metresPerPixel];
+  context.save();
+  context.globalAlpha = 0.35;
+  context.drawImage(floor.image, x(0), y(height), width * scale, height * scale);
+  context.restore();
+}
+
+function boundsOf(path: Track["path"], floor: Track["floor"]) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  if (floor) Object.assign(box, { left: 0, bottom: 0, right: floor.image.width * floor.metresPerPixel, top: floor.image.height * floor.metresPerPixel });
   for (const { x, y } of path) {
     box.left = Math.min(box.left, x);
     box.right = Math.max(box.right, x);
@@ -37,6 +49,7 @@ function boundsOf(path: Track["path"]) {
     box.top = Math.max(box.top, y);
   }
   // At least half a metre, or a robot that stands still fills the window.
+  if (floor) return box;
   const grow = (low: number, high: number) => Math.max(0, 0.5 - (high - low)) / 2 + 0.05;
   const [across, along] = [grow(box.left, box.right), grow(box.bottom, box.top)];
   return { left: box.left - across, right: box.right + across, bottom: box.bottom - along, top: box.top + along };

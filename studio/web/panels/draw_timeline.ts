@@ -37,8 +37,8 @@ function drawAxis(context: CanvasRenderingContext2D, size: Size, colours: Colour
     context.moveTo(at, 0);
     context.lineTo(at, size.height - axis);
     context.stroke();
-    context.textAlign = "center";
-    context.fillText(`${Number(second.toFixed(3))} s`, at, size.height - axis / 2);
+    context.textAlign = at > size.width - 16 ? "right" : "center";
+    context.fillText(`${Number(second.toFixed(3))} s`, Math.min(at, size.width - 2), size.height - axis / 2);
   }
   context.textAlign = "left";
 }

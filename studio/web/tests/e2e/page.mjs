@@ -1,7 +1,8 @@
 // What the end-to-end tests share: a server for a copy of an example, a page on it, and what may never happen.
 import assert from "node:assert/strict";
 import { fileURLToPath } from "node:url";
-import { serve } from "../fixture-server.mjs";
+const { serve } = await import(process.env.STUDIO_FIXTURE ? "../fixture-server.mjs" : "../studio-server.mjs");
+export { serve };
 import { launch } from "./browser.mjs";
 
 export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
@@ -11,9 +12,10 @@ export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, impo
 export async function onPage(project, test, options = {}) {
   const server = await serve(project, options.server);
   const browser = await launch();
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
   const problems = [];
   const open = async () => {
-    const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
+    const page = await context.newPage();
     page.setDefaultTimeout(15_000);
     page.on("pageerror", (error) => problems.push(error.stack));
     page.on("request", (request) => {

@@ -2,8 +2,7 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
-import { serve } from "../fixture-server.mjs";
-import { button, changes, draftText, element, example, find, folder, onPage, tab, until } from "./page.mjs";
+import { button, changes, draftText, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -230,18 +229,29 @@ test("two browsers see each other's saves", () =>
     await other.getByTestId("editor").getByText("33 Hz").waitFor();
   }));
 
-test("a server that is killed and started again is noticed and found again", () =>
-  onPage(lineFollower, async (page, server) => {
+test("a server that is killed and started again is noticed, and found again with its new key", () =>
+  onPage(lineFollower, async (page, server, open) => {
     await page.locator(".sheet").first().waitFor();
-    await server.close();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
+    await page.keyboard.press("Enter");
+    await server.close({ keep: true });
     await page.getByText("The server does not answer").waitFor();
-    const again = await serve(server.root, { port: server.port, token: server.token, copy: false });
-    await page.getByText("connected again").waitFor();
-    await page.getByText("The server does not answer").waitFor({ state: "detached" });
-    await again.close();
-    const stranger = await serve(server.root, { port: server.port, copy: false });
-    await page.getByText("The server was started anew").waitFor();
-    await stranger.close();
+    const again = await serve(server.root, { port: server.port, copy: false });
+    try {
+      await page.getByText("The server was started anew").waitFor();
+      // `tessera studio` opens its new address; the old tab hears of it.
+      const other = await open();
+      await other.goto(again.url);
+      await page.getByText("The server was started anew").waitFor({ state: "detached" });
+      await page.getByText("connected again").waitFor();
+      await page.keyboard.press("Control+s");
+      await page.getByText("Saved").waitFor();
+      assert.match(again.text(), /rate: 40 Hz/);
+    } finally {
+      await again.close();
+    }
   }));
 
 test("a wrong key is said to be wrong, not a blank page", () =>

@@ -1,6 +1,7 @@
 import { Background, BackgroundVariant, Controls, ReactFlow, ReactFlowProvider, useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
 import { useStore, useStudio } from "../app/use";
+import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";
 import { spoken } from "../model/labels";
 import type { NetModel } from "../model/net";
@@ -72,7 +73,12 @@ function Drawing({ net }: { net: NetModel }) {
   const [x, y, zoom, width, height] = useFlow(windowOf).split(",").map(Number) as [number, number, number, number, number];
   const selected = useStore(studio.view, (view) => view.selected);
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);
-  const flags = useMemo(() => flagsOf(net, diagnostics), [net, diagnostics]);
+  const verified = useStore(studio.verifier.store, (all) => all);
+  const flags = useMemo(() => {
+    const marked = flagsOf(net, diagnostics);
+    if (verified.net === net) for (const path of stuck(verified.verdicts)) marked.set(path, "error");
+    return marked;
+  }, [net, diagnostics, verified]);
   useFlight(sheets, version);
   const visible = useMemo(
     () => (width > 0 ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom }) : sheets.visible({ x: -1e6, y: -1e6, width: 2e6, height: 2e6, zoom: 1 })),

@@ -81,6 +81,12 @@ export class Verifier {
   }
 }
 
+/** The subsystems that wait for ever in some violation, by path: what the drawing marks. */
+export function stuck(verdicts: readonly Verdict[]): string[] {
+  const waits = verdicts.filter((one) => one.verdict === "violated").flatMap((one) => one.waits ?? []);
+  return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];
+}
+
 /** The firings of a violation as transitions of the net; null when there is none, or it is not of this net. */
 export function stepsOf(verdict: Verdict, net: NetModel): number[] | null {
   if (verdict.steps && verdict.steps.length > 0) {

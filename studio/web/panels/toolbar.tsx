@@ -30,6 +30,7 @@ export function Toolbar() {
         <Icon name="search" /> Find by path <kbd>Ctrl K</kbd>
       </button>
       <span className="spring" />
+      <Verdicts />
       <button className="icon" aria-label="Undo" title="Undo (Ctrl Z)" disabled={!draft.canUndo} onClick={() => studio.draft.undo()}>
         <Icon name="undo" />
       </button>
@@ -46,5 +47,22 @@ export function Toolbar() {
         Save
       </button>
     </header>
+  );
+}
+
+/** What the last verification said of the text as it is, in one look. */
+function Verdicts() {
+  const studio = useStudio();
+  const { verdicts, text, state } = useStore(studio.verifier.store, (all) => all);
+  const now = useStore(studio.draft.store, (draft) => draft.text);
+  if (state === "running") return <span className="faint">verifying…</span>;
+  if (verdicts.length === 0 || text !== now) return null;
+  const violated = verdicts.filter((one) => one.verdict === "violated" && !one.warning).length;
+  const unknown = verdicts.filter((one) => one.verdict === "unknown").length;
+  const said = violated > 0 ? `${violated} violated` : unknown > 0 ? `${unknown} unknown` : "verified";
+  return (
+    <button className="quiet" onClick={() => studio.view.set({ panel: "verify" })}>
+      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said}
+    </button>
   );
 }

@@ -16,7 +16,7 @@ export async function onPage(project, test, options = {}) {
   const problems = [];
   const open = async () => {
     const page = await context.newPage();
-    page.setDefaultTimeout(15_000);
+    page.setDefaultTimeout(60_000);
     page.on("pageerror", (error) => problems.push(error.stack));
     page.on("request", (request) => {
       const { protocol, host } = new URL(request.url());
@@ -58,7 +58,7 @@ export function changes(before, after) {
 
 /** Waits until `look` gives something that is not undefined, null or false. */
 export async function until(page, look, what) {
-  for (let turn = 0; turn < 300; turn += 1) {
+  for (let turn = 0; turn < 1000; turn += 1) {
     const found = await look();
     if (found !== undefined && found !== null && found !== false) return found;
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 30))));

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { stepsOf } from "../../live/verifier";
+import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
@@ -69,6 +69,14 @@ describe("stepsOf", () => {
     expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "t_in" }] }, net)).toEqual([named("t_in")]);
     expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "other" }] }, net)).toBeNull();
     expect(stepsOf({ name: "x", verdict: "violated", trace: null }, net)).toBeNull();
+  });
+});
+
+describe("stuck", () => {
+  it("names who waits in a violation, once", () => {
+    const waits = ["a.control waits for the acknowledgement of x from b", "b waits for y"];
+    const verdicts = [{ name: "p", verdict: "violated" as const, waits }, { name: "q", verdict: "violated" as const, waits: waits.slice(0, 1) }, { name: "r", verdict: "holds" as const, waits: ["c waits for z"] }];
+    expect(stuck(verdicts)).toEqual(["a.control", "b"]);
   });
 });
 

@@ -71,11 +71,20 @@ function Centre() {
       {view === "structure" ? (
         <StructureCanvas />
       ) : net === null ? (
-        <Empty title="No drawing yet" text="The specification has errors. They are listed below and marked in the text; the drawing appears when they are gone." />
+        <Empty
+          title="No drawing yet"
+          text="The specification has errors. They are listed below and marked in the text; the drawing appears when they are gone."
+        />
       ) : (
         <>
-          {net !== edited && <div className="strip">The text changed since; this is the net that {shown.mode === "live" ? "runs" : "is played"}.</div>}
-          {!current && net === edited && <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>}
+          {net !== edited && (
+            <div className="strip">
+              The text changed since; this is the net that {shown.mode === "live" ? "runs" : "is played"}.
+            </div>
+          )}
+          {!current && net === edited && (
+            <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>
+          )}
           <NetCanvas net={net} />
         </>
       )}
@@ -116,4 +125,5 @@ function useShortcuts(): void {
 }
 
 /** In a text field, undo is the field's. */
-const isField = (target: EventTarget | null, key: string) => target instanceof HTMLInputElement && "zy".includes(key.toLowerCase());
+const isField = (target: EventTarget | null, key: string) =>
+  target instanceof HTMLInputElement && "zy".includes(key.toLowerCase());

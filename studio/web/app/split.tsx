@@ -36,7 +36,17 @@ export function Split({ left, right, children }: { left: ReactNode; right: React
   );
 }
 
-function Border({ label, size, sign, onChange }: { label: string; size: number; sign: 1 | -1; onChange: (size: number) => void }) {
+function Border({
+  label,
+  size,
+  sign,
+  onChange,
+}: {
+  label: string;
+  size: number;
+  sign: 1 | -1;
+  onChange: (size: number) => void;
+}) {
   const drag = (event: PointerEvent<HTMLDivElement>) => {
     const [from, start] = [event.clientX, size];
     const border = event.currentTarget;
@@ -49,5 +59,18 @@ function Border({ label, size, sign, onChange }: { label: string; size: number; 
     const step = event.key === "ArrowRight" ? 16 : event.key === "ArrowLeft" ? -16 : 0;
     if (step) onChange(size + sign * step);
   };
-  return <div className="border" role="separator" aria-orientation="vertical" aria-label={label} aria-valuenow={size} aria-valuemin={220} aria-valuemax={1200} tabIndex={0} onPointerDown={drag} onKeyDown={key} />;
+  return (
+    <div
+      className="border"
+      role="separator"
+      aria-orientation="vertical"
+      aria-label={label}
+      aria-valuenow={size}
+      aria-valuemin={220}
+      aria-valuemax={1200}
+      tabIndex={0}
+      onPointerDown={drag}
+      onKeyDown={key}
+    />
+  );
 }

@@ -9,11 +9,17 @@ export function useRunning(): ReadonlyMap<string, string> {
   const net = useStore(studio.stage.shown, (all) => all.net);
   const [text, setText] = useState("");
   useEffect(() => {
-    const look = () => setText(net && studio.stage.mode !== "edit" && studio.stage.is(net) ? running(net, studio.stage.marking) : "");
+    const look = () =>
+      setText(net && studio.stage.mode !== "edit" && studio.stage.is(net) ? running(net, studio.stage.marking) : "");
     look();
     return studio.stage.subscribe(look);
   }, [net, studio]);
-  return new Map(text.split("\n").filter(Boolean).map((line) => line.split("=") as [string, string]));
+  return new Map(
+    text
+      .split("\n")
+      .filter(Boolean)
+      .map((line) => line.split("=") as [string, string]),
+  );
 }
 
 function running(net: NetModel, marking: Int32Array): string {

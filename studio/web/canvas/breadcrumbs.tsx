@@ -9,13 +9,22 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
   const selected = useStore(studio.view, (view) => view.selected);
   const chain = net.ancestry(page);
   const foldable = selected !== null && net.pageByPath.has(selected) && selected !== "";
-  const foldAll = (folded: boolean) => studio.foldMany(net.children(page).map((child) => net.page(child).path), folded);
+  const foldAll = (folded: boolean) =>
+    studio.foldMany(
+      net.children(page).map((child) => net.page(child).path),
+      folded,
+    );
   return (
     <nav className="breadcrumbs" aria-label="Layers">
       <ol>
         {chain.map((at) => (
           <li key={at}>
-            <button className="crumb" aria-current={at === page ? "page" : undefined} title={layerTitle[net.page(at).layer]} onClick={() => studio.fly(net.page(at).path)}>
+            <button
+              className="crumb"
+              aria-current={at === page ? "page" : undefined}
+              title={layerTitle[net.page(at).layer]}
+              onClick={() => studio.fly(net.page(at).path)}
+            >
               {pageName(net.page(at))}
             </button>
           </li>
@@ -24,7 +33,11 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
       <span className="layer-name">{layerTitle[net.page(page).layer]}</span>
       <span className="spring" />
       {foldable && (
-        <button className="quiet" onClick={() => studio.fold(selected, true)} title="Draw the selected page as a double circle (F)">
+        <button
+          className="quiet"
+          onClick={() => studio.fold(selected, true)}
+          title="Draw the selected page as a double circle (F)"
+        >
           Fold {selected.split(".").at(-1)}
         </button>
       )}

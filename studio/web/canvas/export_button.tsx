@@ -13,7 +13,10 @@ export function ExportButtons({ name }: { name: string }) {
     setBusy(true);
     try {
       const picture = takePicture(area);
-      download(format === "svg" ? new Blob([picture.text], { type: "image/svg+xml" }) : await asPng(picture), `${name || "system"}.${format}`);
+      download(
+        format === "svg" ? new Blob([picture.text], { type: "image/svg+xml" }) : await asPng(picture),
+        `${name || "system"}.${format}`,
+      );
     } catch (error) {
       studio.draft.store.set({ notice: message(error) });
     }

@@ -1,4 +1,13 @@
-import { Background, BackgroundVariant, Controls, ReactFlow, ReactFlowProvider, useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
+import {
+  Background,
+  BackgroundVariant,
+  Controls,
+  ReactFlow,
+  ReactFlowProvider,
+  useReactFlow,
+  useStore as useFlow,
+  type ReactFlowState,
+} from "@xyflow/react";
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
 import { useStore, useStudio } from "../app/use";
 import { stuck } from "../live/verifier";
@@ -52,7 +61,11 @@ function useFlight(sheets: Sheets, version: number): void {
     const element = flight && sheets.net.find(flight.path);
     if (!flight || !element || flight.request === done.current) return;
     const closed = sheets.net.ancestry(element.page).filter((page) => page !== 0 && sheets.folded(page));
-    if (closed.length > 0) return studio.foldMany(closed.map((page) => sheets.net.page(page).path), false);
+    if (closed.length > 0)
+      return studio.foldMany(
+        closed.map((page) => sheets.net.page(page).path),
+        false,
+      );
     const box = sheets.boxOf(flight.path);
     if (!box) return;
     done.current = flight.request;
@@ -81,7 +94,10 @@ function Drawing({ net }: { net: NetModel }) {
   }, [net, diagnostics, verified]);
   useFlight(sheets, version);
   const visible = useMemo(
-    () => (width > 0 ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom }) : sheets.visible({ x: -1e6, y: -1e6, width: 2e6, height: 2e6, zoom: 1 })),
+    () =>
+      width > 0
+        ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom })
+        : sheets.visible({ x: -1e6, y: -1e6, width: 2e6, height: 2e6, zoom: 1 }),
     [sheets, version, x, y, zoom, width, height],
   );
   const nodes = useNodes(net, sheets, visible, zoom, selected, flags);
@@ -109,7 +125,15 @@ function Drawing({ net }: { net: NetModel }) {
     <div className="canvas" data-testid="canvas">
       <ArrowTips />
       <Breadcrumbs net={net} page={current} />
-      <div className="canvas-area" role="application" aria-label="Drawing of the net. Arrow keys move, Enter opens, Escape goes up, F folds." tabIndex={0} onClick={click} onDoubleClick={doubleClick} onKeyDown={keys}>
+      <div
+        className="canvas-area"
+        role="application"
+        aria-label="Drawing of the net. Arrow keys move, Enter opens, Escape goes up, F folds."
+        tabIndex={0}
+        onClick={click}
+        onDoubleClick={doubleClick}
+        onKeyDown={keys}
+      >
         <ReactFlow<SheetNode>
           nodes={nodes}
           edges={noEdges}
@@ -137,7 +161,14 @@ function Drawing({ net }: { net: NetModel }) {
 
 const noEdges: never[] = [];
 
-function useNodes(net: NetModel, sheets: Sheets, visible: Placed[], zoom: number, selected: string | null, flags: ReadonlyMap<string, "error" | "warning">): SheetNode[] {
+function useNodes(
+  net: NetModel,
+  sheets: Sheets,
+  visible: Placed[],
+  zoom: number,
+  selected: string | null,
+  flags: ReadonlyMap<string, "error" | "warning">,
+): SheetNode[] {
   const before = useRef(new Map<number, SheetNode>());
   return useMemo(() => {
     const shown = new Set(visible.map((placed) => placed.page));
@@ -161,13 +192,33 @@ const isOn = (net: NetModel, page: number, path: string) => path.startsWith(net.
 
 function alike(node: SheetNode, data: SheetNode["data"]): boolean {
   const old = node.data;
-  return old.net === data.net && old.open === data.open && old.folded === data.folded && old.near === data.near && old.selected === data.selected && old.flags === data.flags && old.placed.sheet === data.placed.sheet && node.position.x === data.placed.x && node.position.y === data.placed.y && old.placed.scale === data.placed.scale;
+  return (
+    old.net === data.net &&
+    old.open === data.open &&
+    old.folded === data.folded &&
+    old.near === data.near &&
+    old.selected === data.selected &&
+    old.flags === data.flags &&
+    old.placed.sheet === data.placed.sheet &&
+    node.position.x === data.placed.x &&
+    node.position.y === data.placed.y &&
+    old.placed.scale === data.placed.scale
+  );
 }
 
 function sheetNode(data: SheetNode["data"]): SheetNode {
   const { page, x, y, sheet, scale } = data.placed;
   const size = { width: sheet.width * scale, height: sheet.height * scale };
-  return { id: String(page), type: "sheet", position: { x, y }, ...size, measured: size, data, zIndex: data.net.ancestry(page).length, style: { pointerEvents: "none" } };
+  return {
+    id: String(page),
+    type: "sheet",
+    position: { x, y },
+    ...size,
+    measured: size,
+    data,
+    zIndex: data.net.ancestry(page).length,
+    style: { pointerEvents: "none" },
+  };
 }
 
 /** The page one looks at: the outermost in the middle of the window that can be seen as a whole, or else the innermost there. */
@@ -179,7 +230,8 @@ function currentPage(visible: Placed[], window: Box): number {
     if (cx < x || cx > x + width || cy < y || cy > y + height) continue;
     if (page !== 0 && width < 0.3 * window.width && height < 0.3 * window.height) continue;
     current = page;
-    const whole = x >= window.x && y >= window.y && x + width <= window.x + window.width && y + height <= window.y + window.height;
+    const whole =
+      x >= window.x && y >= window.y && x + width <= window.x + window.width && y + height <= window.y + window.height;
     if (whole) break;
   }
   return current;
@@ -195,7 +247,8 @@ function useFirstView(net: NetModel, sheets: Sheets, version: number, width: num
     done.current = true;
     const agents = net.children(0);
     // One agent alone: its inside is what one wants to see.
-    const only = agents.length === 1 ? root.sheet.nodes[net.page(0).nodes.findIndex((node) => node.page === agents[0])] : undefined;
+    const only =
+      agents.length === 1 ? root.sheet.nodes[net.page(0).nodes.findIndex((node) => node.page === agents[0])] : undefined;
     const box = only ? boxWithin(root, only) : { x: 0, y: 0, width: root.sheet.width, height: root.sheet.height };
     void flow.fitBounds(box, { duration: 0, padding: 0.03 });
   }, [net, sheets, version, width, flow]);
@@ -260,4 +313,3 @@ function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
       return false;
   }
 }
-

@@ -1,7 +1,23 @@
 /** A view of the page as one SVG that stands on its own, for a paper or a report. */
 
 const svg = "http://www.w3.org/2000/svg";
-const kept = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "stroke-linecap", "opacity", "font-family", "font-size", "font-weight", "font-style", "text-anchor", "paint-order", "marker-end"];
+const kept = [
+  "fill",
+  "fill-opacity",
+  "stroke",
+  "stroke-width",
+  "stroke-dasharray",
+  "stroke-linejoin",
+  "stroke-linecap",
+  "opacity",
+  "font-family",
+  "font-size",
+  "font-weight",
+  "font-style",
+  "text-anchor",
+  "paint-order",
+  "marker-end",
+];
 const hidden = (style: CSSStyleDeclaration) => style.display === "none" || style.visibility === "hidden";
 
 export interface Picture {
@@ -13,8 +29,15 @@ export interface Picture {
 /** What of `area` (an element with a flow in it) can be seen now. */
 export function takePicture(area: Element): Picture {
   const frame = area.getBoundingClientRect();
-  const root = make("svg", { xmlns: svg, width: frame.width, height: frame.height, viewBox: `0 0 ${round(frame.width)} ${round(frame.height)}` });
-  root.append(make("rect", { width: "100%", height: "100%", fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }));
+  const root = make("svg", {
+    xmlns: svg,
+    width: frame.width,
+    height: frame.height,
+    viewBox: `0 0 ${round(frame.width)} ${round(frame.height)}`,
+  });
+  root.append(
+    make("rect", { width: "100%", height: "100%", fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }),
+  );
   const markers = make("defs", {});
   document.querySelectorAll("marker[id^='tip'], marker[id='channel-tip']").forEach((marker) => markers.append(copy(marker)));
   root.append(markers);
@@ -35,7 +58,9 @@ function add(element: Element, to: Element, frame: DOMRect): void {
   if (hidden(style)) return;
   if (element instanceof SVGSVGElement) {
     const at = element.getScreenCTM();
-    const copied = at && make("g", { transform: `matrix(${[at.a, at.b, at.c, at.d, at.e - frame.left, at.f - frame.top].map(exact).join(" ")})` });
+    const copied =
+      at &&
+      make("g", { transform: `matrix(${[at.a, at.b, at.c, at.d, at.e - frame.left, at.f - frame.top].map(exact).join(" ")})` });
     if (!copied) return;
     for (const child of element.children) copied.append(copy(child));
     to.append(copied);
@@ -55,7 +80,13 @@ function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Ele
   const clear = (colour: string) => colour === "rgba(0, 0, 0, 0)" || colour === "transparent";
   const outlined = border > 0 && style.borderTopStyle !== "none" && !clear(style.borderTopColor);
   if (box.width === 0 || (clear(style.backgroundColor) && !outlined)) return;
-  const rect = make("rect", { x: round(box.left - frame.left), y: round(box.top - frame.top), width: round(box.width), height: round(box.height), rx: round(Math.min(parseFloat(style.borderTopLeftRadius) * scale || 0, box.height / 2)) });
+  const rect = make("rect", {
+    x: round(box.left - frame.left),
+    y: round(box.top - frame.top),
+    width: round(box.width),
+    height: round(box.height),
+    rx: round(Math.min(parseFloat(style.borderTopLeftRadius) * scale || 0, box.height / 2)),
+  });
   rect.setAttribute("fill", clear(style.backgroundColor) ? "none" : style.backgroundColor);
   if (outlined) {
     rect.setAttribute("stroke", style.borderTopColor);
@@ -70,7 +101,14 @@ function addText(node: Node, style: CSSStyleDeclaration, scale: number, to: Elem
   range.selectNodeContents(node);
   const box = range.getBoundingClientRect();
   const size = parseFloat(style.fontSize) * scale;
-  const text = make("text", { x: round(box.left - frame.left), y: round(box.top - frame.top + box.height / 2 + size * 0.35), fill: style.color, "font-size": round(size), "font-family": style.fontFamily, "font-weight": style.fontWeight });
+  const text = make("text", {
+    x: round(box.left - frame.left),
+    y: round(box.top - frame.top + box.height / 2 + size * 0.35),
+    fill: style.color,
+    "font-size": round(size),
+    "font-family": style.fontFamily,
+    "font-weight": style.fontWeight,
+  });
   text.textContent = node.textContent!.trim();
   to.append(text);
 }
@@ -107,7 +145,9 @@ export async function asPng({ text, width, height }: Picture, scale = 2): Promis
   canvas.width = width * scale;
   canvas.height = height * scale;
   canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
-  return new Promise((done, failed) => canvas.toBlob((blob) => (blob ? done(blob) : failed(new Error("the picture could not be drawn"))), "image/png"));
+  return new Promise((done, failed) =>
+    canvas.toBlob((blob) => (blob ? done(blob) : failed(new Error("the picture could not be drawn"))), "image/png"),
+  );
 }
 
 export function download(blob: Blob, name: string): void {

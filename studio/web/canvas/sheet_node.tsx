@@ -35,18 +35,42 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
   const parts = { net, page, direction: sheet.direction };
   const drawn = net.page(page);
   return (
-    <svg ref={ref} className={`sheet layer-${drawn.layer} near${data.near}`} width={sheet.width} height={sheet.height} style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }} data-sheet={drawn.path || "system"}>
+    <svg
+      ref={ref}
+      className={`sheet layer-${drawn.layer} near${data.near}`}
+      width={sheet.width}
+      height={sheet.height}
+      style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
+      data-sheet={drawn.path || "system"}
+    >
       <Arcs net={net} page={page} sheet={sheet} />
       {drawn.nodes.map((node, index) => {
         const box = sheet.nodes[index]!;
-        if (node.page === null) return <PlaceSymbol key={index} {...parts} index={index} box={box} selected={isSelected(net, page, index, selected)} />;
+        if (node.page === null)
+          return <PlaceSymbol key={index} {...parts} index={index} box={box} selected={isSelected(net, page, index, selected)} />;
         const path = net.page(node.page).path;
         return (
-          <PageSymbol key={index} {...parts} index={index} box={box} selected={selected === path} folded={closed.has(node.page)} open={opened.has(node.page)} flagged={flags.get(path) ?? null} onFold={(at, to) => studio.fold(at, to)} />
+          <PageSymbol
+            key={index}
+            {...parts}
+            index={index}
+            box={box}
+            selected={selected === path}
+            folded={closed.has(node.page)}
+            open={opened.has(node.page)}
+            flagged={flags.get(path) ?? null}
+            onFold={(at, to) => studio.fold(at, to)}
+          />
         );
       })}
       {drawn.transitions.map((_, index) => (
-        <BarSymbol key={index} {...parts} index={index} box={sheet.transitions[index]!} selected={selected !== null && net.transitions[net.flatTransitions[page]![index]!]?.name === selected} />
+        <BarSymbol
+          key={index}
+          {...parts}
+          index={index}
+          box={sheet.transitions[index]!}
+          selected={selected !== null && net.transitions[net.flatTransitions[page]![index]!]?.name === selected}
+        />
       ))}
     </svg>
   );

@@ -1,4 +1,13 @@
-import { Background, BackgroundVariant, Controls, ReactFlow, ReactFlowProvider, type Connection, type Edge, type Node } from "@xyflow/react";
+import {
+  Background,
+  BackgroundVariant,
+  Controls,
+  ReactFlow,
+  ReactFlowProvider,
+  type Connection,
+  type Edge,
+  type Node,
+} from "@xyflow/react";
 import { useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../app/use";
 import { useComplaints, useStructure } from "../app/use_structure";
@@ -17,13 +26,38 @@ type Complaints = ReturnType<typeof useComplaints>;
 function nodesOf(structure: Structure, selected: string | null, complaints: Complaints): Node[] {
   const nodes: Node[] = [];
   for (const box of layoutStructure(structure)) {
-    const common = { draggable: false, connectable: true, selectable: false, focusable: false, style: { pointerEvents: "all" as const } };
-    const sized = (one: { x: number; y: number; width: number; height: number }) => ({ position: { x: one.x, y: one.y }, width: one.width, height: one.height, measured: { width: one.width, height: one.height } });
+    const common = {
+      draggable: false,
+      connectable: true,
+      selectable: false,
+      focusable: false,
+      style: { pointerEvents: "all" as const },
+    };
+    const sized = (one: { x: number; y: number; width: number; height: number }) => ({
+      position: { x: one.x, y: one.y },
+      width: one.width,
+      height: one.height,
+      measured: { width: one.width, height: one.height },
+    });
     const agent = structure.agents.find((one) => one.name === box.path)!;
-    nodes.push({ id: box.path, type: "agent", ...sized(box), ...common, zIndex: 0, data: { agent, selected: selected === box.path, complaint: complaints.get(box.path) } });
+    nodes.push({
+      id: box.path,
+      type: "agent",
+      ...sized(box),
+      ...common,
+      zIndex: 0,
+      data: { agent, selected: selected === box.path, complaint: complaints.get(box.path) },
+    });
     for (const inner of box.subsystems) {
       const subsystem = agent.subsystems.find((one) => one.path === inner.path)!;
-      nodes.push({ id: inner.path, type: "subsystem", ...sized(inner), ...common, zIndex: 2, data: { subsystem, selected, complaints } });
+      nodes.push({
+        id: inner.path,
+        type: "subsystem",
+        ...sized(inner),
+        ...common,
+        zIndex: 2,
+        data: { subsystem, selected, complaints },
+      });
     }
     for (const device of box.devices) {
       const subsystem = agent.subsystems.find((one) => one.path === device.of)!;
@@ -40,13 +74,33 @@ function edgesOf(structure: Structure, selected: string | null, complaints: Comp
     if (ends.some((end) => end?.kind !== "buffer")) continue;
     const [from, to] = [withoutIndex(channel.from), withoutIndex(channel.to)];
     const id = channelPath(channel.index);
-    edges.push({ id, type: "channel", source: from.slice(0, from.lastIndexOf(".")), sourceHandle: from, target: to.slice(0, to.lastIndexOf(".")), targetHandle: to, data: { channel, selected: selected === id, complaint: complaints.get(id)?.severity }, focusable: false, zIndex: 3 });
+    edges.push({
+      id,
+      type: "channel",
+      source: from.slice(0, from.lastIndexOf(".")),
+      sourceHandle: from,
+      target: to.slice(0, to.lastIndexOf(".")),
+      targetHandle: to,
+      data: { channel, selected: selected === id, complaint: complaints.get(id)?.severity },
+      focusable: false,
+      zIndex: 3,
+    });
   }
   for (const { subsystems } of structure.agents)
     for (const one of subsystems) {
       if (!one.buffers.some((buffer) => buffer.direction === "real")) continue;
       const [source, target] = one.kind === "effector" ? [one.path, `${one.path}#device`] : [`${one.path}#device`, one.path];
-      edges.push({ id: `${one.path}#wire`, source, target, sourceHandle: "device", targetHandle: "device", className: "device-wire", focusable: false, selectable: false, zIndex: 1 });
+      edges.push({
+        id: `${one.path}#wire`,
+        source,
+        target,
+        sourceHandle: "device",
+        targetHandle: "device",
+        className: "device-wire",
+        focusable: false,
+        selectable: false,
+        zIndex: 1,
+      });
     }
   return edges;
 }
@@ -74,13 +128,17 @@ function Drawing() {
       const agent = structure.agents.find((one) => path.startsWith(`${one.name}.`));
       return agent?.count ? path.replace(agent.name, `${agent.name}[i]`) : path;
     };
-    studio.draft.edit(addChannel(structure, end(sourceHandle), end(targetHandle), { send: "non_blocking", receive: "non_blocking", timeout: "" }), "edit");
+    studio.draft.edit(
+      addChannel(structure, end(sourceHandle), end(targetHandle), { send: "non_blocking", receive: "non_blocking", timeout: "" }),
+      "edit",
+    );
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
   const dragged = useRef(false);
   // The click that ends a drag is not meant for what lies under it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) => dragged.current || select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);
+  const click = (event: MouseEvent) =>
+    dragged.current || select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
@@ -89,7 +147,10 @@ function Drawing() {
     }
   };
   const add = () => {
-    const name = freeName("agent", structure.agents.map((agent) => agent.name));
+    const name = freeName(
+      "agent",
+      structure.agents.map((agent) => agent.name),
+    );
     studio.draft.edit(addAgent(structure, name), "edit");
     studio.view.set({ selected: name, panel: "inspect" });
   };

@@ -7,7 +7,15 @@ interface Complaint {
   severity: "error" | "warning";
   messages: string[];
 }
-const Flag = ({ of }: { of: Complaint | undefined }) => (of ? <span className={`dot ${of.severity}`} role="img" aria-label={`${of.severity}: ${of.messages.join("; ")}`} title={of.messages.join("\n")} /> : null);
+const Flag = ({ of }: { of: Complaint | undefined }) =>
+  of ? (
+    <span
+      className={`dot ${of.severity}`}
+      role="img"
+      aria-label={`${of.severity}: ${of.messages.join("; ")}`}
+      title={of.messages.join("\n")}
+    />
+  ) : null;
 
 export function AgentNode({ data }: NodeProps) {
   const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
@@ -26,7 +34,11 @@ export function AgentNode({ data }: NodeProps) {
 const kindTitle = { control: "control subsystem", receptor: "virtual receptor", effector: "virtual effector" };
 
 export function SubsystemNode({ data }: NodeProps) {
-  const { subsystem, selected, complaints } = data as { subsystem: Subsystem; selected: string | null; complaints: ReadonlyMap<string, Complaint> };
+  const { subsystem, selected, complaints } = data as {
+    subsystem: Subsystem;
+    selected: string | null;
+    complaints: ReadonlyMap<string, Complaint>;
+  };
   const running = useRunning();
   const now = running.get(subsystem.path) ?? [...running].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
   const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
@@ -42,7 +54,13 @@ export function SubsystemNode({ data }: NodeProps) {
         <Flag of={complaints.get(subsystem.path)} />
       </button>
       {subsystem.kind !== "control" && (
-        <Handle id="device" type={subsystem.kind === "effector" ? "source" : "target"} position={Position.Bottom} className="device-handle" isConnectable={false} />
+        <Handle
+          id="device"
+          type={subsystem.kind === "effector" ? "source" : "target"}
+          position={Position.Bottom}
+          className="device-handle"
+          isConnectable={false}
+        />
       )}
       <div className="ports" style={{ height: ports(subsystem) * row }}>
         <Ports buffers={of("input")} selected={selected} side="in" />
@@ -50,7 +68,13 @@ export function SubsystemNode({ data }: NodeProps) {
       </div>
       <div className="chips">
         {subsystem.behaviours.map((behaviour) => (
-          <button key={behaviour.name} className={`chip${now === behaviour.name ? " running" : ""}`} data-path={behaviour.path} aria-pressed={selected === behaviour.path} aria-label={`behaviour ${behaviour.name}${now === behaviour.name ? ", running" : ""}`}>
+          <button
+            key={behaviour.name}
+            className={`chip${now === behaviour.name ? " running" : ""}`}
+            data-path={behaviour.path}
+            aria-pressed={selected === behaviour.path}
+            aria-label={`behaviour ${behaviour.name}${now === behaviour.name ? ", running" : ""}`}
+          >
             {behaviour.name}
             <Flag of={complaints.get(behaviour.path)} />
           </button>
@@ -65,7 +89,13 @@ function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: strin
     <div className={`port-list ${side}`}>
       {buffers.map((buffer, at) => (
         <div key={buffer.path} className="port">
-          <Handle id={buffer.path} type={side === "in" ? "target" : "source"} position={side === "in" ? Position.Left : Position.Right} style={{ top: head + at * row + row / 2 }} data-handle={buffer.path} />
+          <Handle
+            id={buffer.path}
+            type={side === "in" ? "target" : "source"}
+            position={side === "in" ? Position.Left : Position.Right}
+            style={{ top: head + at * row + row / 2 }}
+            data-handle={buffer.path}
+          />
           <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.type}`}>
             {buffer.name}
           </button>
@@ -88,7 +118,13 @@ export function DeviceNode({ data }: NodeProps) {
             {buffer.name}
           </button>
         ))}
-      <Handle id="device" type={receptor ? "source" : "target"} position={Position.Top} className="device-handle" isConnectable={false} />
+      <Handle
+        id="device"
+        type={receptor ? "source" : "target"}
+        position={Position.Top}
+        className="device-handle"
+        isConnectable={false}
+      />
     </div>
   );
 }

@@ -35,13 +35,26 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
   const path = net.places[flat]?.name ?? node.name;
   const [cx, cy, r] = [box.x + box.width / 2, box.y + box.height / 2, box.width / 2];
   return (
-    <g className={`element place${node.fusion === null ? "" : " fused"}${selected ? " selected" : ""}`} id={`${idOf(path)}@${page}`} data-path={path} role="img" aria-label={spoken(net, path)}>
+    <g
+      className={`element place${node.fusion === null ? "" : " fused"}${selected ? " selected" : ""}`}
+      id={`${idOf(path)}@${page}`}
+      data-path={path}
+      role="img"
+      aria-label={spoken(net, path)}
+    >
       <circle className="shape" cx={cx} cy={cy} r={r} />
       <g className="tokens" data-place={flat} style={{ display: node.tokens > 0 ? "" : "none" }}>
         <circle className="token" cx={cx} cy={cy} r={5} />
         <text className="token-count" x={cx} y={cy + 4} textAnchor="middle" />
       </g>
-      <Labels box={box} direction={direction} lines={[{ text: node.name, kind: "name" }, { text: operationText(on, node.operation), kind: "operation" }]} />
+      <Labels
+        box={box}
+        direction={direction}
+        lines={[
+          { text: node.name, kind: "name" },
+          { text: operationText(on, node.operation), kind: "operation" },
+        ]}
+      />
     </g>
   );
 });
@@ -54,11 +67,32 @@ export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direct
   const wide = box.width > 80;
   const at = wide ? { ...box, x: box.x + box.width / 2 - 14, width: 28 } : box;
   return (
-    <g className={`element bar${never ? " never" : ""}${selected ? " selected" : ""}`} id={idOf(path)} data-path={path} data-transition={flat} role="img" aria-label={spoken(net, path)}>
+    <g
+      className={`element bar${never ? " never" : ""}${selected ? " selected" : ""}`}
+      id={idOf(path)}
+      data-path={path}
+      data-transition={flat}
+      role="img"
+      aria-label={spoken(net, path)}
+    >
       <rect className="reach" x={box.x - 6} y={box.y - 6} width={box.width + 12} height={box.height + 12} />
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={1.5} />
-      {!wide && <Labels box={at} direction={direction} lines={[{ text: transition.name, kind: "name" }, { text: conditionText(transition), kind: "condition" }]} />}
-      <text className="label firings" x={wide ? box.x + box.width + 5 : box.x - 5} y={box.y + (direction === "down" ? 5 : -4)} textAnchor={wide ? "start" : "end"} />
+      {!wide && (
+        <Labels
+          box={at}
+          direction={direction}
+          lines={[
+            { text: transition.name, kind: "name" },
+            { text: conditionText(transition), kind: "condition" },
+          ]}
+        />
+      )}
+      <text
+        className="label firings"
+        x={wide ? box.x + box.width + 5 : box.x - 5}
+        y={box.y + (direction === "down" ? 5 : -4)}
+        textAnchor={wide ? "start" : "end"}
+      />
     </g>
   );
 });
@@ -79,11 +113,20 @@ export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
     <>
       {folded ? <FoldedPage box={box} /> : <OpenPage page={of} box={box} open={open} child={child} />}
       {folded && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
-      {flagged && <circle className={`flag ${flagged}`} cx={box.x + box.width - (folded ? 4 : 14)} cy={box.y + (folded ? 4 : 11)} r={4.5} />}
+      {flagged && (
+        <circle className={`flag ${flagged}`} cx={box.x + box.width - (folded ? 4 : 14)} cy={box.y + (folded ? 4 : 11)} r={4.5} />
+      )}
     </>
   );
   return (
-    <g className={`element page ${of.layer}${folded ? " folded" : ""}${selected ? " selected" : ""}`} id={idOf(of.path)} data-path={of.path} data-page={child} role="img" aria-label={spoken(net, of.path)}>
+    <g
+      className={`element page ${of.layer}${folded ? " folded" : ""}${selected ? " selected" : ""}`}
+      id={idOf(of.path)}
+      data-path={of.path}
+      data-page={child}
+      role="img"
+      aria-label={spoken(net, of.path)}
+    >
       {group}
     </g>
   );
@@ -110,16 +153,31 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
       <text className="label frame-name" x={box.x + 14} y={box.y + header - 6} visibility={open ? "visible" : "hidden"}>
         {pageName(page)}
       </text>
-      {open && <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />}
+      {open && (
+        <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />
+      )}
       {!open && (
         <g className="closed-name">
-          <text className="label large" x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3} textAnchor="middle" style={{ fontSize: size }}>
+          <text
+            className="label large"
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3}
+            textAnchor="middle"
+            style={{ fontSize: size }}
+          >
             {pageName(page)}
           </text>
           <text className="label layer" x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3 + 18} textAnchor="middle">
             {page.layer}
           </text>
-          <text className="label running" data-running={child} x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3 + 20 + size * 0.6} textAnchor="middle" style={{ fontSize: size * 0.75 }} />
+          <text
+            className="label running"
+            data-running={child}
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3 + 20 + size * 0.6}
+            textAnchor="middle"
+            style={{ fontSize: size * 0.75 }}
+          />
         </g>
       )}
     </>
@@ -131,7 +189,14 @@ export const Arcs = memo(function Arcs({ net, page, sheet }: { net: NetModel; pa
   return sheet.routes.map((route, at) => {
     const never = transitions[route.transition]?.condition?.truth === "never";
     const fused = nodes[route.node]?.fusion !== null;
-    return <path key={at} className={`arc${never ? " never" : ""}${fused ? " memory" : ""}`} d={roundedPath(route.points)} markerEnd={`url(#tip${never ? "-never" : ""})`} />;
+    return (
+      <path
+        key={at}
+        className={`arc${never ? " never" : ""}${fused ? " memory" : ""}`}
+        d={roundedPath(route.points)}
+        markerEnd={`url(#tip${never ? "-never" : ""})`}
+      />
+    );
   });
 });
 
@@ -140,7 +205,17 @@ export function ArrowTips() {
     <svg width="0" height="0" aria-hidden="true" style={{ position: "absolute" }}>
       <defs>
         {["", "-never"].map((kind) => (
-          <marker key={kind} id={`tip${kind}`} viewBox="0 0 10 8" refX="9.5" refY="4" markerWidth="8" markerHeight="6.4" markerUnits="userSpaceOnUse" orient="auto">
+          <marker
+            key={kind}
+            id={`tip${kind}`}
+            viewBox="0 0 10 8"
+            refX="9.5"
+            refY="4"
+            markerWidth="8"
+            markerHeight="6.4"
+            markerUnits="userSpaceOnUse"
+            orient="auto"
+          >
             <path className={`tip${kind}`} d="M0 0L10 4L0 8L2.5 4Z" />
           </marker>
         ))}

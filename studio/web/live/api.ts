@@ -1,4 +1,14 @@
-import type { Analysis, ControlRequest, Project, Recording, RecordingInfo, RunInfo, RunRequest, SpecAnswer, VerifyEvent } from "./protocol";
+import type {
+  Analysis,
+  ControlRequest,
+  Project,
+  Recording,
+  RecordingInfo,
+  RunInfo,
+  RunRequest,
+  SpecAnswer,
+  VerifyEvent,
+} from "./protocol";
 
 /** An answer of the server that is not what was asked for; status 0: there was no answer. */
 export class ApiError extends Error {
@@ -59,21 +69,31 @@ export class Api {
       throw new ApiError(answer.status || 500, `The server answered ${path} with something that is not JSON.`);
     }
     if (!answer.ok)
-      throw new ApiError(answer.status, String(json.error ?? `The server answered ${answer.status}.`), String(json.hint ?? ""), json);
+      throw new ApiError(
+        answer.status,
+        String(json.error ?? `The server answered ${answer.status}.`),
+        String(json.hint ?? ""),
+        json,
+      );
     return json as T;
   }
 
   project = () => this.ask<Project>("GET", "/api/project");
   spec = () => this.ask<SpecAnswer>("GET", "/api/spec");
-  save = (text: string, revision: string) => this.ask<{ revision: string; analysis: Analysis }>("PUT", "/api/spec", { text, revision });
+  save = (text: string, revision: string) =>
+    this.ask<{ revision: string; analysis: Analysis }>("PUT", "/api/spec", { text, revision });
   check = (text: string) => this.ask<Analysis>("POST", "/api/check", { text });
   verify = (text: string, properties?: string[], timeout = "30s") =>
     this.ask<{ job: string }>("POST", "/api/verify", { text, timeout, ...(properties ? { properties } : {}) });
   verifyState = (job: string) => this.ask<VerifyEvent>("GET", `/api/verify/${encodeURIComponent(job)}`);
   stopVerify = (job: string) => this.ask<object>("DELETE", `/api/verify/${encodeURIComponent(job)}`);
   start = (request: RunRequest) => this.ask<{ run: string }>("POST", "/api/runs", request);
-  control = (run: string, request: ControlRequest) => this.ask<object>("POST", `/api/runs/${encodeURIComponent(run)}/control`, request);
-  runs = () => this.ask<RunInfo[] | { runs: RunInfo[] }>("GET", "/api/runs").then((answer) => (Array.isArray(answer) ? answer : answer.runs));
+  control = (run: string, request: ControlRequest) =>
+    this.ask<object>("POST", `/api/runs/${encodeURIComponent(run)}/control`, request);
+  runs = () =>
+    this.ask<RunInfo[] | { runs: RunInfo[] }>("GET", "/api/runs").then((answer) =>
+      Array.isArray(answer) ? answer : answer.runs,
+    );
   run = (run: string) => this.ask<RunInfo>("GET", `/api/runs/${encodeURIComponent(run)}`);
   recordings = () =>
     this.ask<RecordingInfo[] | { recordings: RecordingInfo[] }>("GET", "/api/recordings").then((answer) =>

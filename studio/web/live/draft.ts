@@ -158,7 +158,9 @@ export class Draft {
     const unsaved = text !== saved;
     this.onDisk(file);
     this.edit(merged, "disk");
-    this.store.set({ notice: unsaved ? "The file changed on disk; both changes were merged" : "The file changed on disk; reloaded" });
+    this.store.set({
+      notice: unsaved ? "The file changed on disk; both changes were merged" : "The file changed on disk; reloaded",
+    });
   }
 
   /** The answer to a conflict. Whatever is chosen, undo leads back to the other text of this page. */

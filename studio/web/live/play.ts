@@ -16,7 +16,16 @@ export interface PlayState {
   waits: readonly string[];
 }
 
-const nothing: PlayState = { what: "nothing", title: "", position: 0, length: 0, active: [], conditions: new Map(), running: false, waits: [] };
+const nothing: PlayState = {
+  what: "nothing",
+  title: "",
+  position: 0,
+  length: 0,
+  active: [],
+  conditions: new Map(),
+  running: false,
+  waits: [],
+};
 
 /** The token game, and runs that are stepped through. Neither needs a compiler or a server. */
 export class Play {

@@ -24,7 +24,16 @@ const stride = 4096;
 
 /** Recordings, played on the same drawing as live runs. */
 export class Recordings {
-  readonly store = new Store<RecordingsState>({ list: [], open: null, problem: "", time: 0, first: 0, last: 0, playing: false, speed: 1 });
+  readonly store = new Store<RecordingsState>({
+    list: [],
+    open: null,
+    problem: "",
+    time: 0,
+    first: 0,
+    last: 0,
+    playing: false,
+    speed: 1,
+  });
   track: Track | null = null;
   private net: NetModel | null = null;
   private firings: readonly FiringRow[] = [];
@@ -52,13 +61,15 @@ export class Recordings {
     try {
       const recording = await this.api.recording(name);
       const known = net.transitions.length;
-      if (recording.firings.some(([, transition]) => transition >= known)) throw new Error("This recording is of another net than the one in the text.");
+      if (recording.firings.some(([, transition]) => transition >= known))
+        throw new Error("This recording is of another net than the one in the text.");
       this.net = net;
       this.firings = recording.firings;
       this.track = new Track(net);
       for (const [time, transition] of recording.firings) this.track.timeline.add(time, transition);
       this.track.firings = recording.firings.length;
-      for (const [path, samples] of Object.entries(recording.values ?? {})) for (const [time, value] of samples) this.track.series.add(time, path, value);
+      for (const [path, samples] of Object.entries(recording.values ?? {}))
+        for (const [time, value] of samples) this.track.series.add(time, path, value);
       this.prepare(net);
       const first = recording.firings[0]?.[0] ?? 0;
       this.stage.reset(net, "recording");

@@ -21,7 +21,17 @@ export interface RunnerState {
   breakpoints: readonly number[];
 }
 
-const idle: RunnerState = { run: null, state: "idle", kind: "simulate", why: "", outcome: "", build: [], speed: 1, problem: "", breakpoints: [] };
+const idle: RunnerState = {
+  run: null,
+  state: "idle",
+  kind: "simulate",
+  why: "",
+  outcome: "",
+  build: [],
+  speed: 1,
+  problem: "",
+  breakpoints: [],
+};
 
 /** What a run left behind so far; read by what draws it, once per frame. */
 export class Track {
@@ -52,7 +62,10 @@ export class Runner {
     connection: Connection,
   ) {
     for (const name of ["build", "log"] as const)
-      connection.on<{ run: string; line: string }>(name, (event) => this.mine(event) && this.store.set({ build: [...this.store.get().build.slice(-400), event.line] }));
+      connection.on<{ run: string; line: string }>(
+        name,
+        (event) => this.mine(event) && this.store.set({ build: [...this.store.get().build.slice(-400), event.line] }),
+      );
     connection.on<RunInfo>("run", (event) => this.mine(event) && this.told(event));
     connection.on<FiringsEvent>("firings", (event) => this.mine(event) && this.fired(event));
     connection.on<ValuesEvent>("values", (event) => this.mine(event) && this.valued(event));
@@ -69,7 +82,13 @@ export class Runner {
   async start(request: RunRequest): Promise<void> {
     const { net } = this.draft.store.get();
     if (!net) return;
-    this.store.set({ ...idle, breakpoints: this.store.get().breakpoints, state: "building", kind: request.kind, speed: request.speed ?? 1 });
+    this.store.set({
+      ...idle,
+      breakpoints: this.store.get().breakpoints,
+      state: "building",
+      kind: request.kind,
+      speed: request.speed ?? 1,
+    });
     this.watch(net);
     void this.showFloor(request.track);
     try {
@@ -121,10 +140,15 @@ export class Runner {
 
   private told(info: Partial<RunInfo>): void {
     if (!info.state) return;
-    this.store.set({ state: info.state, why: info.why ?? "", outcome: info.outcome === undefined || info.outcome === null ? "" : outcomeText(info.outcome) });
+    this.store.set({
+      state: info.state,
+      why: info.why ?? "",
+      outcome: info.outcome === undefined || info.outcome === null ? "" : outcomeText(info.outcome),
+    });
     if (info.marking && this.stage.mode === "live") this.stage.setMarked(info.marking);
     const { breakpoints } = this.store.get();
-    if (info.state === "running" && breakpoints.length > 0) void this.control({ command: "breakpoints", breakpoints: breakpoints.map((place) => ({ place })) });
+    if (info.state === "running" && breakpoints.length > 0)
+      void this.control({ command: "breakpoints", breakpoints: breakpoints.map((place) => ({ place })) });
   }
 
   private fired({ t, firings, dropped, marking }: FiringsEvent): void {
@@ -170,7 +194,8 @@ export class Runner {
     const { breakpoints, state } = this.store.get();
     const next = breakpoints.includes(place) ? breakpoints.filter((one) => one !== place) : [...breakpoints, place];
     this.store.set({ breakpoints: next });
-    if (state === "running" || state === "paused") void this.control({ command: "breakpoints", breakpoints: next.map((one) => ({ place: one })) });
+    if (state === "running" || state === "paused")
+      void this.control({ command: "breakpoints", breakpoints: next.map((one) => ({ place: one })) });
   }
 
   /** Puts the run away: the drawing is that of the text again. */

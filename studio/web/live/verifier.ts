@@ -19,7 +19,16 @@ export interface VerifierState {
 
 /** One verification at a time, of the text as it is in the page. */
 export class Verifier {
-  readonly store = new Store<VerifierState>({ state: "idle", property: "", states: 0, rate: 0, verdicts: [], text: "", net: null, problem: "" });
+  readonly store = new Store<VerifierState>({
+    state: "idle",
+    property: "",
+    states: 0,
+    rate: 0,
+    verdicts: [],
+    text: "",
+    net: null,
+    problem: "",
+  });
   private job: string | null = null;
 
   constructor(

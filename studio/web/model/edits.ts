@@ -1,6 +1,15 @@
 import type { Node } from "yaml";
 import { isMap, isPair, isScalar, visit } from "yaml";
-import { withoutIndex, type Agent, type Behaviour, type Buffer, type Channel, type Structure, type Subsystem, type SubsystemKind } from "./structure";
+import {
+  withoutIndex,
+  type Agent,
+  type Behaviour,
+  type Buffer,
+  type Channel,
+  type Structure,
+  type Subsystem,
+  type SubsystemKind,
+} from "./structure";
 import { apply, scalarText, type TextEdit, type YamlPath } from "./yaml_text";
 
 /** Changes of a specification: each takes the structure of a text and gives the text after the change. */
@@ -34,7 +43,13 @@ export function addBehaviour(structure: Structure, subsystem: Subsystem, name: s
 
 const bufferKey = { input: "inputs", output: "outputs", real: "real" } as const;
 
-export function addBuffer(structure: Structure, subsystem: Subsystem, direction: Buffer["direction"], name: string, type: string): string {
+export function addBuffer(
+  structure: Structure,
+  subsystem: Subsystem,
+  direction: Buffer["direction"],
+  name: string,
+  type: string,
+): string {
   return done(structure, structure.yaml.insert([...subsystem.yaml, bufferKey[direction]], name, scalarText(type)));
 }
 
@@ -80,7 +95,8 @@ export function setChannel(structure: Structure, channel: Channel, change: Parti
 
 /** What follows a behaviour, in order. One unconditional entry is written short. */
 export function setNext(structure: Structure, behaviour: Behaviour, next: readonly { to: string; when: string }[]): string {
-  const one = (entry: { to: string; when: string }) => (entry.when ? `{ to: ${entry.to}, when: ${scalarText(entry.when)} }` : entry.to);
+  const one = (entry: { to: string; when: string }) =>
+    entry.when ? `{ to: ${entry.to}, when: ${scalarText(entry.when)} }` : entry.to;
   const [first] = next;
   const text = next.length === 0 ? "" : next.length === 1 && first && !first.when ? first.to : `[${next.map(one).join(", ")}]`;
   return setField(structure, behaviour.yaml, "next", text);
@@ -120,18 +136,27 @@ function sharing(structure: Structure, body: YamlPath): string {
 const bodyOf = (subsystem: Subsystem): YamlPath => subsystem.yaml.slice(0, 2);
 
 export function renameSubsystem(structure: Structure, subsystem: Subsystem, name: string): string {
-  const pattern = new RegExp(`(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index})\\.${escaped(subsystem.name)}(?![\\w])`, "g");
+  const pattern = new RegExp(
+    `(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index})\\.${escaped(subsystem.name)}(?![\\w])`,
+    "g",
+  );
   return done(structure, [...structure.yaml.renameKey(subsystem.yaml, name), ...renamePaths(structure, pattern, `$1.${name}`)]);
 }
 
 /** Paths that go on after the subsystem: its behaviours and buffers. */
 const memberPattern = (structure: Structure, subsystem: Subsystem, member: string) =>
-  new RegExp(`(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index}\\.${escaped(subsystem.name)})\\.${escaped(member)}(?![\\w])`, "g");
+  new RegExp(
+    `(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index}\\.${escaped(subsystem.name)})\\.${escaped(member)}(?![\\w])`,
+    "g",
+  );
 
 export function renameBehaviour(structure: Structure, subsystem: Subsystem, behaviour: Behaviour, name: string): string {
   const { yaml } = structure;
   const whole = new RegExp(`^(["']?)${escaped(behaviour.name)}\\1$`);
-  const references = [yaml.node([...subsystem.yaml, "start"]), ...subsystem.behaviours.flatMap((other) => nextTargets(structure, other))];
+  const references = [
+    yaml.node([...subsystem.yaml, "start"]),
+    ...subsystem.behaviours.flatMap((other) => nextTargets(structure, other)),
+  ];
   return done(structure, [
     ...yaml.renameKey(behaviour.yaml, name),
     ...references.flatMap((node) => yaml.replaceWithin(node, whole, `$1${name}$1`)),
@@ -153,7 +178,10 @@ export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer:
   const listed = buffer.direction === "input" ? "receive" : "send";
   const used = new RegExp(`\\b${side}\\.${escaped(buffer.name)}\\b`, "g");
   const whole = new RegExp(`^(["']?)${escaped(buffer.name)}\\1$`);
-  const edits = [...yaml.renameKey(buffer.yaml, name), ...renamePaths(structure, memberPattern(structure, subsystem, buffer.name), `$1.${name}`)];
+  const edits = [
+    ...yaml.renameKey(buffer.yaml, name),
+    ...renamePaths(structure, memberPattern(structure, subsystem, buffer.name), `$1.${name}`),
+  ];
   if (buffer.direction === "real") edits.push(...yaml.renameKey([...subsystem.yaml, "safe", buffer.name], name));
   for (const behaviour of subsystem.behaviours)
     visit(yaml.node(behaviour.yaml) ?? null, {
@@ -174,14 +202,23 @@ const touches = (end: string, path: string) => withoutIndex(end) === path || wit
 function dependents(structure: Structure, paths: readonly string[]): YamlPath[] {
   const hit = (end: string) => paths.some((path) => touches(end, path));
   const { yaml } = structure;
-  const channels = structure.channels.filter((one) => hit(one.from) || hit(one.to)).map((one): YamlPath => ["channels", one.index]);
-  const drivers = [["drivers"], ["simulation", "drivers"]].flatMap((at) => yaml.keys(at).filter(hit).map((key): YamlPath => [...at, key]));
+  const channels = structure.channels
+    .filter((one) => hit(one.from) || hit(one.to))
+    .map((one): YamlPath => ["channels", one.index]);
+  const drivers = [["drivers"], ["simulation", "drivers"]].flatMap((at) =>
+    yaml
+      .keys(at)
+      .filter(hit)
+      .map((key): YamlPath => [...at, key]),
+  );
   return [...channels, ...drivers];
 }
 
 /** Removes several things, one after the other: what is left of a list decides how the next is removed. */
 function removeAll(structure: Structure, paths: readonly YamlPath[], reread: (text: string) => Structure): string {
-  const fromBelow = [...paths].sort((a, b) => structure.yaml.line(b) - structure.yaml.line(a) || Number(b.at(-1)) - Number(a.at(-1)));
+  const fromBelow = [...paths].sort(
+    (a, b) => structure.yaml.line(b) - structure.yaml.line(a) || Number(b.at(-1)) - Number(a.at(-1)),
+  );
   return fromBelow.reduce((now, path) => reread(done(now, now.yaml.remove(path))), structure).yaml.text;
 }
 
@@ -190,18 +227,34 @@ export function removeAgent(structure: Structure, agent: Agent, reread: (text: s
 }
 
 const everywhere = (structure: Structure, subsystem: Subsystem, rest: string) =>
-  structure.agents.filter((agent) => agent.body.join("/") === bodyOf(subsystem).join("/")).map((agent) => `${agent.name}.${subsystem.name}${rest}`);
+  structure.agents
+    .filter((agent) => agent.body.join("/") === bodyOf(subsystem).join("/"))
+    .map((agent) => `${agent.name}.${subsystem.name}${rest}`);
 
 export function removeSubsystem(structure: Structure, subsystem: Subsystem, reread: (text: string) => Structure): string {
   return removeAll(structure, [subsystem.yaml, ...dependents(structure, everywhere(structure, subsystem, ""))], reread);
 }
 
-export function removeBuffer(structure: Structure, subsystem: Subsystem, buffer: Buffer, reread: (text: string) => Structure): string {
-  return removeAll(structure, [buffer.yaml, ...dependents(structure, everywhere(structure, subsystem, `.${buffer.name}`))], reread);
+export function removeBuffer(
+  structure: Structure,
+  subsystem: Subsystem,
+  buffer: Buffer,
+  reread: (text: string) => Structure,
+): string {
+  return removeAll(
+    structure,
+    [buffer.yaml, ...dependents(structure, everywhere(structure, subsystem, `.${buffer.name}`))],
+    reread,
+  );
 }
 
 /** With the entries of `next` that lead to it. */
-export function removeBehaviour(structure: Structure, subsystem: Subsystem, behaviour: Behaviour, reread: (text: string) => Structure): string {
+export function removeBehaviour(
+  structure: Structure,
+  subsystem: Subsystem,
+  behaviour: Behaviour,
+  reread: (text: string) => Structure,
+): string {
   const paths: YamlPath[] = [behaviour.yaml];
   if (subsystem.start === behaviour.name) paths.push([...subsystem.yaml, "start"]);
   for (const other of subsystem.behaviours) {

@@ -115,7 +115,14 @@ function fan(net: NetModel, page: Page, folded: Folded): Sheet {
     width: width - 2 * margin,
     height: bar.thick,
   }));
-  const sheet: Sheet = { width, height: bottom + bar.thick + 26 + place + margin, nodes, transitions, routes: [], direction: "down" };
+  const sheet: Sheet = {
+    width,
+    height: bottom + bar.thick + 26 + place + margin,
+    nodes,
+    transitions,
+    routes: [],
+    direction: "down",
+  };
   sheet.routes = page.transitions.flatMap((transition, at) => fanRoutes(sheet, transition, at, rows > 1));
   return sheet;
 }
@@ -136,7 +143,10 @@ function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: nu
     }
     return { transition: at, node, into, points: into === "node" ? points.reverse() : points };
   };
-  return [...transition.inputs.map((node) => route(node, "transition")), ...transition.outputs.map((node) => route(node, "node"))];
+  return [
+    ...transition.inputs.map((node) => route(node, "transition")),
+    ...transition.outputs.map((node) => route(node, "node")),
+  ];
 }
 
 // ------------------------------------------------------------------------------------------------ layered
@@ -155,7 +165,11 @@ function withLabels(size: { width: number; height: number }, labels: string[], d
   const lines = labels.filter(Boolean).length * 13;
   if (direction === "down") {
     const width = size.width + (text > 0 ? text + 8 : 0);
-    return { ...size, outer: { width, height: Math.max(size.height, lines) }, offset: { x: 0, y: Math.max(0, (lines - size.height) / 2) } };
+    return {
+      ...size,
+      outer: { width, height: Math.max(size.height, lines) },
+      offset: { x: 0, y: Math.max(0, (lines - size.height) / 2) },
+    };
   }
   const width = Math.max(size.width, text);
   return { ...size, outer: { width, height: size.height + lines + 4 }, offset: { x: (width - size.width) / 2, y: 0 } };
@@ -201,11 +215,19 @@ function elkGraph(net: NetModel, page: Page, folded: Folded, direction: "down" |
   ];
   children[page.input]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "FIRST";
   // A channel's memory stands beside the flow: its arcs do not count as steps of it, whichever way they point.
-  const memory = (node: number, at: number): ElkEdge => ({ id: memoryEdge(node, at), sources: [`n${node}.out`], targets: [`t${at}.memory`] });
+  const memory = (node: number, at: number): ElkEdge => ({
+    id: memoryEdge(node, at),
+    sources: [`n${node}.out`],
+    targets: [`t${at}.memory`],
+  });
   const isMemory = (node: number) => page.nodes[node]!.fusion !== null;
   const edges = page.transitions.flatMap((t, at): ElkEdge[] => [
-    ...t.inputs.filter((node) => !isMemory(node)).map((node) => ({ id: `n${node}>t${at}`, sources: [`n${node}.out`], targets: [`t${at}.in`] })),
-    ...t.outputs.filter((node) => !isMemory(node)).map((node) => ({ id: `t${at}>n${node}`, sources: [`t${at}.out`], targets: [`n${node}.in`] })),
+    ...t.inputs
+      .filter((node) => !isMemory(node))
+      .map((node) => ({ id: `n${node}>t${at}`, sources: [`n${node}.out`], targets: [`t${at}.in`] })),
+    ...t.outputs
+      .filter((node) => !isMemory(node))
+      .map((node) => ({ id: `t${at}>n${node}`, sources: [`t${at}.out`], targets: [`n${node}.in`] })),
     ...[...new Set([...t.inputs, ...t.outputs])].filter(isMemory).map((node) => memory(node, at)),
   ]);
   return {
@@ -245,7 +267,13 @@ function sheetOf(net: NetModel, page: Page, folded: Folded, direction: "down" | 
     const section = memory ?? edges.get(id)?.sections?.[0];
     const points = section ? [section.startPoint, ...(section.bendPoints ?? []), section.endPoint] : [];
     const [from, to] = into === "node" ? [transitions[transition]!, nodes[node]!] : [nodes[node]!, transitions[transition]!];
-    if (memory) return { transition, node, into, points: into === "node" ? beside(points, nodes[node]!).reverse() : beside(points, nodes[node]!) };
+    if (memory)
+      return {
+        transition,
+        node,
+        into,
+        points: into === "node" ? beside(points, nodes[node]!).reverse() : beside(points, nodes[node]!),
+      };
     return { transition, node, into, points: meet(points, from, to, direction) };
   };
   const routes = page.transitions.flatMap((t, at) => [
@@ -272,7 +300,8 @@ function meet(points: Point[], from: Box, to: Box, direction: "down" | "right"):
 }
 
 /** Arcs of a channel's memory begin at the place's lower border. */
-const beside = (points: Point[], from: Box): Point[] => points.map((point, at) => (at === 0 ? { ...point, y: from.y + from.height } : { ...point }));
+const beside = (points: Point[], from: Box): Point[] =>
+  points.map((point, at) => (at === 0 ? { ...point, y: from.y + from.height } : { ...point }));
 
 /** Where the inside of an open page is drawn within the page's box. */
 export function inset(box: Box, sheet: Sheet): { x: number; y: number; scale: number } {

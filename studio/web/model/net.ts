@@ -147,7 +147,10 @@ export class NetModel {
   private ownerOf(path: string): number {
     const flat = this.placeByName.get(path);
     if (flat !== undefined && this.places[flat]!.page === null)
-      return Math.max(0, this.flatPlaces.findIndex((places) => places.includes(flat)));
+      return Math.max(
+        0,
+        this.flatPlaces.findIndex((places) => places.includes(flat)),
+      );
     for (let end = path.length; end > 0; end = path.lastIndexOf(".", end - 1)) {
       const page = this.pageByPath.get(path.slice(0, end));
       if (page !== undefined) return page;
@@ -167,18 +170,27 @@ export class NetModel {
     const nodes = page.nodes.map((node, at): Element => {
       if (node.page !== null) return this.pageElement(node.page);
       const flat = this.places[this.flatPlaces[index]![at]!];
-      return { path: flat?.name ?? join(page.path, node.name), kind: "place", page: index, index: at, span: flat?.span ?? page.span };
+      return {
+        path: flat?.name ?? join(page.path, node.name),
+        kind: "place",
+        page: index,
+        index: at,
+        span: flat?.span ?? page.span,
+      };
     });
-    const bars = page.transitions.map(
-      (t, at): Element => ({ path: join(page.path, t.name), kind: "transition", page: index, index: at, span: t.span }),
-    );
+    const bars = page.transitions.map((t, at): Element => ({
+      path: join(page.path, t.name),
+      kind: "transition",
+      page: index,
+      index: at,
+      span: t.span,
+    }));
     return [...nodes, ...bars];
   }
 
   /** The behaviour page that each page lies in, or null above the behaviours. */
   behaviourOf(page: number | null): Page | null {
-    for (let at = page; at !== null; at = this.page(at).parent)
-      if (this.page(at).layer === "behaviour") return this.page(at);
+    for (let at = page; at !== null; at = this.page(at).parent) if (this.page(at).layer === "behaviour") return this.page(at);
     return null;
   }
 

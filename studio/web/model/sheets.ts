@@ -73,7 +73,13 @@ export class Sheets {
 
   private within(above: Placed, page: number, node: number, sheet: Sheet): Placed {
     const inner = inset(above.sheet.nodes[node]!, sheet);
-    return { page, sheet, x: above.x + inner.x * above.scale, y: above.y + inner.y * above.scale, scale: above.scale * inner.scale };
+    return {
+      page,
+      sheet,
+      x: above.x + inner.x * above.scale,
+      y: above.y + inner.y * above.scale,
+      scale: above.scale * inner.scale,
+    };
   }
 
   /** The sheets to be drawn for a window, parents first: those that are in it and large enough to be read. */

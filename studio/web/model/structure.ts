@@ -115,21 +115,53 @@ function bodyOf(yaml: YamlText, at: YamlPath): YamlPath {
 function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: YamlPath): Subsystem {
   const name = String(at.at(-1));
   const path = `${agent}.${name}`;
-  const buffers = ([["inputs", "input"], ["outputs", "output"], ["real", "real"]] as const).flatMap(([key, direction]) =>
+  const buffers = (
+    [
+      ["inputs", "input"],
+      ["outputs", "output"],
+      ["real", "real"],
+    ] as const
+  ).flatMap(([key, direction]) =>
     yaml.keys([...at, key]).map((own): Buffer => {
       const where = [...at, key, own];
-      return { name: own, path: `${path}.${own}`, direction, type: yaml.valueText(where) ?? "", yaml: where, line: yaml.line(where) };
+      return {
+        name: own,
+        path: `${path}.${own}`,
+        direction,
+        type: yaml.valueText(where) ?? "",
+        yaml: where,
+        line: yaml.line(where),
+      };
     }),
   );
   const behaviours = yaml.keys([...at, "behaviours"]).map((own) => readBehaviour(yaml, path, [...at, "behaviours", own]));
   const field = (key: string) => yaml.valueText([...at, key]) ?? "";
-  return { name, path, kind, yaml: at, line: yaml.line(at), endLine: yaml.endLine(at), rate: field("rate"), start: field("start"), behaviours, buffers };
+  return {
+    name,
+    path,
+    kind,
+    yaml: at,
+    line: yaml.line(at),
+    endLine: yaml.endLine(at),
+    rate: field("rate"),
+    start: field("start"),
+    behaviours,
+    buffers,
+  };
 }
 
 function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behaviour {
   const name = String(at.at(-1));
   const field = (key: string) => yaml.valueText([...at, key]) ?? "";
-  return { name, path: `${subsystem}.${name}`, yaml: at, line: yaml.line(at), terminal: field("terminal"), error: field("error"), next: readNext(yaml, [...at, "next"]) };
+  return {
+    name,
+    path: `${subsystem}.${name}`,
+    yaml: at,
+    line: yaml.line(at),
+    terminal: field("terminal"),
+    error: field("error"),
+    next: readNext(yaml, [...at, "next"]),
+  };
 }
 
 function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string }[] {
@@ -137,7 +169,9 @@ function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string }[] 
   if (isScalar(node)) return [{ to: String(node.value ?? ""), when: "" }];
   if (!isSeq(node)) return [];
   return node.items.map((item, index) =>
-    isMap(item) ? { to: yaml.valueText([...at, index, "to"]) ?? "", when: yaml.valueText([...at, index, "when"]) ?? "" } : { to: yaml.valueText([...at, index]) ?? "", when: "" },
+    isMap(item)
+      ? { to: yaml.valueText([...at, index, "to"]) ?? "", when: yaml.valueText([...at, index, "when"]) ?? "" }
+      : { to: yaml.valueText([...at, index]) ?? "", when: "" },
   );
 }
 
@@ -151,7 +185,16 @@ function readChannel(yaml: YamlText, index: number): Channel {
   }
   const field = (key: string) => yaml.valueText([...at, key]) ?? "";
   const mode = (key: string) => (field(key) === "blocking" ? "blocking" : "non_blocking");
-  return { index, from: field("from"), to: field("to"), send: mode("send"), receive: mode("receive"), timeout: field("timeout"), model: field("model"), line };
+  return {
+    index,
+    from: field("from"),
+    to: field("to"),
+    send: mode("send"),
+    receive: mode("receive"),
+    timeout: field("timeout"),
+    model: field("model"),
+    line,
+  };
 }
 
 /** What a path names: `robot`, `robot.control`, `robot.control.follow`, `robot.control.line`, `channel:2`. */

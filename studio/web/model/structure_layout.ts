@@ -53,7 +53,9 @@ export function layoutStructure(structure: Structure): AgentBox[] {
 }
 
 function layoutAgent(agent: Agent, top: number): AgentBox {
-  const columns = (["receptor", "control", "effector"] as const).map((kind) => agent.subsystems.filter((one) => one.kind === kind)).filter((column) => column.length > 0);
+  const columns = (["receptor", "control", "effector"] as const)
+    .map((kind) => agent.subsystems.filter((one) => one.kind === kind))
+    .filter((column) => column.length > 0);
   const columnHeight = (column: Subsystem[]) => column.reduce((sum, one) => sum + withDevice(one) + gap.y, -gap.y);
   const tallest = Math.max(60, ...columns.map(columnHeight));
   const box: AgentBox = { path: agent.name, x: 0, y: top, width: 0, height: tallest + 66, subsystems: [], devices: [] };
@@ -64,7 +66,15 @@ function layoutAgent(agent: Agent, top: number): AgentBox {
     for (const one of column) {
       const height = heightOf(one);
       box.subsystems.push({ path: one.path, x, y, width: wide, height });
-      if (realOf(one)) box.devices.push({ path: `${one.path}#device`, of: one.path, x: x + 35, y: y + height + gap.device, width: wide - 70, height: deviceHeight(one) });
+      if (realOf(one))
+        box.devices.push({
+          path: `${one.path}#device`,
+          of: one.path,
+          x: x + 35,
+          y: y + height + gap.device,
+          width: wide - 70,
+          height: deviceHeight(one),
+        });
       y += withDevice(one) + gap.y;
     }
     x += wide + gap.x;

@@ -1,4 +1,18 @@
-import { isCollection, isMap, isPair, isScalar, isSeq, LineCounter, parseDocument, stringify, type Document, type Node, type Pair, type YAMLMap, type YAMLSeq } from "yaml";
+import {
+  isCollection,
+  isMap,
+  isPair,
+  isScalar,
+  isSeq,
+  LineCounter,
+  parseDocument,
+  stringify,
+  type Document,
+  type Node,
+  type Pair,
+  type YAMLMap,
+  type YAMLSeq,
+} from "yaml";
 
 /**
  * The specification as text that is edited in place: the parsed document says where things stand, and an edit replaces
@@ -15,7 +29,9 @@ export interface TextEdit {
 }
 
 export function apply(text: string, edits: readonly TextEdit[]): string {
-  return [...edits].sort((a, b) => b.from - a.from || b.to - a.to).reduce((now, edit) => now.slice(0, edit.from) + edit.insert + now.slice(edit.to), text);
+  return [...edits]
+    .sort((a, b) => b.from - a.from || b.to - a.to)
+    .reduce((now, edit) => now.slice(0, edit.from) + edit.insert + now.slice(edit.to), text);
 }
 
 /** How a text is written as a scalar: in quotes only where YAML needs them. Flow collections and numbers stay as they are. */
@@ -60,7 +76,8 @@ export class YamlText {
   valueText(path: YamlPath): string | undefined {
     const node = this.node(path);
     if (!node || !node.range) return undefined;
-    if (isScalar(node)) return node.value === null ? "" : typeof node.value === "string" ? node.value : (node.source ?? String(node.value));
+    if (isScalar(node))
+      return node.value === null ? "" : typeof node.value === "string" ? node.value : (node.source ?? String(node.value));
     return this.text.slice(node.range[0], node.range[1]).trim();
   }
 

@@ -20,7 +20,8 @@ export function ConnectionBanner() {
       )}
       {state === "refused" && (
         <div className="strip error" role="alert">
-          The server was started anew and has a new address: open the one that <code>tessera studio</code> printed. What you edited is kept in this tab.
+          The server was started anew and has a new address: open the one that <code>tessera studio</code> printed. What you
+          edited is kept in this tab.
         </div>
       )}
       <div className="toast-place" aria-live="polite">

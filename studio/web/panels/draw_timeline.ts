@@ -6,7 +6,13 @@ const axis = 18;
 const names = 108;
 
 /** A lane per subsystem: which behaviour ran, as bands with their names, and its firings as ticks. The right edge is now. */
-export function drawTimeline(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, seconds: number): void {
+export function drawTimeline(
+  context: CanvasRenderingContext2D,
+  size: Size,
+  colours: Colours,
+  track: Track,
+  seconds: number,
+): void {
   const { timeline } = track;
   const end = Math.max(track.now, seconds * 1e9);
   const start = end - seconds * 1e9;
@@ -27,7 +33,14 @@ export function drawTimeline(context: CanvasRenderingContext2D, size: Size, colo
 
 const clip = (text: string, length: number) => (text.length > length ? `…${text.slice(1 - length)}` : text);
 
-function drawAxis(context: CanvasRenderingContext2D, size: Size, colours: Colours, start: number, end: number, x: (time: number) => number): void {
+function drawAxis(
+  context: CanvasRenderingContext2D,
+  size: Size,
+  colours: Colours,
+  start: number,
+  end: number,
+  x: (time: number) => number,
+): void {
   const step = niceStep((end - start) / 1e9 / 6);
   context.strokeStyle = colours.line;
   context.fillStyle = colours.faint;
@@ -49,7 +62,16 @@ export function niceStep(rough: number): number {
   return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
-function drawBands(context: CanvasRenderingContext2D, colours: Colours, segments: Timeline["lanes"][number]["segments"], end: number, start: number, x: (time: number) => number, y: number, height: number): void {
+function drawBands(
+  context: CanvasRenderingContext2D,
+  colours: Colours,
+  segments: Timeline["lanes"][number]["segments"],
+  end: number,
+  start: number,
+  x: (time: number) => number,
+  y: number,
+  height: number,
+): void {
   for (let at = segments.length - 1; at >= 0; at -= 1) {
     const { start: from, behaviour } = segments[at]!;
     const to = segments[at + 1]?.start ?? end;
@@ -65,7 +87,15 @@ function drawBands(context: CanvasRenderingContext2D, colours: Colours, segments
   }
 }
 
-function drawTicks(context: CanvasRenderingContext2D, colours: Colours, firings: readonly number[], start: number, x: (time: number) => number, y: number, width: number): void {
+function drawTicks(
+  context: CanvasRenderingContext2D,
+  colours: Colours,
+  firings: readonly number[],
+  start: number,
+  x: (time: number) => number,
+  y: number,
+  width: number,
+): void {
   context.fillStyle = colours.faint;
   let last = -1;
   for (let at = Timeline.from(firings, start); at < firings.length; at += 1) {

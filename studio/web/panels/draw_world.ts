@@ -30,7 +30,13 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
 }
 
 /** The picture's lower left corner is the floor's origin. */
-function drawFloor(context: CanvasRenderingContext2D, floor: Track["floor"], x: (at: number) => number, y: (at: number) => number, scale: number): void {
+function drawFloor(
+  context: CanvasRenderingContext2D,
+  floor: Track["floor"],
+  x: (at: number) => number,
+  y: (at: number) => number,
+  scale: number,
+): void {
   if (!floor) return;
   const [width, height] = [floor.image.width * floor.metresPerPixel, floor.image.height * floor.metresPerPixel];
   context.save();
@@ -41,7 +47,13 @@ function drawFloor(context: CanvasRenderingContext2D, floor: Track["floor"], x: 
 
 function boundsOf(path: Track["path"], floor: Track["floor"]) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
-  if (floor) Object.assign(box, { left: 0, bottom: 0, right: floor.image.width * floor.metresPerPixel, top: floor.image.height * floor.metresPerPixel });
+  if (floor)
+    Object.assign(box, {
+      left: 0,
+      bottom: 0,
+      right: floor.image.width * floor.metresPerPixel,
+      top: floor.image.height * floor.metresPerPixel,
+    });
   for (const { x, y } of path) {
     box.left = Math.min(box.left, x);
     box.right = Math.max(box.right, x);

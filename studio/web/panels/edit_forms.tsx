@@ -1,10 +1,20 @@
 import { useStudio } from "../app/use";
 import * as edits from "../model/edits";
-import { readStructure, type Agent, type Behaviour, type Buffer, type Channel, type Structure, type Subsystem, type Thing } from "../model/structure";
+import {
+  readStructure,
+  type Agent,
+  type Behaviour,
+  type Buffer,
+  type Channel,
+  type Structure,
+  type Subsystem,
+  type Thing,
+} from "../model/structure";
 import type { YamlPath } from "../model/yaml_text";
 import { Choice, Field } from "./field";
 
-const nameProblem = (text: string) => (edits.isName(text) ? undefined : "Letters, digits and single underscores, beginning with a letter");
+const nameProblem = (text: string) =>
+  edits.isName(text) ? undefined : "Letters, digits and single underscores, beginning with a letter";
 
 /** Puts a changed text into the draft and selects what was changed. */
 function useEdit() {
@@ -45,8 +55,19 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
   };
   return (
     <>
-      <Field label="Name" value={agent.name} wrong={nameProblem} onChange={(name) => edit(edits.renameAgent(structure, agent, name), name)} />
-      <Field label="How many" value={agent.count} placeholder="one" hint="A fleet of equal agents" onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))} />
+      <Field
+        label="Name"
+        value={agent.name}
+        wrong={nameProblem}
+        onChange={(name) => edit(edits.renameAgent(structure, agent, name), name)}
+      />
+      <Field
+        label="How many"
+        value={agent.count}
+        placeholder="one"
+        hint="A fleet of equal agents"
+        onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))}
+      />
       <div className="buttons">
         {!names.includes("control") && <button onClick={() => add("control")}>Add control</button>}
         <button onClick={() => add("receptor")}>Add receptor</button>
@@ -71,10 +92,32 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
   };
   return (
     <>
-      {subsystem.kind !== "control" && <Field label="Name" value={subsystem.name} wrong={nameProblem} onChange={(name) => edit(edits.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)} />}
+      {subsystem.kind !== "control" && (
+        <Field
+          label="Name"
+          value={subsystem.name}
+          wrong={nameProblem}
+          onChange={(name) => edit(edits.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)}
+        />
+      )}
       <Field label="Rate" value={subsystem.rate} placeholder="as its blocking channels say" onChange={set("rate")} />
-      {subsystem.behaviours.length > 1 && <Field label="Starts with" value={subsystem.start} placeholder={subsystem.behaviours[0]!.name} choices={subsystem.behaviours.map((one) => one.name)} onChange={set("start")} />}
-      {subsystem.kind === "effector" && <Field label="Inputs are stale after" value={structure.yaml.valueText([...subsystem.yaml, "stale"]) ?? ""} placeholder="never" onChange={set("stale")} />}
+      {subsystem.behaviours.length > 1 && (
+        <Field
+          label="Starts with"
+          value={subsystem.start}
+          placeholder={subsystem.behaviours[0]!.name}
+          choices={subsystem.behaviours.map((one) => one.name)}
+          onChange={set("start")}
+        />
+      )}
+      {subsystem.kind === "effector" && (
+        <Field
+          label="Inputs are stale after"
+          value={structure.yaml.valueText([...subsystem.yaml, "stale"]) ?? ""}
+          placeholder="never"
+          onChange={set("stale")}
+        />
+      )}
       <div className="buttons">
         <button onClick={addBehaviour}>Add behaviour</button>
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
@@ -86,22 +129,54 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
   );
 }
 
-function BehaviourForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
+function BehaviourForm({
+  structure,
+  behaviour,
+  subsystem,
+}: {
+  structure: Structure;
+  behaviour: Behaviour;
+  subsystem: Subsystem;
+}) {
   const edit = useEdit();
   const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
   const set = (key: string) => (text: string) => edit(edits.setField(structure, behaviour.yaml, key, text));
   return (
     <>
-      <Field label="Name" value={behaviour.name} wrong={nameProblem} hint="Its C++ function has the same name; rename it there too" onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)} />
-      <Field label="Terminal condition" mono value={behaviour.terminal} placeholder="never" hint="C++ over in, out, memory, parameters" onChange={set("terminal")} />
+      <Field
+        label="Name"
+        value={behaviour.name}
+        wrong={nameProblem}
+        hint="Its C++ function has the same name; rename it there too"
+        onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
+      />
+      <Field
+        label="Terminal condition"
+        mono
+        value={behaviour.terminal}
+        placeholder="never"
+        hint="C++ over in, out, memory, parameters"
+        onChange={set("terminal")}
+      />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <Field label="Sends" mono value={field("send")} placeholder="all outputs" onChange={set("send")} />
       <Field label="Receives" mono value={field("receive")} placeholder="all inputs" onChange={set("receive")} />
-      <Choice label="Transfer" value={field("transfer") === "parallel" ? "parallel" : "sequential"} choices={[{ value: "sequential", title: "one channel after the other" }, { value: "parallel", title: "all channels at once" }]} onChange={(value) => set("transfer")(value === "parallel" ? value : "")} />
+      <Choice
+        label="Transfer"
+        value={field("transfer") === "parallel" ? "parallel" : "sequential"}
+        choices={[
+          { value: "sequential", title: "one channel after the other" },
+          { value: "parallel", title: "all channels at once" },
+        ]}
+        onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
+      />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <div className="buttons">
-        <Remove what="behaviour" onClick={() => edit(edits.removeBehaviour(structure, subsystem, behaviour, readStructure), subsystem.path)} />
+        <Remove
+          what="behaviour"
+          onClick={() => edit(edits.removeBehaviour(structure, subsystem, behaviour, readStructure), subsystem.path)}
+        />
       </div>
     </>
   );
@@ -112,18 +187,33 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
   const { next } = behaviour;
   const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
   const write = (changed: Behaviour["next"]) => edit(edits.setNext(structure, behaviour, changed));
-  const change = (at: number, part: Partial<Behaviour["next"][number]>) => write(next.map((entry, index) => (index === at ? { ...entry, ...part } : entry)));
+  const change = (at: number, part: Partial<Behaviour["next"][number]>) =>
+    write(next.map((entry, index) => (index === at ? { ...entry, ...part } : entry)));
   return (
     <fieldset className="next">
       <legend>Then</legend>
       {next.length === 0 && <p className="faint">the subsystem ends</p>}
       {next.map((entry, at) => (
         <div key={at} className="next-entry">
-          <Field label={`Then ${at + 1}: to`} value={entry.to} choices={targets} onChange={(to) => (to ? change(at, { to }) : write(next.filter((_, index) => index !== at)))} />
-          <Field label="when" mono value={entry.when} placeholder="always" choices={["error"]} onChange={(when) => change(at, { when })} />
+          <Field
+            label={`Then ${at + 1}: to`}
+            value={entry.to}
+            choices={targets}
+            onChange={(to) => (to ? change(at, { to }) : write(next.filter((_, index) => index !== at)))}
+          />
+          <Field
+            label="when"
+            mono
+            value={entry.when}
+            placeholder="always"
+            choices={["error"]}
+            onChange={(when) => change(at, { when })}
+          />
         </div>
       ))}
-      <button onClick={() => write([...next, { to: targets.find((name) => name !== behaviour.name) ?? "end", when: "" }])}>Add what follows</button>
+      <button onClick={() => write([...next, { to: targets.find((name) => name !== behaviour.name) ?? "end", when: "" }])}>
+        Add what follows
+      </button>
     </fieldset>
   );
 }
@@ -136,10 +226,25 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
   return (
     <>
       <p className="faint">{directionTitle[buffer.direction]}</p>
-      <Field label="Name" value={buffer.name} wrong={nameProblem} onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)} />
-      <Field label="Type" mono value={buffer.type} choices={[...structure.types, ...plainTypes]} hint="A unit may follow a number: float64 m/s" onChange={(type) => edit(edits.setType(structure, buffer, type))} />
+      <Field
+        label="Name"
+        value={buffer.name}
+        wrong={nameProblem}
+        onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)}
+      />
+      <Field
+        label="Type"
+        mono
+        value={buffer.type}
+        choices={[...structure.types, ...plainTypes]}
+        hint="A unit may follow a number: float64 m/s"
+        onChange={(type) => edit(edits.setType(structure, buffer, type))}
+      />
       <div className="buttons">
-        <Remove what="buffer" onClick={() => edit(edits.removeBuffer(structure, subsystem, buffer, readStructure), subsystem.path)} />
+        <Remove
+          what="buffer"
+          onClick={() => edit(edits.removeBuffer(structure, subsystem, buffer, readStructure), subsystem.path)}
+        />
       </div>
     </>
   );
@@ -163,12 +268,21 @@ function ChannelForm({ structure, channel }: { structure: Structure; channel: Ch
         <dd className="path">{channel.to}</dd>
       </dl>
       {channel.model ? (
-        <Field label="Communication model" value={channel.model} onChange={(text) => edit(edits.setField(structure, at, "model", text))} />
+        <Field
+          label="Communication model"
+          value={channel.model}
+          onChange={(text) => edit(edits.setField(structure, at, "model", text))}
+        />
       ) : (
         <>
           <Choice label="The sender" value={channel.send} choices={modes} onChange={(send) => set({ send })} />
           <Choice label="The receiver" value={channel.receive} choices={modes} onChange={(receive) => set({ receive })} />
-          <Field label="Timeout of a side that waits" value={channel.timeout} placeholder="waits for ever" onChange={(timeout) => set({ timeout })} />
+          <Field
+            label="Timeout of a side that waits"
+            value={channel.timeout}
+            placeholder="waits for ever"
+            onChange={(timeout) => set({ timeout })}
+          />
         </>
       )}
       <div className="buttons">

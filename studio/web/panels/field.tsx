@@ -29,7 +29,21 @@ export function Field({ label, value, hint, placeholder, choices, mono, wrong, o
   return (
     <div className="field">
       <label htmlFor={id}>{label}</label>
-      <input id={id} type="text" className={mono ? "mono" : ""} value={text} placeholder={placeholder} list={choices ? `${id}-choices` : undefined} aria-invalid={problem !== undefined} aria-describedby={problem || hint ? `${id}-hint` : undefined} spellCheck={false} autoComplete="off" onChange={(event) => setText(event.target.value)} onBlur={take} onKeyDown={key} />
+      <input
+        id={id}
+        type="text"
+        className={mono ? "mono" : ""}
+        value={text}
+        placeholder={placeholder}
+        list={choices ? `${id}-choices` : undefined}
+        aria-invalid={problem !== undefined}
+        aria-describedby={problem || hint ? `${id}-hint` : undefined}
+        spellCheck={false}
+        autoComplete="off"
+        onChange={(event) => setText(event.target.value)}
+        onBlur={take}
+        onKeyDown={key}
+      />
       {choices && (
         <datalist id={`${id}-choices`}>
           {choices.map((choice) => (
@@ -46,7 +60,17 @@ export function Field({ label, value, hint, placeholder, choices, mono, wrong, o
   );
 }
 
-export function Choice<T extends string>({ label, value, choices, onChange }: { label: string; value: T; choices: readonly { value: T; title: string }[]; onChange: (value: T) => void }) {
+export function Choice<T extends string>({
+  label,
+  value,
+  choices,
+  onChange,
+}: {
+  label: string;
+  value: T;
+  choices: readonly { value: T; title: string }[];
+  onChange: (value: T) => void;
+}) {
   const id = useId();
   return (
     <div className="field">

@@ -69,7 +69,13 @@ function Breakpoint({ place }: { place: number }) {
   );
 }
 
-const kinds: Record<Thing["kind"], string> = { agent: "Agent", subsystem: "Subsystem", behaviour: "Behaviour", buffer: "Buffer", channel: "Channel" };
+const kinds: Record<Thing["kind"], string> = {
+  agent: "Agent",
+  subsystem: "Subsystem",
+  behaviour: "Behaviour",
+  buffer: "Buffer",
+  channel: "Channel",
+};
 
 function title(thing: Thing | undefined, selected: string): string {
   if (thing?.kind === "channel") return "Channel";
@@ -90,8 +96,14 @@ function facts(net: NetModel, element: Element): [string, string][] {
   if (element.kind === "place") {
     const node = page.nodes[element.index]!;
     const operation = operationText(page, node.operation);
-    const fused: [string, string][] = node.fusion === null ? [] : [["Fused", "one place seen in several nets: memory of a channel"]];
-    return [["Kind", "place"], ...(operation ? [["Operation", operation] as [string, string]] : []), ...fused, ["At start", node.tokens ? `${node.tokens} token` : "empty"]];
+    const fused: [string, string][] =
+      node.fusion === null ? [] : [["Fused", "one place seen in several nets: memory of a channel"]];
+    return [
+      ["Kind", "place"],
+      ...(operation ? [["Operation", operation] as [string, string]] : []),
+      ...fused,
+      ["At start", node.tokens ? `${node.tokens} token` : "empty"],
+    ];
   }
   const transition = page.transitions[element.index]!;
   const names = (nodes: number[]) => nodes.map((at) => page.nodes[at]!.name).join(", ");

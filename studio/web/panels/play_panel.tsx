@@ -16,7 +16,9 @@ export function PlayPanel() {
             Play the token game
           </button>
         </div>
-        <p className="faint">Fire what can fire by clicking it in the drawing, choose how conditions fall, or let it run. Nothing is compiled.</p>
+        <p className="faint">
+          Fire what can fire by clicking it in the drawing, choose how conditions fall, or let it run. Nothing is compiled.
+        </p>
       </>
     );
   const shown = studio.play.net ?? net;
@@ -49,9 +51,15 @@ function Choices({ net }: { net: NetModel }) {
       <ul className="choice-list">
         {active.map((index) => (
           <li key={index}>
-            <button className="choice" onClick={() => studio.play.choose(index)} onFocus={() => studio.select(net.transitions[index]!.name, false)}>
+            <button
+              className="choice"
+              onClick={() => studio.play.choose(index)}
+              onFocus={() => studio.select(net.transitions[index]!.name, false)}
+            >
               {net.transitions[index]!.name}
-              {net.transitions[index]!.condition?.text && <span className="faint"> [{net.transitions[index]!.condition!.text}]</span>}
+              {net.transitions[index]!.condition?.text && (
+                <span className="faint"> [{net.transitions[index]!.condition!.text}]</span>
+              )}
             </button>
           </li>
         ))}
@@ -66,7 +74,9 @@ function Choices({ net }: { net: NetModel }) {
                 <select
                   aria-label={`Condition of ${net.transitions[index]!.name}`}
                   value={conditions.has(index) ? String(conditions.get(index)) : ""}
-                  onChange={(event) => studio.play.setCondition(index, event.target.value === "" ? undefined : event.target.value === "true")}
+                  onChange={(event) =>
+                    studio.play.setCondition(index, event.target.value === "" ? undefined : event.target.value === "true")
+                  }
                 >
                   <option value="">either way</option>
                   <option value="true">holds</option>
@@ -89,7 +99,9 @@ function Channels({ net }: { net: NetModel }) {
   const studio = useStudio();
   useStore(studio.play.store, (all) => all.position);
   const { marking } = studio.stage;
-  const held = net.places.flatMap((place, index) => (place.channel !== null && (studio.play.marking?.[index] ?? marking[index]) ? [place.name] : []));
+  const held = net.places.flatMap((place, index) =>
+    place.channel !== null && (studio.play.marking?.[index] ?? marking[index]) ? [place.name] : [],
+  );
   if (!net.places.some((place) => place.channel !== null)) return null;
   return (
     <>
@@ -123,7 +135,12 @@ function Steps({ net }: { net: NetModel }) {
         const name = net.transitions[transition]?.name ?? "?";
         return (
           <li key={number}>
-            <button ref={number === position ? current : undefined} aria-current={number === position ? "step" : undefined} className={number > position ? "future" : ""} onClick={() => (studio.play.seek(number), studio.select(name))}>
+            <button
+              ref={number === position ? current : undefined}
+              aria-current={number === position ? "step" : undefined}
+              className={number > position ? "future" : ""}
+              onClick={() => (studio.play.seek(number), studio.select(name))}
+            >
               <span className="number">{number}</span> {name}
             </button>
           </li>

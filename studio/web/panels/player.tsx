@@ -20,13 +20,26 @@ function RecordingPlayer() {
       <button className="icon" aria-label="Back to the last firing" onClick={() => recordings.step(-1)}>
         <Icon name="back" />
       </button>
-      <button className="icon" aria-label={playing ? "Pause" : "Play"} onClick={() => (time >= last && recordings.seek(first), recordings.play(!playing))}>
+      <button
+        className="icon"
+        aria-label={playing ? "Pause" : "Play"}
+        onClick={() => (time >= last && recordings.seek(first), recordings.play(!playing))}
+      >
         <Icon name={playing ? "pause" : "play"} />
       </button>
       <button className="icon" aria-label="To the next firing" onClick={() => recordings.step(1)}>
         <Icon name="forward" />
       </button>
-      <input type="range" aria-label="Time" aria-valuetext={`${clock(time)} seconds`} min={first} max={Math.max(first + 1, last)} step="any" value={time} onChange={(event) => recordings.seek(Number(event.target.value))} />
+      <input
+        type="range"
+        aria-label="Time"
+        aria-valuetext={`${clock(time)} seconds`}
+        min={first}
+        max={Math.max(first + 1, last)}
+        step="any"
+        value={time}
+        onChange={(event) => recordings.seek(Number(event.target.value))}
+      />
       <span className="position">
         {clock(time)} / {clock(last)} s
       </span>
@@ -65,7 +78,14 @@ function StepPlayer() {
       <button className="icon" aria-label="To the end" onClick={() => player.seek(play.length)}>
         <Icon name="last" />
       </button>
-      <input type="range" aria-label="Position" min={0} max={Math.max(1, play.length)} value={play.position} onChange={(event) => player.seek(Number(event.target.value))} />
+      <input
+        type="range"
+        aria-label="Position"
+        min={0}
+        max={Math.max(1, play.length)}
+        value={play.position}
+        onChange={(event) => player.seek(Number(event.target.value))}
+      />
       <span className="position">
         {play.position} / {play.length}
       </span>

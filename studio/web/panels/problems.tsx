@@ -17,7 +17,12 @@ export function Problems() {
   return (
     <footer className="problems">
       <div className="status">
-        <button className="quiet" aria-expanded={open && diagnostics.length > 0} onClick={() => setOpen(!open)} data-testid="problem-count">
+        <button
+          className="quiet"
+          aria-expanded={open && diagnostics.length > 0}
+          onClick={() => setOpen(!open)}
+          data-testid="problem-count"
+        >
           <span className={`dot ${errors ? "error" : warnings ? "warning" : "good"}`} />
           {errors === 0 && warnings === 0 ? "No problems" : `${count(errors, "error")}, ${count(warnings, "warning")}`}
         </button>

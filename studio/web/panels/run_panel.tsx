@@ -5,7 +5,14 @@ import type { RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";
 import { Icon } from "./icons";
 
-const states = { idle: "", building: "Building the controller…", running: "Running", paused: "Paused", ended: "Ended", failed: "Failed" };
+const states = {
+  idle: "",
+  building: "Building the controller…",
+  running: "Running",
+  paused: "Paused",
+  ended: "Ended",
+  failed: "Failed",
+};
 
 export function RunPanel() {
   const studio = useStudio();
@@ -59,13 +66,34 @@ function StartForm() {
     // What runs is what is on disk.
     if (dirty && !(await studio.draft.save())) return;
     const simulated = kind === "simulate";
-    const request: RunRequest = { kind, paused, ...(time ? { for: time } : {}), ...(track ? { track } : {}), ...(simulated ? { seed: Number(seed) || 1, speed: Number(speed) || 1 } : {}) };
+    const request: RunRequest = {
+      kind,
+      paused,
+      ...(time ? { for: time } : {}),
+      ...(track ? { track } : {}),
+      ...(simulated ? { seed: Number(seed) || 1, speed: Number(speed) || 1 } : {}),
+    };
     await studio.runner.start(request);
   };
   return (
     <>
-      <Choice label="Run" value={kind} onChange={setKind} choices={[{ value: "simulate", title: "in the simulated world" }, { value: "run", title: "on the steady clock, as on the robot" }]} />
-      {tracks.length > 0 && <Choice label="Track" value={track} onChange={setTrack} choices={[{ value: "", title: "as the specification says" }, ...tracks.map((one) => ({ value: one, title: one }))]} />}
+      <Choice
+        label="Run"
+        value={kind}
+        onChange={setKind}
+        choices={[
+          { value: "simulate", title: "in the simulated world" },
+          { value: "run", title: "on the steady clock, as on the robot" },
+        ]}
+      />
+      {tracks.length > 0 && (
+        <Choice
+          label="Track"
+          value={track}
+          onChange={setTrack}
+          choices={[{ value: "", title: "as the specification says" }, ...tracks.map((one) => ({ value: one, title: one }))]}
+        />
+      )}
       <div className="row">
         <Field label="For" value={time} onChange={setTime} />
         {kind === "simulate" && <Field label="Speed" value={speed} onChange={setSpeed} />}
@@ -110,11 +138,26 @@ function Controls() {
             <button disabled={!paused} onClick={() => void control({ command: "step_firing" })}>
               Step one firing
             </button>
-            <button disabled={!paused} onClick={() => void control({ command: "step_iteration", ...(subsystem || subsystems[0] ? { subsystem: subsystem || subsystems[0]! } : {}) })}>
+            <button
+              disabled={!paused}
+              onClick={() =>
+                void control({
+                  command: "step_iteration",
+                  ...(subsystem || subsystems[0] ? { subsystem: subsystem || subsystems[0]! } : {}),
+                })
+              }
+            >
               Step one iteration
             </button>
           </div>
-          {subsystems.length > 1 && <Choice label="Iteration of" value={subsystem || subsystems[0]!} onChange={setSubsystem} choices={subsystems.map((path) => ({ value: path, title: path }))} />}
+          {subsystems.length > 1 && (
+            <Choice
+              label="Iteration of"
+              value={subsystem || subsystems[0]!}
+              onChange={setSubsystem}
+              choices={subsystems.map((path) => ({ value: path, title: path }))}
+            />
+          )}
           <SpeedSlider speed={speed} onChange={(value) => void control({ command: "speed", value })} />
         </>
       )}
@@ -129,7 +172,15 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
       <label htmlFor="speed">
         Speed <strong>{speed} ×</strong>
       </label>
-      <input id="speed" type="range" min={-1} max={2} step={0.1} value={Math.log10(speed)} onChange={(event) => onChange(exact(Number(event.target.value)))} />
+      <input
+        id="speed"
+        type="range"
+        min={-1}
+        max={2}
+        step={0.1}
+        value={Math.log10(speed)}
+        onChange={(event) => onChange(exact(Number(event.target.value)))}
+      />
     </div>
   );
 }
@@ -169,7 +220,11 @@ function Breakpoints() {
             <button className="choice" onClick={() => studio.flyTo(net.places[place]!.name)}>
               {net.places[place]?.name}
             </button>
-            <button className="icon" aria-label={`Remove the breakpoint at ${net.places[place]?.name}`} onClick={() => studio.runner.toggleBreakpoint(place)}>
+            <button
+              className="icon"
+              aria-label={`Remove the breakpoint at ${net.places[place]?.name}`}
+              onClick={() => studio.runner.toggleBreakpoint(place)}
+            >
               <Icon name="remove" />
             </button>
           </li>

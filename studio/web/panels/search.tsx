@@ -40,7 +40,13 @@ export function Search() {
     event.preventDefault();
   };
   return (
-    <dialog ref={dialog} className="search" aria-label="Find by path" onClose={close} onClick={(event) => event.target === dialog.current && close()}>
+    <dialog
+      ref={dialog}
+      className="search"
+      aria-label="Find by path"
+      onClose={close}
+      onClick={(event) => event.target === dialog.current && close()}
+    >
       <input
         autoFocus
         type="text"
@@ -59,12 +65,23 @@ export function Search() {
       />
       <ul id="search-results" role="listbox" aria-label="Elements">
         {found.map((one, at) => (
-          <li key={`${one.kind}:${one.path}`} id={`found-${at}`} role="option" aria-selected={at === chosen} onClick={() => take(one)} onPointerMove={() => setChosen(at)}>
+          <li
+            key={`${one.kind}:${one.path}`}
+            id={`found-${at}`}
+            role="option"
+            aria-selected={at === chosen}
+            onClick={() => take(one)}
+            onPointerMove={() => setChosen(at)}
+          >
             <span className="path">{one.path}</span>
             <span className="kind">{one.kind}</span>
           </li>
         ))}
-        {found.length === 0 && <li className="faint" role="option" aria-selected="false">Nothing has such a path</li>}
+        {found.length === 0 && (
+          <li className="faint" role="option" aria-selected="false">
+            Nothing has such a path
+          </li>
+        )}
       </ul>
     </dialog>
   );

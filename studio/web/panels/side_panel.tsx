@@ -21,7 +21,14 @@ export function SidePanel() {
     <>
       <div className="tabs" role="tablist" aria-label="Panels">
         {panels.map(({ name, title }) => (
-          <button key={name} role="tab" id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel" onClick={() => studio.view.set({ panel: name })}>
+          <button
+            key={name}
+            role="tab"
+            id={`tab-${name}`}
+            aria-selected={panel === name}
+            aria-controls="panel"
+            onClick={() => studio.view.set({ panel: name })}
+          >
             {title}
           </button>
         ))}

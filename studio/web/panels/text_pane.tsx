@@ -55,7 +55,10 @@ export default function TextPane() {
       EditorView.contentAttributes.of({ "aria-label": "Text of the specification" }),
       edited,
     ];
-    const made = new EditorView({ parent: host.current!, state: EditorState.create({ doc: studio.draft.store.get().text, extensions }) });
+    const made = new EditorView({
+      parent: host.current!,
+      state: EditorState.create({ doc: studio.draft.store.get().text, extensions }),
+    });
     made.scrollDOM.tabIndex = 0;
     made.scrollDOM.setAttribute("aria-label", "Scrolled text");
     made.scrollDOM.setAttribute("role", "region");
@@ -96,7 +99,13 @@ function mark(editor: EditorView, diagnostics: readonly Diagnostic[]): void {
     const from = offset(doc, one.line, one.column);
     const to = Math.max(offset(doc, one.end_line || one.line, one.end_column || one.column), from);
     const severity = one.severity === "error" || one.severity === "warning" ? one.severity : ("info" as const);
-    return { from, to: to === from ? Math.min(from + 1, doc.length) : to, severity, message: `${one.message}${one.hint ? `\n${one.hint}` : ""}`, source: one.code };
+    return {
+      from,
+      to: to === from ? Math.min(from + 1, doc.length) : to,
+      severity,
+      message: `${one.message}${one.hint ? `\n${one.hint}` : ""}`,
+      source: one.code,
+    };
   });
   editor.dispatch(setDiagnostics(editor.state, marks));
 }

@@ -31,16 +31,40 @@ export function Toolbar() {
       </button>
       <span className="spring" />
       <Verdicts />
-      <button className="icon" aria-label="Undo" title="Undo (Ctrl Z)" disabled={!draft.canUndo} onClick={() => studio.draft.undo()}>
+      <button
+        className="icon"
+        aria-label="Undo"
+        title="Undo (Ctrl Z)"
+        disabled={!draft.canUndo}
+        onClick={() => studio.draft.undo()}
+      >
         <Icon name="undo" />
       </button>
-      <button className="icon" aria-label="Redo" title="Redo (Ctrl Shift Z)" disabled={!draft.canRedo} onClick={() => studio.draft.redo()}>
+      <button
+        className="icon"
+        aria-label="Redo"
+        title="Redo (Ctrl Shift Z)"
+        disabled={!draft.canRedo}
+        onClick={() => studio.draft.redo()}
+      >
         <Icon name="redo" />
       </button>
-      <button className="icon" aria-label="Text of the specification" aria-pressed={text} title="Text of the specification" onClick={() => studio.view.set({ text: !text })}>
+      <button
+        className="icon"
+        aria-label="Text of the specification"
+        aria-pressed={text}
+        title="Text of the specification"
+        onClick={() => studio.view.set({ text: !text })}
+      >
         <Icon name="text" />
       </button>
-      <button className="icon" aria-label="Dark colours" aria-pressed={theme === "dark"} title="Light or dark" onClick={() => studio.view.set({ theme: theme === "dark" ? "light" : "dark" })}>
+      <button
+        className="icon"
+        aria-label="Dark colours"
+        aria-pressed={theme === "dark"}
+        title="Light or dark"
+        onClick={() => studio.view.set({ theme: theme === "dark" ? "light" : "dark" })}
+      >
         <Icon name="theme" />
       </button>
       <button className="primary" disabled={!dirty} onClick={() => void studio.draft.save()} title="Save (Ctrl S)">

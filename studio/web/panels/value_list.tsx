@@ -18,7 +18,10 @@ export function ValueList({ track, seconds }: { track: Track; seconds: number })
     <div className="value-list">
       {large && (
         <div className="large-plot">
-          <Painted label={`Plot of ${plotted}`} draw={(context, size, colours) => plot(context, size, colours, large, track.now, seconds, true)} />
+          <Painted
+            label={`Plot of ${plotted}`}
+            draw={(context, size, colours) => plot(context, size, colours, large, track.now, seconds, true)}
+          />
         </div>
       )}
       <ul>
@@ -29,7 +32,14 @@ export function ValueList({ track, seconds }: { track: Track; seconds: number })
               <button aria-pressed={plotted === path} onClick={() => setPlotted(plotted === path ? null : path)} title={path}>
                 <span className="path">{path}</span>
                 <span className="now">{shown(track.series.latest.get(path))}</span>
-                <span className="spark">{samples && <Painted label="" draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)} />}</span>
+                <span className="spark">
+                  {samples && (
+                    <Painted
+                      label=""
+                      draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)}
+                    />
+                  )}
+                </span>
               </button>
             </li>
           );
@@ -39,7 +49,15 @@ export function ValueList({ track, seconds }: { track: Track; seconds: number })
   );
 }
 
-function plot(context: CanvasRenderingContext2D, size: Size, colours: Colours, { times, values }: Samples, now: number, seconds: number, large: boolean): void {
+function plot(
+  context: CanvasRenderingContext2D,
+  size: Size,
+  colours: Colours,
+  { times, values }: Samples,
+  now: number,
+  seconds: number,
+  large: boolean,
+): void {
   const start = now - seconds * 1e9;
   let first = times.length;
   while (first > 0 && times[first - 1]! >= start) first -= 1;

@@ -49,7 +49,12 @@ export function VerifyPanel() {
       {verifier.state === "stopped" && <p className="faint">Stopped before all was known.</p>}
       {verifier.problem && <p className="problem-hint">{verifier.problem}</p>}
       {old && <p className="problem-hint">The specification changed since; these verdicts are of the text before.</p>}
-      {verifier.state === "idle" && <p className="faint">Proves that nothing can go wrong in the net, or shows the run in which it does. The text is verified as it is here, saved or not.</p>}
+      {verifier.state === "idle" && (
+        <p className="faint">
+          Proves that nothing can go wrong in the net, or shows the run in which it does. The text is verified as it is here,
+          saved or not.
+        </p>
+      )}
       <div className="verdicts">
         {verifier.verdicts.map((verdict) => (
           <VerdictRow key={verdict.name} verdict={verdict} net={verifier.net} />
@@ -73,7 +78,11 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
   return (
     <details className="verdict" open={bad}>
       <summary>
-        <span className={`mark ${verdict.verdict === "violated" && verdict.warning ? "unknown" : verdict.verdict}`} role="img" aria-label={verdict.verdict}>
+        <span
+          className={`mark ${verdict.verdict === "violated" && verdict.warning ? "unknown" : verdict.verdict}`}
+          role="img"
+          aria-label={verdict.verdict}
+        >
           <Icon name={marks[verdict.verdict]} />
         </span>
         <span className="name">{verdict.name.replaceAll("_", " ")}</span>

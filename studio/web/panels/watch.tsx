@@ -29,7 +29,11 @@ export function Watch() {
             ))}
           </select>
         </div>
-        <Painted label="Behaviours and firings of each subsystem over time" draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)} onPick={open === null ? undefined : (part) => studio.recordings.seek(track.now - seconds * 1e9 * (1 - part))} />
+        <Painted
+          label="Behaviours and firings of each subsystem over time"
+          draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
+          onPick={open === null ? undefined : (part) => studio.recordings.seek(track.now - seconds * 1e9 * (1 - part))}
+        />
       </div>
       <div className="watch-pane values">
         <div className="watch-title">
@@ -42,7 +46,10 @@ export function Watch() {
           <h2>World</h2>
           <span className="faint">{track.path.length > 0 ? "from above" : ""}</span>
         </div>
-        <Painted label="The robot's path from above" draw={(context, size, colours) => drawWorld(context, size, colours, track)} />
+        <Painted
+          label="The robot's path from above"
+          draw={(context, size, colours) => drawWorld(context, size, colours, track)}
+        />
       </div>
     </section>
   );
@@ -54,7 +61,8 @@ function Facts({ track }: { track: Track }) {
   useEffect(() => {
     const tell = () => {
       const dropped = track.dropped > 0 ? ` (${track.dropped.toLocaleString("en")} only counted)` : "";
-      if (ref.current) ref.current.textContent = `${(track.now / 1e9).toFixed(2)} s · ${track.firings.toLocaleString("en")} firings${dropped}`;
+      if (ref.current)
+        ref.current.textContent = `${(track.now / 1e9).toFixed(2)} s · ${track.firings.toLocaleString("en")} firings${dropped}`;
     };
     tell();
     const timer = setInterval(tell, 100);
@@ -79,11 +87,26 @@ export interface Size {
 function coloursOf(element: Element): Colours {
   const style = getComputedStyle(element);
   const of = (name: string) => style.getPropertyValue(name).trim();
-  return { text: of("--text"), faint: of("--faint"), line: of("--line"), accent: of("--accent"), soft: of("--accent-soft"), surface: of("--surface") };
+  return {
+    text: of("--text"),
+    faint: of("--faint"),
+    line: of("--line"),
+    accent: of("--accent"),
+    soft: of("--accent-soft"),
+    surface: of("--surface"),
+  };
 }
 
 /** A canvas that is painted every frame in which it can be seen. */
-export function Painted({ label, draw, onPick }: { label: string; draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void; onPick?: ((part: number) => void) | undefined }) {
+export function Painted({
+  label,
+  draw,
+  onPick,
+}: {
+  label: string;
+  draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
+  onPick?: ((part: number) => void) | undefined;
+}) {
   const ref = useRef<HTMLCanvasElement>(null);
   const latest = useRef(draw);
   latest.current = draw;
@@ -110,5 +133,15 @@ export function Painted({ label, draw, onPick }: { label: string; draw: (context
     frame = requestAnimationFrame(paint);
     return () => cancelAnimationFrame(frame);
   }, []);
-  return <canvas ref={ref} className="painted" role="img" aria-label={label} onClick={(event) => onPick?.((event.clientX - event.currentTarget.getBoundingClientRect().left) / event.currentTarget.clientWidth)} />;
+  return (
+    <canvas
+      ref={ref}
+      className="painted"
+      role="img"
+      aria-label={label}
+      onClick={(event) =>
+        onPick?.((event.clientX - event.currentTarget.getBoundingClientRect().left) / event.currentTarget.clientWidth)
+      }
+    />
+  );
 }

@@ -12,11 +12,19 @@ import { addRuns } from "./fixture-runs.mjs";
 const here = dirname(fileURLToPath(import.meta.url));
 const dist = process.env.STUDIO_DIST ?? resolve(here, "../dist");
 const tessera = process.env.TESSERA ?? "tessera";
-const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".json": "application/json" };
+const types = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".json": "application/json",
+};
 const revisionOf = (text) => createHash("sha256").update(text).digest("hex").slice(0, 16);
 
 function command(args, options = {}) {
-  return new Promise((done) => execFile(tessera, args, { maxBuffer: 1 << 28, ...options }, (error, stdout) => done({ code: error?.code ?? 0, stdout })));
+  return new Promise((done) =>
+    execFile(tessera, args, { maxBuffer: 1 << 28, ...options }, (error, stdout) => done({ code: error?.code ?? 0, stdout })),
+  );
 }
 
 /** A server for a copy of the project in `folder`. */
@@ -31,9 +39,16 @@ export async function serve(folder, { port = 0, token = randomBytes(16).toString
   async function analyse(text) {
     const probe = join(root, `.probe-${randomBytes(4).toString("hex")}.yaml`);
     writeFileSync(probe, text);
-    const [checked, shown] = await Promise.all([command(["check", probe, "--json", "-"]), command(["show", probe, "--json", "-"])]);
+    const [checked, shown] = await Promise.all([
+      command(["check", probe, "--json", "-"]),
+      command(["show", probe, "--json", "-"]),
+    ]);
     rmSync(probe);
-    const diagnostics = JSON.parse(checked.stdout || "[]").map((one) => ({ ...one, end_line: one.line, end_column: one.column + one.length }));
+    const diagnostics = JSON.parse(checked.stdout || "[]").map((one) => ({
+      ...one,
+      end_line: one.line,
+      end_column: one.column + one.length,
+    }));
     return { diagnostics, net: shown.code === 0 ? JSON.parse(shown.stdout) : null, structure: null };
   }
 
@@ -44,7 +59,9 @@ export async function serve(folder, { port = 0, token = randomBytes(16).toString
     send("verify", { job, state: "running", property: "safe", states: 0, rate: 0 });
     const { stdout } = await command(["verify", probe, "--json", "-", "--timeout", "20s"]);
     rmSync(probe);
-    const state = stdout ? { job, state: "done", result: JSON.parse(stdout) } : { job, state: "failed", error: "the specification has errors" };
+    const state = stdout
+      ? { job, state: "done", result: JSON.parse(stdout) }
+      : { job, state: "failed", error: "the specification has errors" };
     jobs.set(job, state);
     send("verify", state);
   }
@@ -53,22 +70,64 @@ export async function serve(folder, { port = 0, token = randomBytes(16).toString
   const state = { root, file, send, runs, text: () => readFileSync(file, "utf8"), analyse };
   addRuns(state);
   const routes = [
-    ["GET", /^\/api\/project$/, () => ({ name: basename(folder), folder: root, file: "spec.yaml", version: "0.1.0", worlds: [{ name: "line_world.xml", tracks: ["oval.png", "curves.png"] }] })],
-    ["GET", /^\/api\/spec$/, async () => { const text = state.text(); return { text, revision: revisionOf(text), analysis: await analyse(text) }; }],
-    ["PUT", /^\/api\/spec$/, async (_, body) => {
-      const disk = state.text();
-      if (revisionOf(disk) !== body.revision) return [409, { text: disk, revision: revisionOf(disk), error: "the file on disk changed" }];
-      writeFileSync(file, body.text);
-      return { revision: revisionOf(body.text), analysis: await analyse(body.text) };
-    }],
+    [
+      "GET",
+      /^\/api\/project$/,
+      () => ({
+        name: basename(folder),
+        folder: root,
+        file: "spec.yaml",
+        version: "0.1.0",
+        worlds: [{ name: "line_world.xml", tracks: ["oval.png", "curves.png"] }],
+      }),
+    ],
+    [
+      "GET",
+      /^\/api\/spec$/,
+      async () => {
+        const text = state.text();
+        return { text, revision: revisionOf(text), analysis: await analyse(text) };
+      },
+    ],
+    [
+      "PUT",
+      /^\/api\/spec$/,
+      async (_, body) => {
+        const disk = state.text();
+        if (revisionOf(disk) !== body.revision)
+          return [409, { text: disk, revision: revisionOf(disk), error: "the file on disk changed" }];
+        writeFileSync(file, body.text);
+        return { revision: revisionOf(body.text), analysis: await analyse(body.text) };
+      },
+    ],
     ["POST", /^\/api\/check$/, (_, body) => analyse(body.text)],
-    ["POST", /^\/api\/verify$/, (_, body) => { const job = randomBytes(3).toString("hex"); jobs.set(job, { job, state: "running" }); void verify(job, body.text); return [202, { job }]; }],
+    [
+      "POST",
+      /^\/api\/verify$/,
+      (_, body) => {
+        const job = randomBytes(3).toString("hex");
+        jobs.set(job, { job, state: "running" });
+        void verify(job, body.text);
+        return [202, { job }];
+      },
+    ],
     ["GET", /^\/api\/verify\/(\w+)$/, ([job]) => jobs.get(job) ?? [404, { error: "no such job" }]],
-    ["DELETE", /^\/api\/verify\/(\w+)$/, ([job]) => { jobs.set(job, { job, state: "stopped" }); send("verify", { job, state: "stopped" }); return {}; }],
+    [
+      "DELETE",
+      /^\/api\/verify\/(\w+)$/,
+      ([job]) => {
+        jobs.set(job, { job, state: "stopped" });
+        send("verify", { job, state: "stopped" });
+        return {};
+      },
+    ],
   ];
   const server = createServer(async (request, response) => {
     const url = new URL(request.url, "http://127.0.0.1");
-    const answer = (status, body) => { response.writeHead(status, { "Content-Type": "application/json" }); response.end(JSON.stringify(body)); };
+    const answer = (status, body) => {
+      response.writeHead(status, { "Content-Type": "application/json" });
+      response.end(JSON.stringify(body));
+    };
     if (!url.pathname.startsWith("/api/")) return page(url.pathname, response);
     const given = url.searchParams.get("token") ?? request.headers.authorization?.replace("Bearer ", "");
     if (given !== token) return answer(401, { error: "wrong token", hint: "open the address that tessera studio printed" });
@@ -93,14 +152,28 @@ export async function serve(folder, { port = 0, token = randomBytes(16).toString
   await new Promise((done) => server.listen(port, "127.0.0.1", done));
   const address = `http://127.0.0.1:${server.address().port}`;
   return {
-    ...state, state, token, address, url: `${address}/#token=${token}`, port: server.address().port,
-    close: () => new Promise((done) => { watcher.close(); clients.forEach((client) => client.destroy()); server.close(done); server.closeAllConnections(); }),
+    ...state,
+    state,
+    token,
+    address,
+    url: `${address}/#token=${token}`,
+    port: server.address().port,
+    close: () =>
+      new Promise((done) => {
+        watcher.close();
+        clients.forEach((client) => client.destroy());
+        server.close(done);
+        server.closeAllConnections();
+      }),
   };
 }
 
 function page(path, response) {
   const file = join(dist, normalize(path === "/" ? "/index.html" : path));
-  if (!file.startsWith(dist) || !existsSync(file) || !statSync(file).isFile()) { response.writeHead(404); return response.end(); }
+  if (!file.startsWith(dist) || !existsSync(file) || !statSync(file).isFile()) {
+    response.writeHead(404);
+    return response.end();
+  }
   response.writeHead(200, { "Content-Type": types[extname(file)] ?? "application/octet-stream" });
   createReadStream(file).pipe(response);
 }

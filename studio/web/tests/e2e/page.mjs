@@ -53,7 +53,10 @@ export const draftText = (page) => page.evaluate(() => JSON.parse(sessionStorage
 /** Lines that differ, as `diff` shows them; for changes that keep the order of lines. */
 export function changes(before, after) {
   const [old, fresh] = [before.split("\n"), after.split("\n")];
-  return [...old.filter((line) => !fresh.includes(line)).map((line) => `-${line}`), ...fresh.filter((line) => !old.includes(line)).map((line) => `+${line}`)];
+  return [
+    ...old.filter((line) => !fresh.includes(line)).map((line) => `-${line}`),
+    ...fresh.filter((line) => !old.includes(line)).map((line) => `+${line}`),
+  ];
 }
 
 /** Waits until `look` gives something that is not undefined, null or false. */

@@ -9,7 +9,12 @@ const lineFollower = example("01_line_follower");
 test("zooming goes through the five layers", () =>
   onPage(lineFollower, async (page) => {
     const here = page.getByRole("navigation", { name: "Layers" });
-    for (const [path, layer] of [["robot", "agent"], ["robot.control", "subsystem"], ["robot.control.follow", "behaviour"], ["robot.control.follow.snd", "communication"]]) {
+    for (const [path, layer] of [
+      ["robot", "agent"],
+      ["robot.control", "subsystem"],
+      ["robot.control.follow", "behaviour"],
+      ["robot.control.follow.snd", "communication"],
+    ]) {
       await element(page, path).dblclick({ position: { x: 20, y: 12 } });
       await here.getByText(layer, { exact: true }).waitFor();
       assert.equal(await page.locator(`[data-sheet="${path}"]`).count(), 1);
@@ -90,7 +95,10 @@ test("a channel is dragged from an output to an input, and its modes are chosen"
     await page.locator('[data-path="channel:2"]').waitFor();
     await page.getByLabel("The receiver").selectOption("blocking");
     await page.locator('.channel-label[data-path="channel:2"]').getByText("N → B").waitFor();
-    assert.deepEqual(changes(before, await draftText(page)).at(-1), "+  - { from: robot.sensor.line, to: robot.motor.input, receive: blocking }");
+    assert.deepEqual(
+      changes(before, await draftText(page)).at(-1),
+      "+  - { from: robot.sensor.line, to: robot.motor.input, receive: blocking }",
+    );
   }));
 
 test("a broken file says where, keeps its drawing, and is repaired", () =>
@@ -197,7 +205,11 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
     await button(page, "Play").click();
-    await until(page, async () => Number((await page.locator(".player .position").innerText()).split(" ")[0]) > 0.05, "the recording plays");
+    await until(
+      page,
+      async () => Number((await page.locator(".player .position").innerText()).split(" ")[0]) > 0.05,
+      "the recording plays",
+    );
     await button(page, "Close").click();
   }));
 
@@ -271,7 +283,12 @@ test("a view is exported as a drawing that stands on its own", () =>
     assert.match(text, /follow\(\)/);
     assert.doesNotMatch(text, /var\(|class=|https?:\/\/(?!www\.w3\.org)/);
     const [png] = await Promise.all([page.waitForEvent("download"), button(page, "PNG").click()]);
-    assert.equal(readFileSync(await png.path()).subarray(1, 4).toString(), "PNG");
+    assert.equal(
+      readFileSync(await png.path())
+        .subarray(1, 4)
+        .toString(),
+      "PNG",
+    );
   }));
 
 test("axe finds nothing to object to, light and dark, in every view and panel", () =>

@@ -7,8 +7,13 @@ const net = lineFollower();
 describe("NetModel", () => {
   it("finds the flat element behind every drawn one", () => {
     net.pages.forEach((page, index) => {
-      page.nodes.forEach((node, at) => expect(net.flatPlaces[index]![at]! >= 0, `${page.path}.${node.name}`).toBe(node.page === null));
-      expect([...net.flatTransitions[index]!].every((flat) => flat >= 0), page.path).toBe(true);
+      page.nodes.forEach((node, at) =>
+        expect(net.flatPlaces[index]![at]! >= 0, `${page.path}.${node.name}`).toBe(node.page === null),
+      );
+      expect(
+        [...net.flatTransitions[index]!].every((flat) => flat >= 0),
+        page.path,
+      ).toBe(true);
     });
   });
   it("gives the members of a fusion set one flat place", () => {
@@ -20,7 +25,10 @@ describe("NetModel", () => {
   });
   it("finds elements of every kind by their path", () => {
     expect(net.find("robot.control.follow")).toMatchObject({ kind: "page", page: net.pageByPath.get("robot.control") });
-    expect(net.find("robot.control.follow.snd.motion.2")).toMatchObject({ kind: "place", page: net.pageByPath.get("robot.control.follow.snd") });
+    expect(net.find("robot.control.follow.snd.motion.2")).toMatchObject({
+      kind: "place",
+      page: net.pageByPath.get("robot.control.follow.snd"),
+    });
     expect(net.find("robot.control.t_init_1")).toMatchObject({ kind: "transition" });
     expect(net.find("robot.sensor.line->robot.control.line.channel")).toMatchObject({ kind: "place" });
     expect(net.find("robot.nobody")).toBeUndefined();

@@ -47,7 +47,13 @@ describe("Sheets", () => {
       const outer = sheets.boxOf(net.page(page).path)!;
       const placed = sheets.placed(page)!;
       const inner = boxWithin(placed, { x: 0, y: 0, width: placed.sheet.width, height: placed.sheet.height });
-      expect(inner.x >= outer.x && inner.y >= outer.y && inner.x + inner.width <= outer.x + outer.width + 1e-6 && inner.y + inner.height <= outer.y + outer.height + 1e-6, net.page(page).path).toBe(true);
+      expect(
+        inner.x >= outer.x &&
+          inner.y >= outer.y &&
+          inner.x + inner.width <= outer.x + outer.width + 1e-6 &&
+          inner.y + inner.height <= outer.y + outer.height + 1e-6,
+        net.page(page).path,
+      ).toBe(true);
     }
   });
   it("moves nothing outside of a page when only its inside changes", async () => {

@@ -37,7 +37,8 @@ describe("merge", () => {
   it("is undone by its own hunks", () => {
     const after = "zero\none\nthree\n4\nfive\n";
     const lines = base.split("\n");
-    for (const hunk of diff(lines.slice(), after.split("\n")).reverse()) lines.splice(hunk.from, hunk.to - hunk.from, ...hunk.lines);
+    for (const hunk of diff(lines.slice(), after.split("\n")).reverse())
+      lines.splice(hunk.from, hunk.to - hunk.from, ...hunk.lines);
     expect(lines.join("\n")).toBe(after);
   });
 });

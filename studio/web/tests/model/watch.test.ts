@@ -15,10 +15,20 @@ const named = (name: string) => net.transitionByName.get(name)!;
 describe("Timeline", () => {
   it("says which behaviour ran from when", () => {
     const timeline = new Timeline(net);
-    const run = ["robot.control.t_in", "robot.control.init.t1", "robot.control.t_init_1", "robot.control.follow.t1", "robot.control.t_follow_1"];
+    const run = [
+      "robot.control.t_in",
+      "robot.control.init.t1",
+      "robot.control.t_init_1",
+      "robot.control.follow.t1",
+      "robot.control.t_follow_1",
+    ];
     run.forEach((name, at) => timeline.add(at * 10, named(name)));
     const [control] = timeline.lanes;
-    expect(control!.segments).toEqual([{ start: 0, behaviour: "init" }, { start: 20, behaviour: "follow" }, { start: 40, behaviour: "" }]);
+    expect(control!.segments).toEqual([
+      { start: 0, behaviour: "init" },
+      { start: 20, behaviour: "follow" },
+      { start: 40, behaviour: "" },
+    ]);
     expect(control!.firings).toEqual([0, 10, 20, 30, 40]);
     expect(timeline.lanes[1]!.firings).toEqual([]);
   });
@@ -38,7 +48,13 @@ describe("Series", () => {
   it("takes structures, arrays and numbers apart", () => {
     const series = new Series();
     series.add(5, "a", { left: true, ranges: [1, 2], name: "x", big: new Array(40).fill(0) });
-    expect([...series.latest]).toEqual([["a.left", true], ["a.ranges[0]", 1], ["a.ranges[1]", 2], ["a.name", "x"], ["a.big", "40 values"]]);
+    expect([...series.latest]).toEqual([
+      ["a.left", true],
+      ["a.ranges[0]", 1],
+      ["a.ranges[1]", 2],
+      ["a.name", "x"],
+      ["a.big", "40 values"],
+    ]);
     expect(series.samples.get("a.left")).toEqual({ times: [5], values: [1] });
     expect(series.samples.has("a.name")).toBe(false);
   });
@@ -55,8 +71,16 @@ describe("niceStep", () => {
 
 describe("flagsOf", () => {
   it("marks the innermost page that begins on the line, errors before warnings", () => {
-    const flags = flagsOf(net, [{ severity: "warning", line: 19 }, { severity: "error", line: 19 }, { severity: "warning", line: 22 }, { severity: "hint", line: 13 }]);
-    expect([...flags]).toEqual([["robot.control.follow", "error"], ["robot.sensor", "warning"]]);
+    const flags = flagsOf(net, [
+      { severity: "warning", line: 19 },
+      { severity: "error", line: 19 },
+      { severity: "warning", line: 22 },
+      { severity: "hint", line: 13 },
+    ]);
+    expect([...flags]).toEqual([
+      ["robot.control.follow", "error"],
+      ["robot.sensor", "warning"],
+    ]);
   });
 });
 
@@ -75,19 +99,30 @@ describe("stepsOf", () => {
 describe("stuck", () => {
   it("names who waits in a violation, once", () => {
     const waits = ["a.control waits for the acknowledgement of x from b", "b waits for y"];
-    const verdicts = [{ name: "p", verdict: "violated" as const, waits }, { name: "q", verdict: "violated" as const, waits: waits.slice(0, 1) }, { name: "r", verdict: "holds" as const, waits: ["c waits for z"] }];
+    const verdicts = [
+      { name: "p", verdict: "violated" as const, waits },
+      { name: "q", verdict: "violated" as const, waits: waits.slice(0, 1) },
+      { name: "r", verdict: "holds" as const, waits: ["c waits for z"] },
+    ];
     expect(stuck(verdicts)).toEqual(["a.control", "b"]);
   });
 });
 
 describe("layoutStructure", () => {
-  const text = (behaviours: string) => `agents:\n  a:\n    control: { inputs: { i: bool }, behaviours: { ${behaviours} } }\n    receptors:\n      r: { real: { x: bool }, outputs: { o: bool }, behaviours: { w: {} } }\n      s: { outputs: { o: bool }, behaviours: { w: {} } }\n    effectors: { e: { inputs: { m: bool }, behaviours: { d: {} } } }\n  b: { control: { behaviours: { run: {} } } }\n`;
+  const text = (behaviours: string) =>
+    `agents:\n  a:\n    control: { inputs: { i: bool }, behaviours: { ${behaviours} } }\n    receptors:\n      r: { real: { x: bool }, outputs: { o: bool }, behaviours: { w: {} } }\n      s: { outputs: { o: bool }, behaviours: { w: {} } }\n    effectors: { e: { inputs: { m: bool }, behaviours: { d: {} } } }\n  b: { control: { behaviours: { run: {} } } }\n`;
   it("puts nothing over anything else", () => {
-    const agents = layoutStructure(readStructure(text("one: {}, two: {}, three: {}, a_rather_long_name: {}, another_long_name: {}")));
+    const agents = layoutStructure(
+      readStructure(text("one: {}, two: {}, three: {}, a_rather_long_name: {}, another_long_name: {}")),
+    );
     const boxes = agents.flatMap((agent) => [...agent.subsystems, ...agent.devices]);
     expect(boxes.length).toBe(6);
     boxes.forEach((one, at) => boxes.slice(at + 1).forEach((other) => expect(intersects(one, other)).toBe(false)));
-    for (const agent of agents) for (const one of [...agent.subsystems, ...agent.devices]) expect(one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height).toBe(true);
+    for (const agent of agents)
+      for (const one of [...agent.subsystems, ...agent.devices])
+        expect(
+          one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height,
+        ).toBe(true);
     expect(intersects(agents[0]!, agents[1]!)).toBe(false);
   });
   it("makes room for many behaviours", () => {

@@ -2,7 +2,7 @@ import { History } from "../model/history";
 import { merge } from "../model/merge";
 import { NetModel } from "../model/net";
 import { Api, ApiError } from "./api";
-import type { Diagnostic, SpecAnswer } from "./protocol";
+import type { Analysis, Diagnostic, SpecAnswer } from "./protocol";
 import { Store } from "./store";
 
 export interface DraftState {
@@ -25,6 +25,8 @@ export interface DraftState {
 }
 
 const kept = "tessera.draft";
+
+const netOf = ({ net, net_hash }: Analysis) => (net ? new NetModel(net, net_hash ?? "") : null);
 
 /** The specification being edited: one text, its history, what the server says of it, and the file behind it. */
 export class Draft {
@@ -59,7 +61,7 @@ export class Draft {
     this.onDisk(answer);
     const { text, base } = JSON.parse(sessionStorage.getItem(kept) ?? "{}") as { text?: string; base?: string };
     this.store.set({ text: answer.text, loaded: true });
-    this.analysed(answer.analysis.diagnostics, answer.analysis.net ? new NetModel(answer.analysis.net) : null);
+    this.analysed(answer.analysis.diagnostics, netOf(answer.analysis));
     if (text === undefined || text === answer.text) return;
     const merged = merge(base ?? answer.text, text, answer.text);
     this.edit(merged ?? text, "reload");
@@ -107,7 +109,7 @@ export class Draft {
     const asked = ++this.asked;
     try {
       const analysis = await this.api.check(text);
-      if (asked === this.asked) this.analysed(analysis.diagnostics, analysis.net ? new NetModel(analysis.net) : null);
+      if (asked === this.asked) this.analysed(analysis.diagnostics, netOf(analysis));
     } catch (error) {
       if (asked === this.asked) this.store.set({ checking: false, notice: message(error) });
     }

@@ -15,6 +15,8 @@ export interface Diagnostic {
 export interface Analysis {
   diagnostics: Diagnostic[];
   net: NetJson | null;
+  /** Names the net: runs and recordings say which they are of. */
+  net_hash?: string | null;
 }
 export interface Project {
   name: string;
@@ -105,6 +107,7 @@ export interface Recording {
   subsystems?: string[];
   firings: FiringRow[];
   values?: Record<string, [number, unknown][]>;
+  dropped?: number;
   truncated?: boolean;
 }
 export interface RunRequest {

@@ -73,7 +73,13 @@ export class Recordings {
       this.prepare(net);
       const first = recording.firings[0]?.[0] ?? 0;
       this.stage.reset(net, "recording");
-      this.store.set({ open: name, problem: "", first, last: recording.firings.at(-1)?.[0] ?? first, playing: false });
+      this.store.set({
+        open: name,
+        problem: recording.truncated ? `Only the first ${recording.firings.length.toLocaleString("en")} firings are shown.` : "",
+        first,
+        last: recording.firings.at(-1)?.[0] ?? first,
+        playing: false,
+      });
       this.seek(first);
     } catch (error) {
       this.store.set({ problem: message(error) });

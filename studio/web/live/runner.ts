@@ -112,6 +112,10 @@ export class Runner {
         return;
       }
       if (going.run !== this.store.get().run && net) {
+        if (!net.isNamed(going.net_hash)) {
+          this.store.set({ problem: "A run of another version of the specification goes on; this drawing cannot show it." });
+          return;
+        }
         this.store.set({ ...idle, run: going.run, state: going.state, kind: going.kind ?? "simulate" });
         this.watch(net);
         void this.showFloor(going.track ?? undefined);

@@ -100,7 +100,11 @@ export class NetModel {
   /** Transitions that consume from a place. */
   readonly consumers: number[][];
 
-  constructor(readonly json: NetJson) {
+  constructor(
+    readonly json: NetJson,
+    /** Its name among nets, where one is known. */
+    readonly hash = "",
+  ) {
     this.pages = json.pages;
     this.places = json.flat.places;
     this.transitions = json.flat.transitions;
@@ -119,6 +123,11 @@ export class NetModel {
     if (node.page !== null) return -1;
     const name = node.fusion !== null ? this.json.fusions[node.fusion]!.name : join(page.path, node.name);
     return this.placeByName.get(name) ?? -1;
+  }
+
+  /** Whether something that was made of the net of that name belongs to this one. */
+  isNamed(hash: string | null | undefined): boolean {
+    return !hash || !this.hash || hash === this.hash;
   }
 
   page(index: number): Page {

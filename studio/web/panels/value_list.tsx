@@ -35,6 +35,7 @@ export function ValueList({ track, seconds }: { track: Track; seconds: number })
                 <span className="spark">
                   {samples && (
                     <Painted
+                      every={200}
                       label=""
                       draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)}
                     />

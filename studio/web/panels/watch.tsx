@@ -102,23 +102,26 @@ export function Painted({
   label,
   draw,
   onPick,
+  every = 48,
 }: {
   label: string;
+  /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
+  every?: number;
   draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
   onPick?: ((part: number) => void) | undefined;
 }) {
   const ref = useRef<HTMLCanvasElement>(null);
+  const pause = useRef(every);
   const latest = useRef(draw);
   latest.current = draw;
   useEffect(() => {
     const canvas = ref.current!;
     const context = canvas.getContext("2d")!;
     let frame = 0;
-    let before = 0;
+    let before = -Infinity;
     const paint = (now: number) => {
       frame = requestAnimationFrame(paint);
-      // Twenty pictures a second read as motion, and leave the time to the drawing of the net.
-      if (now - before < 48) return;
+      if (now - before < pause.current) return;
       before = now;
       const { clientWidth: width, clientHeight: height } = canvas;
       const ratio = devicePixelRatio;

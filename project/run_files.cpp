@@ -1,11 +1,11 @@
-#include "cli/run_files.hpp"
+#include "project/run_files.hpp"
 
-#include "cli/violation.hpp"
-#include "cli/walk.hpp"
+#include "project/violation.hpp"
+#include "project/walk.hpp"
 #include "verify/narrative.hpp"
 #include "verify/waits.hpp"
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace {
 
@@ -16,14 +16,6 @@ json names_of(const net::Net& net, std::span<const net::Arc> arcs) {
   for (const net::Arc& arc : arcs)
     for (std::uint32_t token = 0; token < arc.weight; ++token) names.push_back(net[arc.place].name);
   return names;
-}
-
-json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) {
-  json story = json::array();
-  for (const verify::Act& act : verify::narrate(net, run))
-    story.push_back(
-        {{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}, {"line", act.line}});
-  return story;
 }
 
 }  // namespace
@@ -43,6 +35,37 @@ json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
     firings.push_back(std::move(firing));
   }
   return firings;
+}
+
+json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  json story = json::array();
+  for (const verify::Act& act : verify::narrate(net, run))
+    story.push_back(
+        {{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}, {"line", act.line}});
+  return story;
+}
+
+json report_json(const net::Net& net, const net::HierarchicalNet* pages, const verify::Report& report) {
+  json properties = json::array();
+  for (const verify::PropertyResult& property : report.properties) {
+    json one{{"name", property.name},
+             {"asks", property.asks},
+             {"verdict", name_of(property.verdict)},
+             {"method", property.method},
+             {"why", property.why},
+             {"meaning", property.meaning},
+             {"explanation", property.explanation},
+             {"seconds", property.seconds},
+             {"states", property.states},
+             {"warning", property.warning},
+             {"waits", property.waits},
+             {"trace", nullptr}};
+    if (property.has_trace) one["trace"] = firings_json(net_of_run(net, property), pages, property.trace);
+    properties.push_back(std::move(one));
+  }
+  return {{"properties", properties},
+          {"net_hash", report.net_hash},
+          {"verification_hash", report.verification_hash}};
 }
 
 json traces_json(const std::string& file, const net::Net& net, const net::HierarchicalNet* pages,
@@ -78,4 +101,4 @@ json scenario_json(const net::Net& net, const verify::Report& report,
           {"why", property.why}, {"firings", firings},          {"waits", property.waits}};
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

@@ -1,19 +1,19 @@
-#include "cli/walk.hpp"
+#include "project/walk.hpp"
 
 #include <fmt/core.h>
 
-#include "cli/terminal.hpp"
-#include "cli/verdicts.hpp"
-#include "cli/violation.hpp"
 #include "diagnostics/source.hpp"
 #include "layers/closed_pair.hpp"
 #include "layers/layers.hpp"
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
+#include "project/listener.hpp"
+#include "project/verdicts.hpp"
+#include "project/violation.hpp"
 #include "spec/parser.hpp"
 #include "verify/lone_model.hpp"
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace fs = std::filesystem;
 
@@ -22,25 +22,25 @@ fs::path spec_file(const fs::path& given) {
   return fs::exists(inside) ? inside : given;
 }
 
-std::optional<Specification> read(const fs::path& given) {
+std::optional<Specification> read(const fs::path& given, Listener& listener) {
   const fs::path file = spec_file(given);
   diagnostics::Diagnostics diagnostics = diagnostics::load(file);
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
-  print(diagnostics);
+  listener.say(diagnostics);
   if (!model) return std::nullopt;
   const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
   return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
 }
 
-std::optional<Nets> build(Specification& specification) {
+std::optional<Nets> build(const Specification& specification, Listener& listener) {
   diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
   std::optional<net::HierarchicalNet> pages = layers::build(specification.model, found);
   std::optional<net::Net> flat;
   if (pages) flat = net::flatten(*pages, found);
   std::optional<std::vector<net::Property>> properties;
   if (flat) properties = layers::properties(specification.model, *pages, *flat, found);
-  print(found);
+  listener.say(found);
   if (!properties) return std::nullopt;
   return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
 }
@@ -55,10 +55,10 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
   return sound;
 }
 
-bool models_are_sound(const Specification& specification) {
+bool models_are_sound(const Specification& specification, Listener& listener) {
   diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
   const bool sound = judge_models(specification.model, found);
-  print(found);
+  listener.say(found);
   return sound;
 }
 
@@ -92,37 +92,38 @@ std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& re
 }
 
 /// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
-bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given) {
+bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given,
+            Listener& listener) {
   for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))
-    fmt::print(stderr, "tessera: warning: {} is unknown: {}\n", property->name, property->why);
+    listener.warn(fmt::format("{} is unknown: {}", property->name, property->why));
   const auto violated = with_verdict(report, verify::Verdict::violated);
   if (violated.empty()) return true;
   if (gate.accept_violations) {
-    fmt::print(stderr, "tessera: warning: {} violated, and accepted\n", list_of(violated));
+    listener.warn(list_of(violated) + " violated, and accepted");
     return true;
   }
-  fmt::print(stderr, "{}", text_of(nets.flat, *violated.front()));
-  complain(fmt::format("no controller is made of a net that violates {}", list_of(violated)));
-  fmt::print(stderr,
-             "hint: `tessera verify {}` shows every violation; --accept-violations makes the controller all "
-             "the same\n",
-             given.string());
+  listener.say(text_of(nets.flat, *violated.front()));
+  listener.complain(fmt::format("no controller is made of a net that violates {}", list_of(violated)));
+  listener.say(fmt::format(
+      "hint: `tessera verify {}` shows every violation; --accept-violations makes the controller all "
+      "the same\n",
+      given.string()));
   return false;
 }
 
 }  // namespace
 
-std::optional<Verified> walk(const fs::path& given, const Gate& gate) {
-  std::optional<Specification> specification = read(given);
-  if (!specification || !models_are_sound(*specification)) return std::nullopt;
-  std::optional<Nets> nets = build(*specification);
+std::optional<Verified> walk(const fs::path& given, const Gate& gate, Listener& listener) {
+  std::optional<Specification> specification = read(given, listener);
+  if (!specification || !models_are_sound(*specification, listener)) return std::nullopt;
+  std::optional<Nets> nets = build(*specification, listener);
   if (!nets) return std::nullopt;
-  verify::Report report = verdicts(*specification, *nets, gate);
-  if (!passes(*nets, report, gate, given)) return std::nullopt;
+  verify::Report report = verdicts(*specification, *nets, gate, listener);
+  if (!passes(*nets, report, gate, given, listener)) return std::nullopt;
   std::optional<verify::VerifiedNet> verified = verify::accept(
       std::move(nets->flat), std::move(report), {.unknown = true, .violated = gate.accept_violations});
   if (!verified) return std::nullopt;
   return Verified{std::move(*specification), std::move(*verified)};
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

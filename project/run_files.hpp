@@ -7,7 +7,7 @@
 #include "verify/verify.hpp"
 
 /// Runs that show violations, as files: for viewers that step through them, and for `simulate --scenario`.
-namespace tessera::cli {
+namespace tessera::project {
 
 /// {"net", "net_hash", "initial": [place...], "traces": [{"property", "verdict", "method", "why",
 /// "exceptions", "firings": [{"transition", "subsystem", "page", "line", "takes": [place...], "gives":
@@ -22,9 +22,17 @@ namespace tessera::cli {
 [[nodiscard]] nlohmann::json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
                                           const std::vector<net::TransitionId>& run);
 
+/// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers, told (verify::narrate).
+[[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run);
+
+/// {"properties": [{"name", "asks", "verdict", "method", "why", "meaning", "explanation", "seconds",
+/// "states", "warning", "waits", "trace": firings or null}], "net_hash", "verification_hash"}
+[[nodiscard]] nlohmann::json report_json(const net::Net& net, const net::HierarchicalNet* pages,
+                                         const verify::Report& report);
+
 /// {"scenario": 1, "net_hash", "property", "why", "firings": [name...], "waits": [...]}: what a controller of
 /// that net can be made to do.
 [[nodiscard]] nlohmann::json scenario_json(const net::Net& net, const verify::Report& report,
                                            const verify::PropertyResult& property);
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

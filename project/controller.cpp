@@ -1,4 +1,4 @@
-#include "cli/project.hpp"
+#include "project/controller.hpp"
 
 #include <fmt/core.h>
 
@@ -10,11 +10,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "cli/paths.hpp"
-#include "cli/process.hpp"
-#include "cli/terminal.hpp"
+#include "project/installation.hpp"
+#include "project/listener.hpp"
+#include "project/process.hpp"
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace fs = std::filesystem;
 
@@ -116,16 +116,22 @@ std::string compiler_output(const std::string& text) {
   return kept;
 }
 
+Exit build_step(const Command& command, const BuildOptions& options,
+                const std::function<void(std::string_view)>& each_line) {
+  return options.stop == nullptr ? capture(command, each_line)
+                                 : capture_apart(command, *options.stop, each_line);
+}
+
 bool configure(const Specification& specification, const Generated& generated, const fs::path& build,
-               bool debug) {
+               const BuildOptions& options, Listener& listener) {
   if (fs::exists(build / "build.ninja")) return true;
-  Step step("configuring");
-  const Exit done = capture({"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
-                             fmt::format("-DCMAKE_BUILD_TYPE={}", debug ? "Debug" : "Release"),
-                             fmt::format("-Dtessera_DIR={}", Installation::find().cmake_package.string()),
-                             fmt::format("-DTESSERA_PROJECT_DIR={}", specification.project.string())},
-                            [&](std::string_view line) { step.progress(line); });
-  if (done.code != 0) fmt::print(stderr, "{}", done.text);
+  Step step(listener, "configuring");
+  const Exit done = build_step({"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
+                                fmt::format("-DCMAKE_BUILD_TYPE={}", options.debug ? "Debug" : "Release"),
+                                fmt::format("-Dtessera_DIR={}", Installation::find().cmake_package.string()),
+                                fmt::format("-DTESSERA_PROJECT_DIR={}", specification.project.string())},
+                               options, [&](std::string_view line) { step.progress(line); });
+  if (done.code != 0) listener.say(done.text);
   if (done.code != 0) fs::remove(build / "build.ninja");
   return done.code == 0;
 }
@@ -161,43 +167,45 @@ Generated generate(const Verified& verified, const GenerateOptions& options) {
   return result;
 }
 
-bool report_missing(const Generated& generated) {
-  for (const fs::path& file : generated.created) fmt::print(stderr, "wrote {}\n", file.string());
+bool report_missing(const Generated& generated, Listener& listener) {
+  for (const fs::path& file : generated.created) listener.say(fmt::format("wrote {}\n", file.string()));
   for (const codegen::Stub& stub : generated.missing)
-    fmt::print(stderr,
-               "{}: error: no function '{}'\nhint: add it (or run `tessera generate --stubs`):\n\n{}\n",
-               stub.file, stub.function, stub.body);
+    listener.say(
+        fmt::format("{}: error: no function '{}'\nhint: add it (or run `tessera generate --stubs`):\n\n{}\n",
+                    stub.file, stub.function, stub.body));
   return generated.missing.empty();
 }
 
-fs::path compile(const Specification& specification, const Generated& generated,
-                 const BuildOptions& options) {
+fs::path compile(const Specification& specification, const Generated& generated, const BuildOptions& options,
+                 Listener& listener) {
   const fs::path build = specification.project / ".tessera/build" / (options.debug ? "debug" : "release");
-  if (!configure(specification, generated, build, options.debug)) return {};
-  Step step("compiling");
-  const Exit done =
-      capture({"cmake", "--build", build.string(), "--target", options.target}, [&](std::string_view line) {
-        if (const std::string count = ninja_progress(line); !count.empty()) step.progress(count);
-      });
+  if (!configure(specification, generated, build, options, listener)) return {};
+  Step step(listener, "compiling");
+  const Exit done = build_step({"cmake", "--build", build.string(), "--target", options.target}, options,
+                               [&](std::string_view line) {
+                                 if (const std::string count = ninja_progress(line); !count.empty())
+                                   step.progress(count);
+                               });
   if (done.code != 0) {
-    fmt::print(stderr, "{}", compiler_output(done.text));
+    listener.say(compiler_output(done.text));
     return {};
   }
   link_compile_commands(specification.project, build);
   return build / options.target;
 }
 
-std::optional<Controller> make_controller(const fs::path& given, const BuildOptions& options) {
-  std::optional<Verified> verified = walk(given, options.gate);
+std::optional<Controller> make_controller(const fs::path& given, const BuildOptions& options,
+                                          Listener& listener) {
+  std::optional<Verified> verified = walk(given, options.gate, listener);
   if (!verified) return std::nullopt;
   const Generated generated = generate(*verified);
-  if (!report_missing(generated)) return std::nullopt;
-  const fs::path program = compile(verified->specification, generated, options);
+  if (!report_missing(generated, listener)) return std::nullopt;
+  const fs::path program = compile(verified->specification, generated, options, listener);
   if (program.empty()) {
-    complain("the controller was not built");
+    listener.complain("the controller was not built");
     return std::nullopt;
   }
   return Controller{program, std::move(verified->specification), verified->net.report()};
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

@@ -1,8 +1,8 @@
-#include "cli/paths.hpp"
+#include "project/installation.hpp"
 
 #include <stdexcept>
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace fs = std::filesystem;
 
@@ -25,4 +25,4 @@ std::optional<fs::path> find_asset(const std::string& name, const fs::path& proj
   return std::nullopt;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

@@ -1,15 +1,15 @@
-#include "cli/violation.hpp"
+#include "project/violation.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "cli/walk.hpp"
 #include "explore/explore.hpp"
+#include "project/walk.hpp"
 #include "verify/abstraction.hpp"
 #include "verify/narrative.hpp"
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::string text_of(const net::Net& judged, const verify::PropertyResult& proper
   return text;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

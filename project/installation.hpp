@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace tessera::cli {
+namespace tessera::project {
 
 /// Where this installation keeps its parts. The command is relocatable: everything is found from its own
 /// place, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
@@ -23,4 +23,4 @@ struct Installation {
                                                               const std::filesystem::path& project,
                                                               const std::string& folder);
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

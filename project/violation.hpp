@@ -7,7 +7,7 @@
 #include "verify/verify.hpp"
 
 /// Violations for people: what is wrong, the run that shows it, and who waits for whom at its end.
-namespace tessera::cli {
+namespace tessera::project {
 
 /// The net whose transitions a result's trace names, of the net that was judged.
 [[nodiscard]] net::Net net_of_run(const net::Net& judged, const verify::PropertyResult& property);
@@ -27,4 +27,4 @@ namespace tessera::cli {
 /// headline, who waits for whom, and the run if there is one.
 [[nodiscard]] std::string text_of(const net::Net& judged, const verify::PropertyResult& property);
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

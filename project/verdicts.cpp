@@ -1,4 +1,4 @@
-#include "cli/verdicts.hpp"
+#include "project/verdicts.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -9,10 +9,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cli/terminal.hpp"
 #include "layers/layers.hpp"
+#include "project/listener.hpp"
 
-namespace tessera::cli {
+namespace tessera::project {
 
 namespace fs = std::filesystem;
 
@@ -122,21 +122,15 @@ double seconds_of(const std::string& text, const std::string& option) {
   return value * scale;
 }
 
-void declare_gate(CLI::App& app, Gate& gate) {
-  app.add_option("--verify-timeout", gate.timeout, "How long verification may take, such as 10s or 2min")
-      ->capture_default_str();
-  app.add_flag("--accept-violations", gate.accept_violations,
-               "Make the controller although a property is violated (it carries the verdicts)");
-}
-
-verify::Report verdicts(const Specification& specification, const Nets& nets, const Gate& gate) {
+verify::Report verdicts(const Specification& specification, const Nets& nets, const Gate& gate,
+                        Listener& listener) {
   const double seconds = seconds_of(gate.timeout, "--verify-timeout");
   const std::vector<net::Invariant> invariants =
       layers::invariants(specification.model, nets.pages, nets.flat);
   const verify::Subject subject{nets.flat, &nets.pages, invariants, nets.properties};
   const Kept kept(specification, verify::verification_hash(subject));
   if (std::optional<verify::Report> report = kept.read(seconds)) return std::move(*report);
-  Step step("verifying");
+  Step step(listener, "verifying");
   verify::ProveOptions how;
   how.time = std::chrono::duration<double>(seconds);
   how.progress = [&](const std::string& property, const explore::Progress& progress) {
@@ -147,4 +141,4 @@ verify::Report verdicts(const Specification& specification, const Nets& nets, co
   return report;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::project

@@ -106,8 +106,11 @@ void add_floor(Command& command, const spec::Simulation& simulation, const Floor
 
 void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
   const spec::Simulation& simulation = *specification.model.simulation;
-  append(command, {"--world", asset(simulation.world, specification.project, "worlds").string(),
-                   "--world-library", Installation::find().world_library.string()});
+  append(command,
+         {"--world",
+          asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds")
+              .string(),
+          "--world-library", Installation::find().world_library.string()});
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);
   append(command, {"--trace", run_files(specification, options).trace.string()});

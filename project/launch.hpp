@@ -24,7 +24,7 @@ struct LaunchOptions {
   bool progress = false;  ///< the controller shows its progress on standard error
   Gate gate;
   // Of the simulated world.
-  std::string track, start;
+  std::string world, track, start;                ///< empty: as in the specification
   double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification
   std::uint64_t seed = 1;
 };

@@ -117,7 +117,8 @@ TEST_F(Gate, ATraceIsCompleteForAViewerThatSteps) {
 
 TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
   write(folder_ / "p/spec.yaml", leaves);
-  const project::Exit verified = tessera("verify p --property goes_on --trace run.json --scenario stuck.json");
+  const project::Exit verified =
+      tessera("verify p --property goes_on --trace run.json --scenario stuck.json");
   EXPECT_EQ(verified.code, 1);
   EXPECT_NE(verified.text.find("tessera simulate p --scenario stuck.json"), std::string::npos)
       << verified.text;

@@ -79,7 +79,7 @@ TEST_F(Simulate, InterruptEndsARunSafelyWithItsOwnExitCode) {
   example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
   const project::Exit done = shell("timeout --preserve-status -s INT 3 " TESSERA_BINARY_DIR
-                               "/tessera run 01_line_follower --world --for 600s");
+                                   "/tessera run 01_line_follower --world --for 600s");
   EXPECT_EQ(done.code, 130) << done.text;
   EXPECT_NE(done.text.find("SIGINT"), std::string::npos) << done.text;
 }

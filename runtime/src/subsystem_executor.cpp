@@ -27,7 +27,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
 
 void SubsystemExecutor::enter() { put(plan_->in, clock_.now()); }
 
-SubsystemExecutor::Progress SubsystemExecutor::step() {
+SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most_firings) {
   if (blocked_since_ != Time::max()) waited_ += clock_.now() - std::exchange(blocked_since_, Time::max());
   for (;;) {
     if (control_.stopping()) return {State::stopped};
@@ -38,6 +38,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step() {
     const Time now = clock_.now();
     if (fire_one(now)) {
       if (time_stands_still(now)) fault("time stands still: it fires for ever at one instant");
+      if (--most_firings == 0) return {State::busy};
       continue;
     }
     if (advance_operations(now)) continue;

@@ -45,13 +45,14 @@ class SubsystemExecutor {
   /// Puts the token into `in`: t_in of the agent has fired.
   void enter();
 
-  enum class State : std::uint8_t { waiting, ended, stopped };
+  enum class State : std::uint8_t { waiting, ended, stopped, busy };
   struct Progress {
     State state = State::waiting;
     Time deadline = Time::max();  ///< of waiting: step again then, or when woken
   };
-  /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
-  [[nodiscard]] Progress step();
+  /// Fires until nothing may fire now, or so many times (busy). Wakes subsystems that receive from this one
+  /// when it ends.
+  [[nodiscard]] Progress step(std::uint64_t most_firings = UINT64_MAX);
 
   /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
   /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
@@ -80,6 +81,8 @@ class SubsystemExecutor {
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
+  /// A token is in that place of the table.
+  [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;

@@ -79,9 +79,8 @@ export class Studio {
 
   async open(): Promise<void> {
     try {
-      const loaded = this.draft.load();
-      this.project.set({ project: await this.api.project(), problem: "" });
-      await loaded;
+      const [project] = await Promise.all([this.api.project(), this.draft.load()]);
+      this.project.set({ project, problem: "" });
     } catch (error) {
       this.project.set({ problem: message(error) });
     }

@@ -152,7 +152,10 @@ test("a violation is shown as a run that steps back and forth", () =>
   onPage(folder("standoff"), async (page) => {
     await tab(page, "Verify").click();
     await button(page, "Verify").click();
-    await page.getByRole("button", { name: /Show the run/ }).first().click();
+    await page
+      .getByRole("button", { name: /Show the run/ })
+      .first()
+      .click();
     await page.getByText("Who waits for whom").waitFor();
     await find(page, "left.control.talk.snd");
     const tokens = (name) => page.locator(`[data-sheet="left.control.talk.snd"] .place[data-path="${name}"] .tokens`);
@@ -249,14 +252,14 @@ test("a server that is killed and started again is noticed, and found again with
     await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
     await page.keyboard.press("Enter");
     await server.close({ keep: true });
-    await page.getByText("The server does not answer").waitFor();
+    await page.getByRole("alert").getByText("The server does not answer").waitFor();
     const again = await serve(server.root, { port: server.port, copy: false });
     try {
-      await page.getByText("The server was started anew").waitFor();
+      await page.getByRole("alert").getByText("The server was started anew").waitFor();
       // `tessera studio` opens its new address; the old tab hears of it.
       const other = await open();
       await other.goto(again.url);
-      await page.getByText("The server was started anew").waitFor({ state: "detached" });
+      await page.getByRole("alert").getByText("The server was started anew").waitFor({ state: "detached" });
       await page.getByText("connected again").waitFor();
       await page.keyboard.press("Control+s");
       await page.getByText("Saved").waitFor();
@@ -270,7 +273,7 @@ test("a wrong key is said to be wrong, not a blank page", () =>
   onPage(lineFollower, async (page, server, open) => {
     const other = await open();
     await other.goto(`${server.address}/#token=00`);
-    await other.getByText("The server was started anew").waitFor();
+    await other.getByRole("alert").getByText("The server was started anew").waitFor();
   }));
 
 test("a view is exported as a drawing that stands on its own", () =>

@@ -268,6 +268,8 @@ const directions: Record<string, Direction> = { ArrowLeft: "left", ArrowRight: "
 
 function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
   const { net, sheets, selected, current, studio, flow } = context;
+  // Keys of the browser, and of the buttons within the drawing, stay theirs.
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLButtonElement) return false;
   const direction = directions[event.key];
   if (direction) {
     const on = selected === null ? current : net.find(selected)!.page;

@@ -1,27 +1,14 @@
 #include "server/answer.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tessera::server {
 
 using nlohmann::json;
 
-void put(httplib::Response& response, std::string bytes, const std::string& type) {
-  constexpr std::size_t piece = 256 * 1024;
-  if (bytes.empty()) return response.set_content(bytes, type);
-  const std::size_t size = bytes.size();
-  // What a provider hands over is not compressed.
-  response.set_content_provider(
-      size, type,
-      [bytes = std::move(bytes)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(bytes.data() + offset, std::min(length, piece));
-      });
-}
-
 void answer(httplib::Response& response, const std::string& text, int status) {
   response.status = status;
-  put(response, text, "application/json");
+  response.set_content(text, "application/json");
 }
 
 void answer_error(httplib::Response& response, int status, std::string_view error, std::string_view hint) {

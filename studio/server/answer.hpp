@@ -13,9 +13,6 @@
 /// Requests and answers in JSON.
 namespace tessera::server {
 
-/// Puts bytes into the response, as they are: httplib would compress text with the best and slowest of
-/// Brotli, which takes seconds for a large net, and over the loopback interface saves nothing.
-void put(httplib::Response& response, std::string bytes, const std::string& type);
 void answer(httplib::Response& response, const std::string& text, int status = 200);
 /// {"error", "hint"}
 void answer_error(httplib::Response& response, int status, std::string_view error,

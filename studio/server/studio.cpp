@@ -60,7 +60,7 @@ struct Studio::Parts {
   void serve_page(const Request& request, Response& response) const {
     const Assets::Asset* asset = assets.find(request.path);
     if (asset == nullptr) return answer_error(response, 404, "there is no such page");
-    put(response, asset->bytes, asset->type);
+    response.set_content(asset->bytes, asset->type);
     response.set_header("Cache-Control", "no-cache");
   }
 

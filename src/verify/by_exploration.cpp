@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "verify/causes.hpp"
 #include "verify/claims.hpp"
 #include "verify/decider.hpp"
 #include "verify/exploration.hpp"
@@ -93,6 +94,7 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
   Finding finding = judged(found[worst], Found::Kind::yes);
   finding.subjects = {sets[worst]->id};
   if (finding.kind != Finding::Kind::violated) return finding;
+  finding.trace = causes_of_standstill(given.probed.net, std::move(finding.trace), sets[worst]->any_of);
   // Probes change nothing, and the net that is shown has none.
   std::erase_if(finding.trace, [&](TransitionId id) { return id.value >= given.probed.transitions; });
   const TransitionId first = sets[worst]->any_of.front();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -56,17 +57,22 @@ class History {
   bool is_run_ = false;
 };
 
+std::vector<std::int64_t> tokens_after(const net::Net& net, const Run& run) {
+  std::vector<std::int64_t> tokens;
+  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
+  for (const TransitionId id : run) {
+    for (const Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
+    for (const Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
+  }
+  return tokens;
+}
+
 /// What might fire after a run if tokens were never used up: at least all that can.
 class Prospect {
  public:
   Prospect(const net::Net& net, const Run& run)
       : net_(net), reached_by_(net.places().size(), unknown), missing_(net.transitions().size()) {
-    std::vector<std::int64_t> tokens;
-    for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
-    for (const TransitionId id : run) {
-      for (const Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
-      for (const Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
-    }
+    const std::vector<std::int64_t> tokens = tokens_after(net, run);
     std::vector<std::vector<std::uint32_t>> takers(net.places().size());
     for (std::uint32_t index = 0; index < missing_.size(); ++index) {
       missing_[index] = net.preset({index}).size();
@@ -148,6 +154,26 @@ class Concern {
   std::set<std::uint32_t> places_;
 };
 
+/// Those that give or take tokens which the stuck transitions lack where a token waits for them.
+std::vector<TransitionId> awaited(const net::Net& net, const Run& run,
+                                  const std::vector<TransitionId>& stuck) {
+  const std::vector<std::int64_t> tokens = tokens_after(net, run);
+  std::set<std::uint32_t> lacking;
+  for (const TransitionId id : stuck) {
+    const auto inputs = net.preset(id);
+    if (std::ranges::none_of(inputs, [&](const Arc& arc) { return tokens[arc.place.value] >= arc.weight; }))
+      continue;
+    for (const Arc& arc : inputs)
+      if (tokens[arc.place.value] < arc.weight && net[arc.place].fused()) lacking.insert(arc.place.value);
+  }
+  std::vector<TransitionId> found;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    for (const auto arcs : {net.preset({index}), net.postset({index})})
+      if (std::ranges::any_of(arcs, [&](const Arc& arc) { return lacking.contains(arc.place.value); }))
+        found.push_back({index});
+  return found;
+}
+
 }  // namespace
 
 Run causes_of_standstill(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
@@ -155,6 +181,7 @@ Run causes_of_standstill(const net::Net& net, Run run, const std::vector<Transit
   if (!history.is_run()) return run;
   Concern concern(net);
   for (const TransitionId id : stuck) concern.add(id);
+  for (const TransitionId id : awaited(net, run, stuck)) concern.add(id);
   while (true) {
     const std::vector<bool> needed = history.behind(concern.places());
     Run kept;
@@ -170,6 +197,103 @@ Run causes_of_standstill(const net::Net& net, Run run, const std::vector<Transit
     if (excluded) return kept;
     if (!more) return run;
   }
+}
+
+namespace {
+
+/// Goes on with a run, one firing at a time.
+class Continuation {
+ public:
+  Continuation(const net::Net& net, Run run)
+      : net_(net), run_(std::move(run)), tokens_(tokens_after(net, run_)) {
+    for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+      const TransitionId id{index};
+      if (net[id].condition.truth == net::Condition::Truth::never) continue;
+      if (net[id].subsystem == net::no_subsystem) {
+        for (const Arc& arc : net.postset(id)) of(net[arc.place].subsystem).push_back(id);  // it starts them
+        continue;
+      }
+      of(net[id].subsystem).push_back(id);
+      for (const auto arcs : {net.preset(id), net.postset(id)})
+        for (const Arc& arc : arcs)
+          if (net[arc.place].fused()) users_[arc.place.value].insert(net[id].subsystem);
+    }
+  }
+
+  /// False: not everybody came to rest.
+  bool bring_to_rest(const std::vector<TransitionId>& stuck) {
+    std::vector<std::uint32_t> concerned;
+    for (const TransitionId id : stuck)
+      if (net_[id].subsystem < of_subsystem_.size()) concern(net_[id].subsystem, concerned);
+    std::size_t firings = 0;
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::size_t next = 0; next < concerned.size(); ++next) {
+        while (fire_one_of(concerned[next])) {
+          moved = true;
+          if (++firings > most_firings_each * concerned.size()) return false;
+        }
+        for (const std::uint32_t place : lacking(concerned[next]))
+          for (const std::uint32_t user : users_[place]) concern(user, concerned);
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] Run run() && { return std::move(run_); }
+
+ private:
+  static constexpr std::size_t most_firings_each = 64;
+
+  std::vector<TransitionId>& of(std::uint32_t subsystem) {
+    if (subsystem == net::no_subsystem) return nobodys_;
+    if (subsystem >= of_subsystem_.size()) of_subsystem_.resize(subsystem + 1);
+    return of_subsystem_[subsystem];
+  }
+
+  void concern(std::uint32_t subsystem, std::vector<std::uint32_t>& concerned) {
+    if (concerned_.insert(subsystem).second) concerned.push_back(subsystem);
+  }
+
+  bool fire_one_of(std::uint32_t subsystem) {
+    for (const TransitionId id : of_subsystem_[subsystem]) {
+      if (!std::ranges::all_of(net_.preset(id), [&](const Arc& arc) { return suffices(arc); })) continue;
+      for (const Arc& arc : net_.preset(id)) tokens_[arc.place.value] -= arc.weight;
+      for (const Arc& arc : net_.postset(id)) tokens_[arc.place.value] += arc.weight;
+      run_.push_back(id);
+      return true;
+    }
+    return false;
+  }
+
+  /// The places of channels that a subsystem at rest waits for.
+  [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const {
+    std::set<std::uint32_t> places;
+    for (const TransitionId id : of_subsystem_[subsystem]) {
+      const auto inputs = net_.preset(id);
+      if (std::ranges::none_of(inputs, [&](const Arc& arc) { return suffices(arc); })) continue;
+      for (const Arc& arc : inputs)
+        if (!suffices(arc) && net_[arc.place].fused()) places.insert(arc.place.value);
+    }
+    return places;
+  }
+
+  [[nodiscard]] bool suffices(const Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
+
+  const net::Net& net_;
+  Run run_;
+  std::vector<std::int64_t> tokens_;
+  std::vector<std::vector<TransitionId>> of_subsystem_;  // those that start it too
+  std::vector<TransitionId> nobodys_;
+  std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // per place of a channel
+  std::set<std::uint32_t> concerned_;
+};
+
+}  // namespace
+
+Run until_all_concerned_wait(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  Continuation further(net, run);
+  return further.bring_to_rest(stuck) ? std::move(further).run() : run;
 }
 
 }  // namespace tessera::verify

@@ -20,7 +20,8 @@ int export_command(const Options& options) {
   if (!specification) return failed;
   const std::optional<Nets> nets = build(*specification);
   if (!nets) return failed;
-  const net::Net net = options.abstract ? verify::possible_part(verify::abstract_net(nets->flat)) : nets->flat;
+  const net::Net net =
+      options.abstract ? verify::possible_part(verify::abstract_net(nets->flat)) : nets->flat;
   write_output(options.pnml, net::to_pnml(net, {specification->model.system}));
   return ok;
 }

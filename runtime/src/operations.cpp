@@ -66,7 +66,9 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   Context& context = parts_.subsystem->context();
   context.now = now;
   context.iteration = iteration_;
-  if (!survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); })) return;
+  if (!parts_.receptors.empty() &&
+      !survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); }))
+    return;
   refresh_ages(now);
   static_cast<void>(survives(behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
 }
@@ -126,14 +128,19 @@ void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   output.departure->stamp = now;
 }
 
-/// A slot may hold a value that was read before, or an older one: only a newer one is fresh.
+bool Operations::has_news(std::uint32_t port, std::uint16_t slot) {
+  const PortLink& link = parts_.ports[port];
+  parts_.bindings.inputs[link.buffer].arrival->timed_out = false;
+  const std::uint64_t sequence = link.channel->memory(slot).sequence;
+  return sequence != 0 && sequence != inputs_[link.buffer].sequence;
+}
+
+/// A slot may hold an older value than one that was read before: only a newer one is fresh.
 void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Incoming& input = parts_.bindings.inputs[link.buffer];
   InputState& state = inputs_[link.buffer];
-  input.arrival->timed_out = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
-  if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   std::memcpy(input.value, memory.bytes.data(), input.size);
   input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
   state.newest = std::max(state.newest, memory.sequence);

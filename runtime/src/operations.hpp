@@ -57,6 +57,9 @@ class Operations final : public ContextServices {
   void finish_call(Time now);
   void count() { ++iteration_; }
   void write(std::uint32_t port, std::uint16_t slot, Time now);
+  /// A value has arrived over that port: whether there is one in the slot that was not read before, in which case
+  /// `read` must follow.
+  [[nodiscard]] bool has_news(std::uint32_t port, std::uint16_t slot);
   void read(std::uint32_t port, std::uint16_t slot, Time now);
 
   // Conditions. Ages are those of `now`; what throws is an error.
@@ -86,6 +89,10 @@ class Operations final : public ContextServices {
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
     return parts_.instance->net->behaviours[behaviour].takes;
   }
+  [[nodiscard]] bool has_inputs() const {
+    return !inputs_.empty() || !parts_.bindings.real_inputs.empty();
+  }
+  [[nodiscard]] bool commands_devices() const { return !parts_.effectors.empty(); }
   [[nodiscard]] bool ended_by_error() const { return erroneous_; }
   [[nodiscard]] std::uint64_t iterations() const { return calls_; }
   [[nodiscard]] std::uint64_t errors() const { return errors_; }

@@ -11,9 +11,16 @@
 #include "console.hpp"
 
 namespace tessera {
+namespace {
+
+/// A value of another thread may be younger than this thread's last look at the clock.
+[[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
+
+}  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
     : parts_(std::move(parts)),
+      context_(parts_.subsystem->context()),
       control_(control),
       clock_(clock),
       lane_(lane),
@@ -23,9 +30,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
   }
-  Context& context = parts_.subsystem->context();
-  context.attach(this);
-  context.period = parts_.instance->period;
+  context_.attach(this);
+  context_.period = parts_.instance->period;
 }
 
 /// Runs user code; false when it threw. Nothing a user throws gets past here.
@@ -63,9 +69,8 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   failed_ = false;
   ++calls_;
   parts_.subsystem->keep_outputs();
-  Context& context = parts_.subsystem->context();
-  context.now = now;
-  context.iteration = iteration_;
+  context_.now = now;
+  context_.iteration = iteration_;
   if (!parts_.receptors.empty() &&
       !survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); }))
     return;
@@ -128,19 +133,14 @@ void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   output.departure->stamp = now;
 }
 
-bool Operations::has_news(std::uint32_t port, std::uint16_t slot) {
-  const PortLink& link = parts_.ports[port];
-  parts_.bindings.inputs[link.buffer].arrival->timed_out = false;
-  const std::uint64_t sequence = link.channel->memory(slot).sequence;
-  return sequence != 0 && sequence != inputs_[link.buffer].sequence;
-}
-
-/// A slot may hold an older value than one that was read before: only a newer one is fresh.
+/// A slot may hold a value that was read before, or an older one: only a newer one is fresh.
 void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Incoming& input = parts_.bindings.inputs[link.buffer];
   InputState& state = inputs_[link.buffer];
+  input.arrival->timed_out = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
+  if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   std::memcpy(input.value, memory.bytes.data(), input.size);
   input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
   state.newest = std::max(state.newest, memory.sequence);
@@ -148,7 +148,7 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   if (memory.valid) state.last_valid = memory.stamp;
   input.arrival->valid = memory.valid;
   input.arrival->stamp = memory.stamp;
-  input.arrival->age = now - memory.stamp;
+  input.arrival->age = age(memory.stamp, now);
 }
 
 void Operations::note_timeout(std::uint32_t port) {
@@ -167,7 +167,7 @@ void Operations::note_answer(std::uint32_t port) {
 void Operations::refresh_ages(Time now) {
   for (std::size_t index = 0; index < inputs_.size(); ++index) {
     Arrival& arrival = *parts_.bindings.inputs[index].arrival;
-    if (inputs_[index].sequence != 0) arrival.age = now - arrival.stamp;
+    if (inputs_[index].sequence != 0) arrival.age = age(arrival.stamp, now);
   }
   for (const Bindings::Incoming& input : parts_.bindings.real_inputs)
     if (input.arrival->valid) input.arrival->age = now - input.arrival->stamp;

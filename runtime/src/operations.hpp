@@ -57,9 +57,6 @@ class Operations final : public ContextServices {
   void finish_call(Time now);
   void count() { ++iteration_; }
   void write(std::uint32_t port, std::uint16_t slot, Time now);
-  /// A value has arrived over that port: whether there is one in the slot that was not read before, in which case
-  /// `read` must follow.
-  [[nodiscard]] bool has_news(std::uint32_t port, std::uint16_t slot);
   void read(std::uint32_t port, std::uint16_t slot, Time now);
 
   // Conditions. Ages are those of `now`; what throws is an error.
@@ -108,6 +105,7 @@ class Operations final : public ContextServices {
   [[nodiscard]] bool survives(std::uint16_t behaviour, std::string_view activity, Code&& code);
 
   SubsystemParts parts_;
+  Context& context_;
   RunControl& control_;
   const Clock& clock_;
   RecordingLane* lane_;

@@ -92,6 +92,7 @@ class Compilation {
 
   void add(const Transition& transition) {
     Plan::TransitionEntry entry;
+    entry.index = static_cast<std::uint32_t>(plan_.transitions.size());
     entry.guard = {transition.guard.kind, transition.guard.entry};
     entry.inputs = static_cast<std::uint32_t>(plan_.arcs.size());
     for (std::string_view name : transition.inputs) add_end(transition, name, entry, entry.taken);
@@ -145,6 +146,8 @@ class Compilation {
       if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = plan_.arcs[arc];
     }
     entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
+    if (entry.latch != Plan::none && entry.decided < 64)
+      plan_.places[entry.latch].ways |= std::uint64_t{1} << entry.decided;
     if (entry.latch == Plan::none)
       fail(fmt::format("no place decides the condition of '{}'", transition.name));
   }
@@ -178,6 +181,11 @@ class Compilation {
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
     }
     plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
+    for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
+    for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
+      plan_.places[place].first_departure = plan_.first_leaving[place];
+      plan_.places[place].end_of_departures = plan_.first_leaving[place + 1];
+    }
   }
 
   const SubsystemNet& net_;

@@ -19,6 +19,8 @@ struct Plan {
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< that is written or read, from 0
+    std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
+    std::uint32_t first_departure = 0, end_of_departures = 0;  ///< into departures
     bool timed = false;         ///< a timeout counts from the arrival of its token
   };
   struct Condition {
@@ -27,6 +29,7 @@ struct Plan {
   };
   static constexpr std::uint8_t no_need = 0xff;
   struct TransitionEntry {
+    std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
     std::uint32_t from = none, to = none;  ///< of one with a single input and a single output here
     std::uint32_t port = none;             ///< the channel it touches
@@ -47,6 +50,7 @@ struct Plan {
   std::vector<std::uint32_t> arcs;           ///< local places
   std::vector<std::uint32_t> leaving;        ///< per place: transitions that take from it, untimed ones first
   std::vector<std::uint32_t> first_leaving;  ///< into leaving; one more than places
+  std::vector<TransitionEntry> departures;   ///< as leaving, the transitions themselves
   std::uint32_t in = 0, out = 0;
 
   [[nodiscard]] std::span<const std::uint32_t> inputs(const TransitionEntry& t) const {
@@ -57,6 +61,10 @@ struct Plan {
   }
   [[nodiscard]] std::span<const std::uint32_t> leaving_of(std::uint32_t place) const {
     return std::span(leaving).subspan(first_leaving[place], first_leaving[place + 1] - first_leaving[place]);
+  }
+  [[nodiscard]] std::span<const TransitionEntry> departures_of(std::uint32_t place) const {
+    return {departures.data() + places[place].first_departure,
+            departures.data() + places[place].end_of_departures};
   }
 };
 

@@ -28,7 +28,7 @@ SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes, std
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,
                             std::vector<std::uint16_t> needs) {
   assert(needs.size() <= max_needs);
-  parties_[static_cast<std::size_t>(side)] = {waker, instance, std::move(needs)};
+  parties_[static_cast<std::size_t>(side)] = {word_.load(), waker, instance, std::move(needs)};
 }
 
 bool SharedChannel::wait(Side side, std::uint16_t wants) {

@@ -104,7 +104,8 @@ class alignas(64) SharedChannel {
     [[nodiscard]] Word with_wants(Side side, std::uint16_t wants) const;
     [[nodiscard]] Word after_firing(Side side, std::uint16_t taken, std::uint16_t given) const;
   };
-  struct Party {
+  struct alignas(64) Party {
+    std::uint64_t seen = 0;  // the word as this side left or found it; its own
     Waker* waker = nullptr;
     std::uint32_t instance = 0;
     std::vector<std::uint16_t> needs;
@@ -123,9 +124,8 @@ class alignas(64) SharedChannel {
   void wake_if_ready(Word word, Side side);
   [[nodiscard]] const Party& party(Side side) const { return parties_[static_cast<std::size_t>(side)]; }
 
-  std::atomic<std::uint64_t> word_;
-  // What follows is only read while threads run, so it stays out of the cache line that they fight for.
-  alignas(64) std::array<Party, 2> parties_;
+  std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
+  std::array<Party, 2> parties_;
   std::vector<Memory> slots_;
   alignas(64) std::uint64_t writes_ = 0;  // the sender's own
 };
@@ -145,14 +145,18 @@ inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uin
   return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
 }
 
+/// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once to
+/// change.
 inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
-  Word before{word_.load(std::memory_order_acquire)};
+  std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
+  if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);
   for (;;) {
+    const Word before{seen};
     if (!may_take(before, side, taken)) return 0;
-    assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
     const Word after = before.after_firing(side, taken, produced);
-    if (word_.compare_exchange_weak(before.bits, after.bits, std::memory_order_acq_rel,
-                                    std::memory_order_acquire)) {
+    if (word_.compare_exchange_weak(seen, after.bits, std::memory_order_acq_rel, std::memory_order_acquire)) {
+      assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
+      seen = after.bits;
       if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
       return after.version();
     }

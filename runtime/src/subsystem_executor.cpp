@@ -20,6 +20,8 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       waker_(shared.waker),
       lane_(lane),
       watched_(shared.watched),
+      simulated_(shared.clock.simulated()),
+      ports_(operations_.parts().ports.data()),
       tokens_(plan_->places.size()),
       wants_(plan_->ports.size()),
       wants_next_(plan_->ports.size()) {
@@ -34,13 +36,13 @@ SubsystemExecutor::Progress SubsystemExecutor::step() {
   bool up_to_date = true;  // nothing has happened since the clock was read
   for (;;) {
     if (control_.stopping()) return {State::stopped};
-    if (tokens_[plan_->out].position != Plan::none) {
+    if (at_end_) {
       end();
       return {State::ended};
     }
     if (fire_one()) {
       up_to_date = false;
-      if (time_stands_still()) fault("time stands still: it fires for ever at one instant");
+      if (simulated_ && time_stands_still()) fault("time stands still: it fires for ever at one instant");
       continue;
     }
     if (advance_operations()) {
@@ -75,47 +77,71 @@ Time SubsystemExecutor::now() {
 // -------------------------------------------------------------------------------------------- firing
 
 bool SubsystemExecutor::fire_one() {
-  for (const std::uint32_t place : marked_) {
-    if (tokens_[place].phase != Phase::finished) continue;
-    for (const std::uint32_t transition : plan_->leaving_of(place))
-      if (try_fire(transition)) return true;  // marked_ has changed
-  }
+  if (marked_.size() == 1) return walk();
+  for (const std::uint32_t place : marked_)
+    if (tokens_[place].phase == Phase::finished && fire_from(place) != nullptr) return true;
   return false;
+}
+
+/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can.
+bool SubsystemExecutor::walk() {
+  std::uint32_t place = marked_.front();
+  bool walked = false;
+  while (tokens_[place].phase == Phase::finished) {
+    const Plan::TransitionEntry* const fired = fire_from(place);
+    if (fired == nullptr) return walked;
+    walked = true;
+    if (simulated_ || marked_.size() != 1 || at_end_ || control_.stopping()) break;
+    place = marked_.front() == fired->to ? fired->to : marked_.front();
+  }
+  return walked;
+}
+
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(std::uint32_t place) {
+  for (const Plan::TransitionEntry& transition : plan_->departures_of(place)) {
+    const bool enabled = transition.from != Plan::none || locally_enabled(transition);
+    if (enabled && fire_enabled(transition)) return &transition;
+  }
+  return nullptr;
 }
 
 bool SubsystemExecutor::try_fire(std::uint32_t index) {
   const Plan::TransitionEntry& transition = plan_->transitions[index];
-  if (!locally_enabled(transition) || !condition_holds(transition)) return false;
+  return locally_enabled(transition) && fire_enabled(transition);
+}
+
+inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
+  if (!condition_holds(transition)) return false;
   std::uint32_t version = 0;
   if (transition.port != Plan::none) {
-    const PortLink& link = operations_.parts().ports[transition.port];
+    const PortLink& link = ports_[transition.port];
     version = link.channel->fire(link.side, transition.taken, transition.produced);
     if (version == 0) {
       if (link.channel->held()) held_ = link.channel;
       return false;
     }
-    if (std::exchange(wants_[transition.port], std::uint16_t{0}) != 0) --registrations_;  // firing voids them
+    if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
+      --registrations_;  // firing voids them
   }
-  after_firing(index, version);
+  after_firing(transition, version);
   return true;
 }
 
 /// Some transition waits for nothing but a peer that is reading or writing: that is shorter than a sleep.
 bool SubsystemExecutor::outwait_peer() {
   const SharedChannel* const channel = std::exchange(held_, nullptr);
-  return channel != nullptr && !clock_.simulated() && channel->outwait();
+  return channel != nullptr && !simulated_ && channel->outwait();
 }
 
 bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition) const {
   const auto has_finished = [this](std::uint32_t place) {
     return tokens_[place].position != Plan::none && tokens_[place].phase == Phase::finished;
   };
-  if (transition.from != Plan::none) return has_finished(transition.from);
   const auto inputs = plan_->inputs(transition);
   return std::all_of(inputs.begin(), inputs.end(), has_finished);
 }
 
-bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
+inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
   if (transition.guard.kind == Guard::Kind::none) return true;
   if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
   return tokens_[transition.latch].latched == transition.decided;
@@ -130,13 +156,12 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   return arrival + timeout;
 }
 
-void SubsystemExecutor::after_firing(std::uint32_t index, std::uint32_t version) {
-  const Plan::TransitionEntry& transition = plan_->transitions[index];
+inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
   ++firings_;
   if (firings_ % 64 == 0) renew_time();  // however long it goes on without code of the user's
   if (lane_ != nullptr) {
     renew_time();
-    lane_->firing(now_, first_transition_ + index, version);
+    lane_->firing(now_, first_transition_ + transition.index, version);
   }
   if (transition.guard.kind == Guard::Kind::elapsed)
     operations_.note_timeout(transition.port);
@@ -154,7 +179,7 @@ void SubsystemExecutor::after_firing(std::uint32_t index, std::uint32_t version)
 // -------------------------------------------------------------------------------------------- tokens,
 // operations
 
-void SubsystemExecutor::take(std::uint32_t place) {
+inline void SubsystemExecutor::take(std::uint32_t place) {
   const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
   marked_[hole] = marked_.back();
   tokens_[marked_[hole]].position = hole;
@@ -162,7 +187,7 @@ void SubsystemExecutor::take(std::uint32_t place) {
   marked_.pop_back();
 }
 
-void SubsystemExecutor::put(std::uint32_t place) {
+inline void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
   if (token.position != Plan::none) return fault("a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
@@ -175,7 +200,7 @@ void SubsystemExecutor::put(std::uint32_t place) {
   start_operation(place);
 }
 
-void SubsystemExecutor::start_operation(std::uint32_t place) {
+inline void SubsystemExecutor::start_operation(std::uint32_t place) {
   const Plan::PlaceEntry& entry = plan_->places[place];
   Token& token = tokens_[place];
   switch (entry.does) {
@@ -193,11 +218,7 @@ void SubsystemExecutor::start_operation(std::uint32_t place) {
       operations_.write(entry.subject, entry.slot, now());
       break;
     case Does::Kind::read:
-      // What is new may have been written after the time that is known.
-      if (operations_.has_news(entry.subject, entry.slot)) {
-        renew_time();
-        operations_.read(entry.subject, entry.slot, now_);
-      }
+      operations_.read(entry.subject, entry.slot, now());
       break;
     case Does::Kind::decide:
       decide(place);
@@ -235,6 +256,8 @@ void SubsystemExecutor::route(std::uint32_t place) {
 
 /// A decision without a transition would leave the token where it is for ever.
 void SubsystemExecutor::check_way_out(std::uint32_t place) {
+  const std::int32_t decided = tokens_[place].latched;
+  if (decided < 64 && (plan_->places[place].ways >> decided & 1U) != 0) return;
   const auto leaving = plan_->leaving_of(place);
   const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
@@ -242,6 +265,7 @@ void SubsystemExecutor::check_way_out(std::uint32_t place) {
 }
 
 void SubsystemExecutor::arrive_at_end() {
+  at_end_ = true;
   if (operations_.ended_by_error()) fault("ended by an error that no `next` leads to another behaviour");
 }
 
@@ -283,7 +307,7 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     time_is_known_ = false;
     token.phase = Phase::running;
     token.due = Time::min();
-    if (clock_.simulated()) token.due = begin + operations_.takes(behaviour);
+    if (simulated_) token.due = begin + operations_.takes(behaviour);
     if (token.due > begin) return true;
   }
   if (watched_ || operations_.commands_devices()) renew_time();
@@ -338,9 +362,8 @@ SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};
   }
-  const bool over = tokens_[plan_->out].position != Plan::none;
-  if (over) end();
-  return {over ? Followed::ended : Followed::fired, Time::max(),
+  if (at_end_) end();
+  return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
           forced_by(plan_->transitions[transition].guard.kind)};
 }
 
@@ -416,7 +439,6 @@ Time SubsystemExecutor::next_deadline() const {
 }
 
 bool SubsystemExecutor::time_stands_still() {
-  if (!clock_.simulated()) return false;
   if (now_ != instant_) {
     instant_ = now_;
     fired_at_instant_ = 0;

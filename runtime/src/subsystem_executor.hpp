@@ -101,11 +101,14 @@ class SubsystemExecutor {
 
   [[nodiscard]] bool fire_one();
   [[nodiscard]] bool try_fire(std::uint32_t transition);
+  [[nodiscard]] bool walk();
+  [[nodiscard]] const Plan::TransitionEntry* fire_from(std::uint32_t place);
+  [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
   [[nodiscard]] bool outwait_peer();
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
-  void after_firing(std::uint32_t transition, std::uint32_t version);
+  void after_firing(const Plan::TransitionEntry& transition, std::uint32_t version);
 
   void take(std::uint32_t place);
   void put(std::uint32_t place);
@@ -141,7 +144,9 @@ class SubsystemExecutor {
 
   Time now_{};                  // of the last look at the clock
   bool time_is_known_ = false;  // no code of the user's has run since
-  bool watched_;
+  bool watched_, simulated_;
+  bool at_end_ = false;    // the token is in `out`
+  const PortLink* ports_;  // of operations_
   const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
 
   std::vector<Token> tokens_;              // per place

@@ -1,84 +1,280 @@
-// What the runtime costs: an iteration of a subsystem without user code, and a value through a channel
-// between two threads against what one would write by hand. Figures are in docs/performance.md.
+// What the subsystem executor costs, beside what one would write by hand: an iteration alone, a value through
+// a channel between two threads, a blocking round trip, an event of a recording. Whatever is compared takes
+// turns in the same run, and the counters are medians over the repetitions. Figures are in docs/performance.md.
 
 #include <benchmark/benchmark.h>
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <cstring>
 #include <mutex>
 #include <thread>
 
-#include "nets.hpp"
-#include "test_system.hpp"
+#include "robots.hpp"
+#include "shared_channel.hpp"
 
 using namespace std::chrono_literals;
 
-namespace tessera::testing {
+namespace tessera::benchmarks {
 namespace {
 
-/// Firings per second of one subsystem that sends to another, all blocks NB -> NB; 8 firings an iteration
-/// each.
-void iterations(benchmark::State& state, RunOptions::Clock clock, bool recorded) {
-  double firings = 0, iterations = 0;
-  for (auto _ : state) {
-    TestSystem system;
-    Script counts;
-    counts.call = [](ScriptState& script) {
-      if (script.context.iteration == 20'000) script.context.stop("enough");
-    };
-    const Duration period = clock == RunOptions::Clock::simulated ? Duration(1ms) : Duration(0);
-    const auto a = system.add("robot.a", nets::async_sender, counts, period);
-    const auto b = system.add("robot.b", nets::async_receiver, counts, period);
-    system.connect(a, "x", b, "x", asynchronous);
-    RunOptions options = simulated(1h);
-    options.clock = clock;
-    if (recorded) options.recording = "/dev/null";
-    std::string error;
-    const auto summary = execute(system.system(), options, error);
-    if (!summary) return state.SkipWithError(error.c_str());
-    state.SetIterationTime(summary->wall_s);
-    firings += static_cast<double>(summary->firings);
-    for (const auto& subsystem : summary->subsystems) iterations += static_cast<double>(subsystem.iterations);
-  }
-  state.counters["firings"] = benchmark::Counter(firings, benchmark::Counter::kIsRate);
-  state.counters["iterations"] = benchmark::Counter(iterations, benchmark::Counter::kIsRate);
-}
-BENCHMARK_CAPTURE(iterations, simulated, RunOptions::Clock::simulated, false)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(iterations, simulated_recorded, RunOptions::Clock::simulated, true)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(iterations, steady, RunOptions::Clock::steady, false)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
+constexpr int rounds = 5;
+constexpr Duration flat_out = 300ms;
 
-/// The same exchange by hand: two threads that lock, copy 8 bytes, unlock.
-void by_hand_mutex(benchmark::State& state) {
-  double exchanges = 0;
-  for (auto _ : state) {
-    std::mutex mutex;
-    double value = 0, sum = 0;
-    const auto begin = std::chrono::steady_clock::now();
-    std::thread reader([&] {
-      for (int round = 0; round < 20'000; ++round) {
-        const std::lock_guard lock(mutex);
-        sum += value;
-      }
-    });
-    for (int round = 0; round < 20'000; ++round) {
-      const std::lock_guard lock(mutex);
-      value = round;
-    }
-    reader.join();
-    benchmark::DoNotOptimize(sum);
-    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    exchanges += 40'000;
-  }
-  state.counters["iterations"] = benchmark::Counter(exchanges, benchmark::Counter::kIsRate);
+// -------------------------------------------------------------------------------------------- iterations
+
+/// CPU time of an iteration of a subsystem that runs alone and exchanges values with itself, in ns.
+[[nodiscard]] double iteration_ns(const SubsystemNet& net, const RunOptions& options = {}) {
+  constexpr std::uint64_t warm = 20'000, last = 1'020'000;
+  std::int64_t begin = 0, end = 0;
+  Robot robot([&](std::uint32_t, Context& context) {
+    if (context.iteration == warm) begin = thread_cpu_ns();
+    if (context.iteration != last) return;
+    end = thread_cpu_ns();
+    context.stop("enough");
+  });
+  const std::uint32_t part = robot.add(net);
+  if (!net.ports.empty()) robot.connect(part, "out", part, "in", asynchronous);
+  robot.run(options);
+  return static_cast<double>(end - begin) / static_cast<double>(last - warm);
 }
-BENCHMARK(by_hand_mutex)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+void iteration(benchmark::State& state, const SubsystemNet& net) {
+  std::vector<double> ns;
+  for (auto _ : state) {
+    ns.push_back(iteration_ns(net));
+    state.SetIterationTime(ns.back() * 1e-9);
+  }
+  state.counters["iteration_ns"] = median(ns);
+}
+BENCHMARK_CAPTURE(iteration, eight_firings, nets::relay)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(iteration, six_firings, nets::alone)->UseManualTime()->Iterations(rounds);
+
+/// What recording adds to a firing.
+void recorded_event(benchmark::State& state) {
+  std::vector<double> ns;
+  RunOptions recorded;
+  recorded.recording = "/dev/null";
+  for (auto _ : state) {
+    const double without = iteration_ns(nets::relay);
+    ns.push_back((iteration_ns(nets::relay, recorded) - without) / 8);
+    state.SetIterationTime(ns.back() * 1e-9);
+  }
+  state.counters["event_ns"] = median(ns);
+}
+BENCHMARK(recorded_event)->UseManualTime()->Iterations(rounds);
+
+// -------------------------------------------------------------------------------------------- channels
+
+struct Pair {
+  double cycle_ns;  ///< wall time by the cycles of both sides
+  double share;     ///< of the side that had less
+};
+
+[[nodiscard]] Pair pair_of(std::int64_t ns, std::uint64_t one, std::uint64_t other) {
+  const auto all = static_cast<double>(one + other);
+  return {static_cast<double>(ns) / all, static_cast<double>(std::min(one, other)) / all};
+}
+
+/// A sender and a receiver, both as fast as they go.
+[[nodiscard]] Pair by_tessera() {
+  Robot robot({});
+  const std::uint32_t from = robot.add(nets::sender), to = robot.add(nets::receiver);
+  robot.connect(from, "x", to, "x", asynchronous);
+  RunOptions options;
+  options.duration = flat_out;
+  const RunSummary summary = robot.run(options);
+  return pair_of(summary.simulated.count(), summary.subsystems[0].iterations,
+                 summary.subsystems[1].iterations);
+}
+
+/// The channel alone, as the executor uses it: take, copy 64 bytes, give back; asleep when that takes too long.
+[[nodiscard]] Pair by_channel() {
+  struct Words final : Waker {
+    std::array<WakeWord, 2> words;
+    void wake(std::uint32_t instance) override { words[instance].wake(); }
+  } waker;
+  SharedChannel channel(1, sizeof(Payload));
+  channel.connect(Side::send, &waker, 0, {1});
+  channel.connect(Side::receive, &waker, 1, {1});
+  std::atomic<bool> stopping{false};
+  std::array<std::uint64_t, 2> cycles{};
+  const auto take = [&](Side side) {
+    WakeWord& word = waker.words[static_cast<std::size_t>(side)];
+    while (channel.fire(side, 1, 0) == 0) {
+      if (channel.held() && channel.outwait()) continue;
+      const std::uint32_t ticket = word.ticket();
+      if (stopping.load(std::memory_order_relaxed)) return false;
+      if (channel.wait(side, 1)) word.sleep(ticket, -1);
+    }
+    return true;
+  };
+  const auto work = [&](Side side) {
+    Payload own{};
+    std::uint64_t& count = cycles[static_cast<std::size_t>(side)];
+    for (; !stopping.load(std::memory_order_relaxed) && take(side); ++count) {
+      own.values[0] += 1;
+      std::byte* const shared = channel.memory().bytes.data();
+      if (side == Side::send)
+        std::memcpy(shared, &own, sizeof own);
+      else
+        std::memcpy(&own, shared, sizeof own);
+      benchmark::DoNotOptimize(own);
+      static_cast<void>(channel.fire(side, 0, 1));
+    }
+  };
+  const std::int64_t begin = wall_ns();
+  std::thread sender(work, Side::send), receiver(work, Side::receive);
+  std::this_thread::sleep_for(flat_out);
+  stopping = true;
+  for (WakeWord& word : waker.words) word.wake();
+  sender.join();
+  receiver.join();
+  return pair_of(wall_ns() - begin, cycles[0], cycles[1]);
+}
+
+/// The same exchange by hand: lock, copy 64 bytes, unlock. timed: the value carries when it was written, as a
+/// buffer's `stamp` says, and the reader looks how old it is, as `age` does.
+template <bool timed>
+[[nodiscard]] Pair by_hand() {
+  struct alignas(64) Shared {
+    std::mutex mutex;
+    Payload value{};
+    std::int64_t stamp = 0;
+  } shared;
+  std::atomic<bool> stopping{false};
+  std::array<std::uint64_t, 2> cycles{};
+  const auto write = [&] {
+    Payload own{};
+    for (std::uint64_t& count = cycles[0]; !stopping.load(std::memory_order_relaxed); ++count) {
+      own.values[0] += 1;
+      const std::int64_t now = timed ? wall_ns() : 0;
+      const std::lock_guard lock(shared.mutex);
+      shared.value = own;
+      shared.stamp = now;
+    }
+  };
+  const auto read = [&] {
+    Payload own{};
+    std::int64_t oldest = 0;
+    for (std::uint64_t& count = cycles[1]; !stopping.load(std::memory_order_relaxed); ++count) {
+      std::int64_t stamp = 0;
+      {
+        const std::lock_guard lock(shared.mutex);
+        own = shared.value;
+        stamp = shared.stamp;
+      }
+      if (timed) oldest = std::max(oldest, wall_ns() - stamp);
+      benchmark::DoNotOptimize(own);
+    }
+    benchmark::DoNotOptimize(oldest);
+  };
+  const std::int64_t begin = wall_ns();
+  std::thread writer(write), reader(read);
+  std::this_thread::sleep_for(flat_out);
+  stopping = true;
+  writer.join();
+  reader.join();
+  return pair_of(wall_ns() - begin, cycles[0], cycles[1]);
+}
+
+void channel_cycle(benchmark::State& state) {
+  std::vector<double> channel_ns, iteration_ns, mutex_ns, timed_ns, share, iteration_share, ratio, to_timed;
+  for (auto _ : state) {
+    const Pair mutex = by_hand<false>(), channel = by_channel(), timed = by_hand<true>(), own = by_tessera();
+    channel_ns.push_back(channel.cycle_ns);
+    share.push_back(channel.share);
+    mutex_ns.push_back(mutex.cycle_ns);
+    ratio.push_back(channel.cycle_ns / mutex.cycle_ns);
+    iteration_ns.push_back(own.cycle_ns);
+    iteration_share.push_back(own.share);
+    timed_ns.push_back(timed.cycle_ns);
+    to_timed.push_back(own.cycle_ns / timed.cycle_ns);
+    state.SetIterationTime(channel.cycle_ns * 1e-9);
+  }
+  state.counters["channel_ns"] = median(channel_ns);
+  state.counters["mutex_ns"] = median(mutex_ns);
+  state.counters["ratio"] = median(ratio);
+  state.counters["share"] = median(share);
+  state.counters["iteration_ns"] = median(iteration_ns);
+  state.counters["timed_mutex_ns"] = median(timed_ns);
+  state.counters["iteration_ratio"] = median(to_timed);
+  state.counters["iteration_share"] = median(iteration_share);
+}
+BENCHMARK(channel_cycle)->UseManualTime()->Iterations(rounds);
+
+// -------------------------------------------------------------------------------------------- round trips
+
+constexpr std::uint64_t trips = 20'000;
+
+[[nodiscard]] double round_trip_ns() {
+  std::int64_t begin = 0, end = 0;
+  Robot robot([&](std::uint32_t number, Context& context) {
+    if (number != 0) return;
+    if (context.iteration == 1000) begin = wall_ns();
+    if (context.iteration != 1000 + trips) return;
+    end = wall_ns();
+    context.stop("enough");
+  });
+  const std::uint32_t asker = robot.add(nets::asker), answerer = robot.add(nets::answerer);
+  robot.connect(asker, "out", answerer, "in", acknowledged);
+  robot.connect(answerer, "out", asker, "in", acknowledged);
+  robot.run();
+  return static_cast<double>(end - begin) / static_cast<double>(trips);
+}
+
+void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value) {
+  syscall(SYS_futex, &word, operation, value, nullptr, nullptr, 0);
+}
+
+/// Two threads that do nothing but wake each other.
+[[nodiscard]] double bare_round_trip_ns() {
+  struct alignas(64) Word {
+    std::atomic<std::uint32_t> value{0};
+  };
+  std::array<Word, 2> words;
+  const auto tell = [](Word& word, std::uint32_t value) {
+    word.value.store(value);
+    futex(word.value, FUTEX_WAKE_PRIVATE, 1);
+  };
+  const auto await = [](Word& word, std::uint32_t value) {
+    for (std::uint32_t seen = word.value.load(); seen != value; seen = word.value.load())
+      futex(word.value, FUTEX_WAIT_PRIVATE, seen);
+  };
+  std::thread other([&] {
+    for (std::uint32_t trip = 1; trip <= trips; ++trip) {
+      await(words[0], trip);
+      tell(words[1], trip);
+    }
+  });
+  const std::int64_t begin = wall_ns();
+  for (std::uint32_t trip = 1; trip <= trips; ++trip) {
+    tell(words[0], trip);
+    await(words[1], trip);
+  }
+  const std::int64_t end = wall_ns();
+  other.join();
+  return static_cast<double>(end - begin) / static_cast<double>(trips);
+}
+
+void blocking_round_trip(benchmark::State& state) {
+  std::vector<double> ns, bare_ns, ratio;
+  for (auto _ : state) {
+    bare_ns.push_back(bare_round_trip_ns());
+    ns.push_back(round_trip_ns());
+    ratio.push_back(ns.back() / bare_ns.back());
+    state.SetIterationTime(ns.back() * 1e-9);
+  }
+  state.counters["trip_ns"] = median(ns);
+  state.counters["bare_ns"] = median(bare_ns);
+  state.counters["ratio"] = median(ratio);
+}
+BENCHMARK(blocking_round_trip)->UseManualTime()->Iterations(rounds);
 
 }  // namespace
-}  // namespace tessera::testing
+}  // namespace tessera::benchmarks
 
 BENCHMARK_MAIN();

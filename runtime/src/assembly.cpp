@@ -224,7 +224,7 @@ class Assembler {
       RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
       assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
           index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
-          SubsystemExecutor::Shared{assembly_.control, clock_, waker_}, lane));
+          SubsystemExecutor::Shared{assembly_.control, clock_, waker_, assembly_.options.monitor}, lane));
       if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
     }
     return true;

@@ -11,9 +11,16 @@
 #include "console.hpp"
 
 namespace tessera {
+namespace {
+
+/// A value of another thread may be younger than this thread's last look at the clock.
+[[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
+
+}  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
     : parts_(std::move(parts)),
+      context_(parts_.subsystem->context()),
       control_(control),
       clock_(clock),
       lane_(lane),
@@ -23,9 +30,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
   }
-  Context& context = parts_.subsystem->context();
-  context.attach(this);
-  context.period = parts_.instance->period;
+  context_.attach(this);
+  context_.period = parts_.instance->period;
 }
 
 /// Runs user code; false when it threw. Nothing a user throws gets past here.
@@ -63,10 +69,11 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   failed_ = false;
   ++calls_;
   parts_.subsystem->keep_outputs();
-  Context& context = parts_.subsystem->context();
-  context.now = now;
-  context.iteration = iteration_;
-  if (!survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); })) return;
+  context_.now = now;
+  context_.iteration = iteration_;
+  if (!parts_.receptors.empty() &&
+      !survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); }))
+    return;
   refresh_ages(now);
   static_cast<void>(survives(behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
 }
@@ -141,7 +148,7 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   if (memory.valid) state.last_valid = memory.stamp;
   input.arrival->valid = memory.valid;
   input.arrival->stamp = memory.stamp;
-  input.arrival->age = now - memory.stamp;
+  input.arrival->age = age(memory.stamp, now);
 }
 
 void Operations::note_timeout(std::uint32_t port) {
@@ -160,7 +167,7 @@ void Operations::note_answer(std::uint32_t port) {
 void Operations::refresh_ages(Time now) {
   for (std::size_t index = 0; index < inputs_.size(); ++index) {
     Arrival& arrival = *parts_.bindings.inputs[index].arrival;
-    if (inputs_[index].sequence != 0) arrival.age = now - arrival.stamp;
+    if (inputs_[index].sequence != 0) arrival.age = age(arrival.stamp, now);
   }
   for (const Bindings::Incoming& input : parts_.bindings.real_inputs)
     if (input.arrival->valid) input.arrival->age = now - input.arrival->stamp;

@@ -21,6 +21,12 @@ template <class Rows>
   return index;
 }
 
+[[nodiscard]] Outcome outcome_of(Guard::Kind kind) {
+  return kind == Guard::Kind::error      ? Outcome::error
+         : kind == Guard::Kind::terminal ? Outcome::terminal
+                                         : Outcome::go_on;
+}
+
 class Compilation {
  public:
   Compilation(const SubsystemNet& net, std::span<const std::span<const FusedPlace>> fused, std::string& error)
@@ -86,10 +92,10 @@ class Compilation {
 
   void add(const Transition& transition) {
     Plan::TransitionEntry entry;
-    entry.guard = transition.guard;
-    std::uint16_t taken = 0;
+    entry.index = static_cast<std::uint32_t>(plan_.transitions.size());
+    entry.guard = {transition.guard.kind, transition.guard.entry};
     entry.inputs = static_cast<std::uint32_t>(plan_.arcs.size());
-    for (std::string_view name : transition.inputs) add_end(transition, name, entry, taken);
+    for (std::string_view name : transition.inputs) add_end(transition, name, entry, entry.taken);
     entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
     for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
     if (!transition.guard.port.empty()) entry.port = resolve(ports_, transition.guard.port, "port");
@@ -98,7 +104,11 @@ class Compilation {
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
     if (!error_.empty()) return;
     find_latch(transition, entry);
-    if (taken != 0) entry.need = need(transition, entry.port, taken);
+    if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
+    if (entry.outputs - entry.inputs == 1 && entry.end - entry.outputs == 1) {
+      entry.from = plan_.arcs[entry.inputs];
+      entry.to = plan_.arcs[entry.outputs];
+    }
     plan_.transitions.push_back(entry);
   }
 
@@ -135,6 +145,9 @@ class Compilation {
       const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
       if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = plan_.arcs[arc];
     }
+    entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
+    if (entry.latch != Plan::none && entry.decided < 64)
+      plan_.places[entry.latch].ways |= std::uint64_t{1} << entry.decided;
     if (entry.latch == Plan::none)
       fail(fmt::format("no place decides the condition of '{}'", transition.name));
   }
@@ -160,6 +173,7 @@ class Compilation {
     for (std::vector<std::uint32_t>& ways : leaving) {
       const auto first_timed =
           std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });
+      plan_.places[plan_.first_leaving.size()].timed = first_timed != ways.end();
       if (first_timed != ways.end())
         std::for_each(ways.begin(), first_timed,
                       [&](std::uint32_t t) { plan_.transitions[t].answers_in_time = true; });
@@ -167,6 +181,11 @@ class Compilation {
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
     }
     plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
+    for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
+    for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
+      plan_.places[place].first_departure = plan_.first_leaving[place];
+      plan_.places[place].end_of_departures = plan_.first_leaving[place + 1];
+    }
   }
 
   const SubsystemNet& net_;

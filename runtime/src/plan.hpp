@@ -19,16 +19,26 @@ struct Plan {
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< that is written or read, from 0
+    std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
+    std::uint32_t first_departure = 0, end_of_departures = 0;  ///< into departures
+    bool timed = false;         ///< a timeout counts from the arrival of its token
   };
+  struct Condition {
+    Guard::Kind kind = Guard::Kind::none;
+    std::uint16_t entry = 0;
+  };
+  static constexpr std::uint8_t no_need = 0xff;
   struct TransitionEntry {
+    std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
-    Guard guard;
-    std::uint32_t latch = none;  ///< the input place whose arrival decides the guard
-    std::uint32_t port = none;   ///< the channel it touches
-    std::uint8_t need =
-        0xff;  ///< into PortEntry::needs; SharedChannel::no_need: takes nothing from the channel
-    std::uint16_t produced = 0;    ///< fused places it gives, as bits
-    bool answers_in_time = false;  ///< the untimed way out of a place that also has a timed one
+    std::uint32_t from = none, to = none;  ///< of one with a single input and a single output here
+    std::uint32_t port = none;             ///< the channel it touches
+    std::uint32_t latch = none;            ///< the input place whose arrival decides the guard ...
+    std::int32_t decided = 0;              ///< ... if it says this
+    Condition guard;
+    std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
+    std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
+    bool answers_in_time = false;           ///< the untimed way out of a place that also has a timed one
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits
@@ -40,6 +50,7 @@ struct Plan {
   std::vector<std::uint32_t> arcs;           ///< local places
   std::vector<std::uint32_t> leaving;        ///< per place: transitions that take from it, untimed ones first
   std::vector<std::uint32_t> first_leaving;  ///< into leaving; one more than places
+  std::vector<TransitionEntry> departures;   ///< as leaving, the transitions themselves
   std::uint32_t in = 0, out = 0;
 
   [[nodiscard]] std::span<const std::uint32_t> inputs(const TransitionEntry& t) const {
@@ -50,6 +61,10 @@ struct Plan {
   }
   [[nodiscard]] std::span<const std::uint32_t> leaving_of(std::uint32_t place) const {
     return std::span(leaving).subspan(first_leaving[place], first_leaving[place + 1] - first_leaving[place]);
+  }
+  [[nodiscard]] std::span<const TransitionEntry> departures_of(std::uint32_t place) const {
+    return {departures.data() + places[place].first_departure,
+            departures.data() + places[place].end_of_departures};
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,13 +28,15 @@ namespace tessera {
 /// that side: a firing (it changes the marking and who fired last) and a registration that shrinks (it may
 /// release the other side, see below). Nothing else can make a need takeable.
 ///
-/// *Fairness.* A side that fired last does not take again while the other is registered for a need that is
-/// met; it registers itself instead. This cannot block: the two sides cannot both be the last to fire, so the
-/// registered side may take; it has been woken by the change that met its need (above); it either takes,
-/// after which it is the one that fired last and the first side is woken, or it takes another way and
-/// withdraws the registration (before it runs any user code), which wakes the first side too. Transitions
-/// that only give are never held back. A registration names needs exactly, not their union, because a side
-/// must not be held back for a need that is met in part.
+/// *Fairness.* A side that has been passed over - it registered, was woken, and found the other side at it
+/// again - says so when it registers once more. From then on the side that fired last does not take again while
+/// the other is registered for a need that is met; it registers itself instead. This cannot block: the two
+/// sides cannot both be the last to fire, so the registered side may take; it has been woken by the change that
+/// met its need (above); it either takes, after which it is the one that fired last and the first side is
+/// woken, or it takes another way and withdraws the registration (before it runs any user code), which wakes
+/// the first side too. Transitions that only give are never held back. A registration names needs exactly, not
+/// their union, because a side must not be held back for a need that is met in part. The first registration
+/// holds nobody back: were it to, two busy sides would sleep and wake each other at every single turn.
 ///
 /// The memory has one or more slots; each belongs to whoever has taken the token the net protects it with.
 /// That token passes through the word, whose compare-and-swaps acquire and release, so the bytes need no
@@ -50,14 +53,19 @@ class alignas(64) SharedChannel {
   /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
 
-  /// Takes needs[need] (no_need: nothing) and gives `produced`. 0: not now. Otherwise the version that this
-  /// firing made, and the registration of `side` is void.
-  [[nodiscard]] std::uint32_t fire(Side side, std::uint8_t need, std::uint16_t produced);
-  static constexpr std::uint8_t no_need = 0xff;
+  /// Takes `taken` (one of the needs of that side, as bits, or nothing) and gives `produced`. 0: not now.
+  /// Otherwise the version that this firing made, and the registration of `side` is void.
+  [[nodiscard]] std::uint32_t fire(Side side, std::uint16_t taken, std::uint16_t produced);
 
-  /// Registers exactly `wants` (bit i: needs[i]; 0 withdraws). false: one of them may be taken now; nothing
-  /// changed.
+  /// Registers exactly `wants` (bit i: needs[i]; 0 withdraws). A side that is registered already insists on
+  /// its turn. false: one of them may be taken now; nothing changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
+
+  /// Nothing can be taken before somebody gives: with the usual blocks, the other side is at the memory, which
+  /// runs no user code and is soon over.
+  [[nodiscard]] bool held() const { return marking() == 0; }
+  /// Waits, awake, for that to be over; false: it takes too long.
+  [[nodiscard]] bool outwait() const;
 
   /// A value in transit.
   struct Memory {
@@ -75,22 +83,88 @@ class alignas(64) SharedChannel {
   [[nodiscard]] std::uint16_t marking() const;
 
  private:
-  struct Word;
-  struct Party {
+  /// Bits 0-9 marking, 10-19 wants of the sender, 20-29 wants of the receiver, 30 the receiver fired last, 31
+  /// a side insists, 32-63 version.
+  struct Word {
+    std::uint64_t bits = 0;
+
+    static constexpr std::uint64_t field = (1U << max_places) - 1;
+    static constexpr std::uint64_t receiver_last = 1U << 30, insisting = 1U << 31;
+    [[nodiscard]] static constexpr unsigned wants_shift(Side side) { return side == Side::send ? 10 : 20; }
+
+    [[nodiscard]] std::uint16_t marking() const { return static_cast<std::uint16_t>(bits & field); }
+    [[nodiscard]] std::uint16_t wants(Side side) const {
+      return static_cast<std::uint16_t>(bits >> wants_shift(side) & field);
+    }
+    [[nodiscard]] bool last_was(Side side) const {
+      return ((bits & receiver_last) != 0) == (side == Side::receive);
+    }
+    [[nodiscard]] bool insists() const { return (bits & insisting) != 0; }
+    [[nodiscard]] std::uint32_t version() const { return static_cast<std::uint32_t>(bits >> 32); }
+    [[nodiscard]] Word with_wants(Side side, std::uint16_t wants) const;
+    [[nodiscard]] Word after_firing(Side side, std::uint16_t taken, std::uint16_t given) const;
+  };
+  struct alignas(64) Party {
+    std::uint64_t seen = 0;  // the word as this side left or found it; its own
     Waker* waker = nullptr;
     std::uint32_t instance = 0;
     std::vector<std::uint16_t> needs;
   };
-  [[nodiscard]] bool may_take(Word word, Side side, std::uint16_t need) const;
+  [[nodiscard]] static constexpr Side other(Side side) {
+    return side == Side::send ? Side::receive : Side::send;
+  }
+  [[nodiscard]] bool may_take(Word word, Side side, std::uint16_t need) const {
+    if (need == 0) return true;
+    return (word.marking() & need) == need && !must_yield(word, side);
+  }
   [[nodiscard]] bool waits_for_met_need(Word word, Side side) const;
-  [[nodiscard]] bool must_yield(Word word, Side side) const;
+  [[nodiscard]] bool must_yield(Word word, Side side) const {
+    return word.insists() && word.last_was(side) && waits_for_met_need(word, other(side));
+  }
   void wake_if_ready(Word word, Side side);
   [[nodiscard]] const Party& party(Side side) const { return parties_[static_cast<std::size_t>(side)]; }
 
-  std::atomic<std::uint64_t> word_;
+  std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
   std::array<Party, 2> parties_;
   std::vector<Memory> slots_;
-  std::uint64_t writes_ = 0;  // the sender's own
+  alignas(64) std::uint64_t writes_ = 0;  // the sender's own
 };
+
+inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint16_t wants) const {
+  return {(bits & ~(field << wants_shift(side))) | static_cast<std::uint64_t>(wants) << wants_shift(side)};
+}
+
+inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uint16_t taken,
+                                                            std::uint16_t given) const {
+  std::uint32_t next = version() + 1;
+  if (next == 0) next = 1;  // 0 means "no channel" in a recording
+  const auto marked = static_cast<std::uint64_t>((marking() & ~taken) | given);
+  const std::uint64_t wanted = bits & field << wants_shift(other(side));
+  const std::uint64_t insists = wants(side) != 0 ? 0 : bits & insisting;  // it has had its turn
+  const std::uint64_t last = side == Side::receive ? receiver_last : 0;
+  return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
+}
+
+/// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once to
+/// change.
+inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
+  std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
+  if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);
+  for (;;) {
+    const Word before{seen};
+    if (!may_take(before, side, taken)) return 0;
+    const Word after = before.after_firing(side, taken, produced);
+    if (word_.compare_exchange_weak(seen, after.bits, std::memory_order_acq_rel, std::memory_order_acquire)) {
+      assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
+      seen = after.bits;
+      if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
+      return after.version();
+    }
+  }
+}
+
+inline std::uint16_t SharedChannel::marking() const {
+  return Word{word_.load(std::memory_order_acquire)}.marking();
+}
 
 }  // namespace tessera

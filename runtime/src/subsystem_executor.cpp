@@ -19,83 +19,133 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       clock_(shared.clock),
       waker_(shared.waker),
       lane_(lane),
+      watched_(shared.watched),
+      simulated_(shared.clock.simulated()),
+      ports_(operations_.parts().ports.data()),
       tokens_(plan_->places.size()),
       wants_(plan_->ports.size()),
       wants_next_(plan_->ports.size()) {
   marked_.reserve(plan_->places.size());
 }
 
-void SubsystemExecutor::enter() { put(plan_->in, clock_.now()); }
+void SubsystemExecutor::enter() { put(plan_->in); }
 
 SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most_firings) {
-  if (blocked_since_ != Time::max()) waited_ += clock_.now() - std::exchange(blocked_since_, Time::max());
+  renew_time();
+  if (blocked_since_ != Time::max()) waited_ += now_ - std::exchange(blocked_since_, Time::max());
+  bool up_to_date = true;  // nothing has happened since the clock was read
   for (;;) {
     if (control_.stopping()) return {State::stopped};
-    if (tokens_[plan_->out].position != Plan::none) {
+    if (at_end_) {
       end();
       return {State::ended};
     }
-    const Time now = clock_.now();
-    if (fire_one(now)) {
-      if (time_stands_still(now)) fault("time stands still: it fires for ever at one instant");
+    if (fire_one()) {
+      up_to_date = false;
+      if (simulated_ && time_stands_still()) fault("time stands still: it fires for ever at one instant");
       if (--most_firings == 0) return {State::busy};
       continue;
     }
-    if (advance_operations(now)) continue;
-    operations_.guard_effectors(now);
-    if (!register_waits(now)) continue;
-    if (registrations_ > 0) blocked_since_ = now;
+    if (advance_operations()) {
+      up_to_date = false;
+      continue;
+    }
+    if (outwait_peer()) continue;
+    if (!std::exchange(up_to_date, true)) {
+      renew_time();
+      continue;
+    }
+    operations_.guard_effectors(now_);
+    if (!register_waits()) continue;
+    if (registrations_ > 0) blocked_since_ = now_;
     return {State::waiting, next_deadline()};
   }
 }
 
+// -------------------------------------------------------------------------------------------- time
+
+void SubsystemExecutor::renew_time() {
+  now_ = clock_.now();
+  time_is_known_ = true;
+}
+
+/// The time since the last code of the user's, or a later one: firings take next to none.
+Time SubsystemExecutor::now() {
+  if (!time_is_known_) renew_time();
+  return now_;
+}
+
 // -------------------------------------------------------------------------------------------- firing
 
-bool SubsystemExecutor::fire_one(Time now) {
+bool SubsystemExecutor::fire_one() {
+  if (marked_.size() == 1) return walk();
   for (const std::uint32_t place : marked_)
-    for (const std::uint32_t transition : plan_->leaving_of(place))
-      if (try_fire(transition, now)) return true;  // marked_ has changed
+    if (tokens_[place].phase == Phase::finished && fire_from(place) != nullptr) return true;
   return false;
 }
 
-bool SubsystemExecutor::try_fire(std::uint32_t index, Time now) {
+/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can.
+bool SubsystemExecutor::walk() {
+  std::uint32_t place = marked_.front();
+  bool walked = false;
+  while (tokens_[place].phase == Phase::finished) {
+    const Plan::TransitionEntry* const fired = fire_from(place);
+    if (fired == nullptr) return walked;
+    walked = true;
+    if (simulated_ || marked_.size() != 1 || at_end_ || control_.stopping()) break;
+    place = marked_.front() == fired->to ? fired->to : marked_.front();
+  }
+  return walked;
+}
+
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(std::uint32_t place) {
+  for (const Plan::TransitionEntry& transition : plan_->departures_of(place)) {
+    const bool enabled = transition.from != Plan::none || locally_enabled(transition);
+    if (enabled && fire_enabled(transition)) return &transition;
+  }
+  return nullptr;
+}
+
+bool SubsystemExecutor::try_fire(std::uint32_t index) {
   const Plan::TransitionEntry& transition = plan_->transitions[index];
-  if (!locally_enabled(transition) || !condition_holds(transition, now)) return false;
+  return locally_enabled(transition) && fire_enabled(transition);
+}
+
+inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
+  if (!condition_holds(transition)) return false;
   std::uint32_t version = 0;
   if (transition.port != Plan::none) {
-    const PortLink& link = operations_.parts().ports[transition.port];
-    version = link.channel->fire(link.side, transition.need, transition.produced);
-    if (version == 0) return false;
-    if (std::exchange(wants_[transition.port], std::uint16_t{0}) != 0) --registrations_;  // firing voids them
+    const PortLink& link = ports_[transition.port];
+    version = link.channel->fire(link.side, transition.taken, transition.produced);
+    if (version == 0) {
+      if (link.channel->held()) held_ = link.channel;
+      return false;
+    }
+    if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
+      --registrations_;  // firing voids them
   }
-  after_firing(index, version, now);
+  after_firing(transition, version);
   return true;
+}
+
+/// Some transition waits for nothing but a peer that is reading or writing: that is shorter than a sleep.
+bool SubsystemExecutor::outwait_peer() {
+  const SharedChannel* const channel = std::exchange(held_, nullptr);
+  return channel != nullptr && !simulated_ && channel->outwait();
 }
 
 bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition) const {
-  for (const std::uint32_t place : plan_->inputs(transition)) {
-    const Token& token = tokens_[place];
-    if (token.position == Plan::none || token.phase != Phase::finished) return false;
-  }
-  return true;
+  const auto has_finished = [this](std::uint32_t place) {
+    return tokens_[place].position != Plan::none && tokens_[place].phase == Phase::finished;
+  };
+  const auto inputs = plan_->inputs(transition);
+  return std::all_of(inputs.begin(), inputs.end(), has_finished);
 }
 
-bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition, Time now) const {
-  switch (transition.guard.kind) {
-    case Guard::Kind::none:
-      return true;
-    case Guard::Kind::go_on:
-      return tokens_[transition.latch].latched == static_cast<std::int32_t>(Outcome::go_on);
-    case Guard::Kind::terminal:
-      return tokens_[transition.latch].latched == static_cast<std::int32_t>(Outcome::terminal);
-    case Guard::Kind::error:
-      return tokens_[transition.latch].latched == static_cast<std::int32_t>(Outcome::error);
-    case Guard::Kind::next:
-      return tokens_[transition.latch].latched == transition.guard.entry;
-    case Guard::Kind::elapsed:
-      return now >= elapses(transition);
-  }
-  return false;
+inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
+  if (transition.guard.kind == Guard::Kind::none) return true;
+  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
+  return tokens_[transition.latch].latched == transition.decided;
 }
 
 Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
@@ -107,22 +157,30 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   return arrival + timeout;
 }
 
-void SubsystemExecutor::after_firing(std::uint32_t index, std::uint32_t version, Time now) {
-  const Plan::TransitionEntry& transition = plan_->transitions[index];
+inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
   ++firings_;
-  if (lane_ != nullptr) lane_->firing(now, first_transition_ + index, version);
+  if (firings_ % 64 == 0) renew_time();  // however long it goes on without code of the user's
+  if (lane_ != nullptr) {
+    renew_time();
+    lane_->firing(now_, first_transition_ + transition.index, version);
+  }
   if (transition.guard.kind == Guard::Kind::elapsed)
     operations_.note_timeout(transition.port);
   else if (transition.answers_in_time && transition.port != Plan::none)
     operations_.note_answer(transition.port);
+  if (transition.from != Plan::none) {
+    take(transition.from);
+    put(transition.to);
+    return;
+  }
   for (const std::uint32_t place : plan_->inputs(transition)) take(place);
-  for (const std::uint32_t place : plan_->outputs(transition)) put(place, now);
+  for (const std::uint32_t place : plan_->outputs(transition)) put(place);
 }
 
 // -------------------------------------------------------------------------------------------- tokens,
 // operations
 
-void SubsystemExecutor::take(std::uint32_t place) {
+inline void SubsystemExecutor::take(std::uint32_t place) {
   const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
   marked_[hole] = marked_.back();
   tokens_[marked_[hole]].position = hole;
@@ -130,17 +188,20 @@ void SubsystemExecutor::take(std::uint32_t place) {
   marked_.pop_back();
 }
 
-void SubsystemExecutor::put(std::uint32_t place, Time now) {
+inline void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
   if (token.position != Plan::none) return fault("a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
-  token.arrival = now;
   token.phase = Phase::finished;
   marked_.push_back(place);
-  start_operation(place, now);
+  if (plan_->places[place].timed) {
+    renew_time();
+    token.arrival = now_;
+  }
+  start_operation(place);
 }
 
-void SubsystemExecutor::start_operation(std::uint32_t place, Time now) {
+inline void SubsystemExecutor::start_operation(std::uint32_t place) {
   const Plan::PlaceEntry& entry = plan_->places[place];
   Token& token = tokens_[place];
   switch (entry.does) {
@@ -149,41 +210,39 @@ void SubsystemExecutor::start_operation(std::uint32_t place, Time now) {
       break;
     case Does::Kind::call:
       token.phase = Phase::released_later;
-      token.due = release(now);
+      token.due = release();
       break;
     case Does::Kind::count:
       operations_.count();
       break;
     case Does::Kind::write:
-      operations_.write(entry.subject, entry.slot, now);
+      operations_.write(entry.subject, entry.slot, now());
       break;
     case Does::Kind::read:
-      operations_.read(entry.subject, entry.slot, now);
+      operations_.read(entry.subject, entry.slot, now());
       break;
     case Does::Kind::decide:
-      decide(place, now);
+      decide(place);
       break;
     case Does::Kind::route:
-      route(place, now);
+      route(place);
       break;
   }
 }
 
-void SubsystemExecutor::decide(std::uint32_t place, Time now) {
+void SubsystemExecutor::decide(std::uint32_t place) {
   Token& token = tokens_[place];
   if (const Plan::TransitionEntry* next = decided_by_script(place)) {
-    const Outcome outcome = next->guard.kind == Guard::Kind::error      ? Outcome::error
-                            : next->guard.kind == Guard::Kind::terminal ? Outcome::terminal
-                                                                        : Outcome::go_on;
-    operations_.accept_outcome(outcome);
-    token.latched = static_cast<std::int32_t>(outcome);
+    operations_.accept_outcome(static_cast<Outcome>(next->decided));
+    token.latched = next->decided;
     return;
   }
-  token.latched = static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, now));
-  check_way_out(place, now);
+  token.latched =
+      static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, time_of_conditions()));
+  check_way_out(place);
 }
 
-void SubsystemExecutor::route(std::uint32_t place, Time now) {
+void SubsystemExecutor::route(std::uint32_t place) {
   Token& token = tokens_[place];
   if (const Plan::TransitionEntry* next = decided_by_script(place)) {
     token.latched = next->guard.entry;
@@ -191,28 +250,33 @@ void SubsystemExecutor::route(std::uint32_t place, Time now) {
   }
   token.latched = Operations::no_entry;
   if (script_ends_without_choice()) return;
-  token.latched = operations_.route(plan_->places[place].subject, now);
+  token.latched = operations_.route(plan_->places[place].subject, time_of_conditions());
   if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
   if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
-  if (token.latched >= 0) check_way_out(place, now);
+  if (token.latched >= 0) check_way_out(place);
 }
 
 /// A decision without a transition would leave the token where it is for ever.
-void SubsystemExecutor::check_way_out(std::uint32_t place, Time now) {
+void SubsystemExecutor::check_way_out(std::uint32_t place) {
+  const std::int32_t decided = tokens_[place].latched;
+  if (decided < 64 && (plan_->places[place].ways >> decided & 1U) != 0) return;
   const auto leaving = plan_->leaving_of(place);
-  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index], now); };
+  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
     fault("what was decided has no transition: the generated code does not fit its net");
 }
 
 void SubsystemExecutor::arrive_at_end() {
+  at_end_ = true;
   if (operations_.ended_by_error()) fault("ended by an error that no `next` leads to another behaviour");
 }
 
-Time SubsystemExecutor::release(Time arrival) {
+Time SubsystemExecutor::release() {
   const Duration period = operations_.parts().instance->period;
   const Duration waited = std::exchange(waited_, Duration::zero());
-  if (period == Duration::zero()) return arrival;
+  if (period == Duration::zero()) return Time::min();
+  renew_time();
+  const Time arrival = now_;
   const auto first_not_before = [&](Time time) {
     return (time.time_since_epoch() + period - Duration(1)) / period;
   };
@@ -226,29 +290,31 @@ Time SubsystemExecutor::release(Time arrival) {
   return Time(period * next_release_++);
 }
 
-bool SubsystemExecutor::advance_operations(Time now) {
+bool SubsystemExecutor::advance_operations() {
   for (const std::uint32_t place : marked_)
-    if (tokens_[place].phase != Phase::finished && now >= tokens_[place].due && advance(place, now))
-      return true;
+    if (tokens_[place].phase != Phase::finished && now_ >= tokens_[place].due && advance(place)) return true;
   return false;
 }
 
 /// Begins or ends a transition function; false when that has to wait.
-bool SubsystemExecutor::advance(std::uint32_t place, Time now) {
+bool SubsystemExecutor::advance(std::uint32_t place) {
   Token& token = tokens_[place];
   if (token.phase == Phase::released_later) {
     // User code may take long: nobody must be held back meanwhile by a wait that is over.
-    if (registrations_ > 0 && !register_waits(now)) return true;
+    if (registrations_ > 0 && !register_waits()) return true;
     const std::uint16_t behaviour = plan_->places[place].subject;
-    gauges_.begin_call(behaviour, now);
-    operations_.start_call(behaviour, now);
+    const Time begin = now();
+    gauges_.begin_call(behaviour, begin);
+    operations_.start_call(behaviour, begin);
+    time_is_known_ = false;
     token.phase = Phase::running;
-    token.due = clock_.simulated() ? now + operations_.takes(behaviour) : now;
-    if (token.due > now) return true;
+    token.due = Time::min();
+    if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (token.due > begin) return true;
   }
-  const Time done = clock_.now();
-  operations_.finish_call(done);
-  gauges_.end_call(done);
+  if (watched_ || operations_.commands_devices()) renew_time();
+  operations_.finish_call(now_);
+  gauges_.end_call(now_);
   show();
   token.phase = Phase::finished;
   return true;
@@ -266,8 +332,8 @@ void SubsystemExecutor::show() {
 
 namespace {
 
-std::string_view forced_by(const Guard& guard) {
-  switch (guard.kind) {
+std::string_view forced_by(Guard::Kind guard) {
+  switch (guard) {
     case Guard::Kind::go_on:
       return "neither error nor terminal";
     case Guard::Kind::terminal:
@@ -291,17 +357,16 @@ SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
     fault("no condition of `next` holds");
     return {Followed::fired, Time::max(), "no initial condition"};
   }
-  const Time now = clock_.now();
-  while (advance_operations(now)) continue;
-  operations_.guard_effectors(now);
-  if (!try_fire(transition, now)) {
+  renew_time();
+  while (advance_operations()) continue;
+  operations_.guard_effectors(now_);
+  if (!try_fire(transition)) {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};
   }
-  const bool over = tokens_[plan_->out].position != Plan::none;
-  if (over) end();
-  return {over ? Followed::ended : Followed::fired, Time::max(),
-          forced_by(plan_->transitions[transition].guard)};
+  if (at_end_) end();
+  return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
+          forced_by(plan_->transitions[transition].guard.kind)};
 }
 
 /// The transition of the script that will take a token that has just arrived; nullptr: none of it.
@@ -326,19 +391,19 @@ Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
     if (tokens_[place].phase != Phase::finished) deadline = std::min(deadline, tokens_[place].due);
   if (deadline != Time::max() || transition.guard.kind != Guard::Kind::elapsed) return deadline;
   const Time elapsed = locally_enabled(transition) ? elapses(transition) : Time::max();
-  return elapsed > clock_.now() ? elapsed : Time::max();
+  return elapsed > now_ ? elapsed : Time::max();
 }
 
 // -------------------------------------------------------------------------------------------- waiting
 
 /// Registers in every channel exactly what this subsystem waits for; false: something may be taken after all.
-bool SubsystemExecutor::register_waits(Time now) {
+bool SubsystemExecutor::register_waits() {
   std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
   for (const std::uint32_t place : marked_) {
     for (const std::uint32_t index : plan_->leaving_of(place)) {
       const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.need == SharedChannel::no_need || !locally_enabled(transition)) continue;
-      if (!condition_holds(transition, now)) continue;
+      if (transition.need == Plan::no_need || !locally_enabled(transition)) continue;
+      if (!condition_holds(transition)) continue;
       wants_next_[transition.port] =
           static_cast<std::uint16_t>(wants_next_[transition.port] | 1U << transition.need);
     }
@@ -367,7 +432,7 @@ Time SubsystemExecutor::next_deadline() const {
       if (transition.guard.kind != Guard::Kind::elapsed || !locally_enabled(transition)) continue;
       const Time elapsed = elapses(transition);
       const bool registered =
-          transition.need != SharedChannel::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
+          transition.need != Plan::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
       if (!registered)
         deadline = std::min(deadline, elapsed);  // registered: it has elapsed and waits for its channel
     }
@@ -375,10 +440,9 @@ Time SubsystemExecutor::next_deadline() const {
   return deadline;
 }
 
-bool SubsystemExecutor::time_stands_still(Time now) {
-  if (!clock_.simulated()) return false;
-  if (now != instant_) {
-    instant_ = now;
+bool SubsystemExecutor::time_stands_still() {
+  if (now_ != instant_) {
+    instant_ = now_;
     fired_at_instant_ = 0;
   }
   return ++fired_at_instant_ > firings_per_instant;
@@ -394,8 +458,7 @@ void SubsystemExecutor::fault(std::string_view text) {
 }
 
 void SubsystemExecutor::end() {
-  static_cast<void>(
-      register_waits(clock_.now()));  // withdraws: nobody must yield to a subsystem that has ended
+  static_cast<void>(register_waits());  // withdraws: nobody must yield to a subsystem that has ended
   leave();
   control_.mark_ended(index_);
   for (const PortLink& port : operations_.parts().ports)

@@ -37,6 +37,7 @@ class SubsystemExecutor {
     RunControl& control;
     const Clock& clock;
     Waker& waker;
+    bool watched = false;  ///< somebody may look at the gauges
   };
   /// first_transition: how the recording numbers the net's transitions.
   SubsystemExecutor(std::uint32_t index, SubsystemParts parts, std::shared_ptr<const Plan> plan,
@@ -90,40 +91,48 @@ class SubsystemExecutor {
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
   struct Token {
-    Time arrival{};
+    Time arrival{};  // in places from which a timeout counts
     Time due{};  // of released_later and running
     Phase phase = Phase::finished;
     std::int32_t latched = 0;             // the outcome or the entry of `next`
     std::uint32_t position = Plan::none;  // in marked_
   };
 
-  [[nodiscard]] bool fire_one(Time now);
-  [[nodiscard]] bool try_fire(std::uint32_t transition, Time now);
+  void renew_time();
+  [[nodiscard]] Time now();
+  [[nodiscard]] Time time_of_conditions() { return operations_.has_inputs() ? now() : now_; }
+
+  [[nodiscard]] bool fire_one();
+  [[nodiscard]] bool try_fire(std::uint32_t transition);
+  [[nodiscard]] bool walk();
+  [[nodiscard]] const Plan::TransitionEntry* fire_from(std::uint32_t place);
+  [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
+  [[nodiscard]] bool outwait_peer();
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
-  [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition, Time now) const;
+  [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
-  void after_firing(std::uint32_t transition, std::uint32_t version, Time now);
+  void after_firing(const Plan::TransitionEntry& transition, std::uint32_t version);
 
   void take(std::uint32_t place);
-  void put(std::uint32_t place, Time now);
-  void start_operation(std::uint32_t place, Time now);
-  void check_way_out(std::uint32_t place, Time now);
+  void put(std::uint32_t place);
+  void start_operation(std::uint32_t place);
+  void check_way_out(std::uint32_t place);
   void arrive_at_end();
-  [[nodiscard]] bool advance_operations(Time now);
-  [[nodiscard]] bool advance(std::uint32_t place, Time now);
-  [[nodiscard]] Time release(Time arrival);
+  [[nodiscard]] bool advance_operations();
+  [[nodiscard]] bool advance(std::uint32_t place);
+  [[nodiscard]] Time release();
   void show();
 
   // Scripts.
   [[nodiscard]] const Plan::TransitionEntry* decided_by_script(std::uint32_t place) const;
   [[nodiscard]] bool script_ends_without_choice() const;
-  void decide(std::uint32_t place, Time now);
-  void route(std::uint32_t place, Time now);
+  void decide(std::uint32_t place);
+  void route(std::uint32_t place);
   [[nodiscard]] Time script_deadline(std::uint32_t transition) const;
 
-  [[nodiscard]] bool register_waits(Time now);
+  [[nodiscard]] bool register_waits();
   [[nodiscard]] Time next_deadline() const;
-  [[nodiscard]] bool time_stands_still(Time now);
+  [[nodiscard]] bool time_stands_still();
   void fault(std::string_view text);
   void end();
 
@@ -135,6 +144,13 @@ class SubsystemExecutor {
   const Clock& clock_;
   Waker& waker_;
   RecordingLane* lane_;
+
+  Time now_{};                  // of the last look at the clock
+  bool time_is_known_ = false;  // no code of the user's has run since
+  bool watched_, simulated_;
+  bool at_end_ = false;    // the token is in `out`
+  const PortLink* ports_;  // of operations_
+  const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
 
   std::vector<Token> tokens_;              // per place
   std::vector<std::uint32_t> marked_;      // places with a token; room for all

@@ -14,25 +14,20 @@ std::int64_t monotonic_ns() {
 }
 
 void WakeWord::wake() {
-  wakes_.fetch_add(1, std::memory_order_seq_cst);
-  if (!sleeping_.load(std::memory_order_seq_cst)) return;
-  syscall(SYS_futex, &wakes_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
+  // A sleeper that looks for work later reads this exchange first, and with it whatever made it worthwhile.
+  if (state_.exchange(woken, std::memory_order_acq_rel) != asleep) return;
+  syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
 }
 
 void WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
-  // Sequentially consistent: either this thread sees the new count, or the one that wakes sees that it
-  // sleeps.
-  sleeping_.store(true, std::memory_order_seq_cst);
-  if (wakes_.load(std::memory_order_seq_cst) == ticket) {
-    timespec until{};
-    until.tv_sec = until_ns / 1'000'000'000;
-    until.tv_nsec = until_ns % 1'000'000'000;
-    // BITSET takes an absolute time of CLOCK_MONOTONIC. Whatever ends the wait, the caller looks at its net
-    // again.
-    syscall(SYS_futex, &wakes_, FUTEX_WAIT_BITSET_PRIVATE, ticket, until_ns < 0 ? nullptr : &until, nullptr,
-            FUTEX_BITSET_MATCH_ANY);
-  }
-  sleeping_.store(false, std::memory_order_relaxed);
+  if (!state_.compare_exchange_strong(ticket, asleep, std::memory_order_acq_rel)) return;  // woken meanwhile
+  timespec until{};
+  until.tv_sec = until_ns / 1'000'000'000;
+  until.tv_nsec = until_ns % 1'000'000'000;
+  // BITSET takes an absolute time of CLOCK_MONOTONIC. Whatever ends the wait, the caller looks at its net
+  // again.
+  syscall(SYS_futex, &state_, FUTEX_WAIT_BITSET_PRIVATE, asleep, until_ns < 0 ? nullptr : &until, nullptr,
+          FUTEX_BITSET_MATCH_ANY);
 }
 
 }  // namespace tessera

@@ -15,21 +15,25 @@ class Waker {
   virtual void wake(std::uint32_t instance) = 0;
 };
 
-/// What one thread sleeps on: a futex word that counts wake-ups.
+/// What one thread sleeps on: a futex word that remembers whether it was woken.
 ///
 /// The sleeper takes a `ticket`, looks whether there is work, and then sleeps with that ticket: a wake-up
 /// between the two makes the sleep return at once, so none is lost.
 class alignas(64) WakeWord {
  public:
-  [[nodiscard]] std::uint32_t ticket() const { return wakes_.load(std::memory_order_seq_cst); }
+  /// Forgets earlier wake-ups. Threads: the sleeper's.
+  [[nodiscard]] std::uint32_t ticket() { 
+    state_.exchange(awake, std::memory_order_acq_rel);
+    return awake;
+  }
   /// Threads: any. A system call only when somebody sleeps.
   void wake();
   /// Until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
   void sleep(std::uint32_t ticket, std::int64_t until_ns);
 
  private:
-  std::atomic<std::uint32_t> wakes_{0};
-  std::atomic<bool> sleeping_{false};
+  static constexpr std::uint32_t awake = 0, woken = 1, asleep = 2;
+  std::atomic<std::uint32_t> state_{awake};
 };
 
 /// CLOCK_MONOTONIC in nanoseconds.

@@ -9,12 +9,18 @@
 namespace tessera::verify {
 namespace {
 
-/// A behaviour of the group after which it may be that nothing follows.
-std::string incomplete(const CommunicationStructure& structure, const CircuitGroup& group) {
+/// Why nothing is known of the group: a behaviour after which it may be that nothing follows, or a channel of
+/// which only its net tells who waits for what.
+std::string unfit(const CommunicationStructure& structure, const CircuitGroup& group) {
   for (const std::uint32_t subsystem : group.subsystems)
-    for (const BehaviourFlow& behaviour : structure.subsystems[subsystem].behaviours)
+    for (const BehaviourFlow& behaviour : structure.subsystems[subsystem].behaviours) {
       if (!behaviour.complete)
         return "after '" + behaviour.name + "' none of the initial conditions may hold";
+      for (const Stage& stage : behaviour.stages)
+        for (const Communication& communication : stage)
+          if (const ChannelFlow& channel = structure.channels[communication.channel]; channel.own_model)
+            return "'" + channel.name + "' has a communication model of its own";
+    }
   return {};
 }
 
@@ -43,7 +49,7 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
   std::vector<const CircuitGroup*> group_of(structure.subsystems.size(), nullptr);
   std::vector<std::uint32_t> judged;
   for (const CircuitGroup* group : groups) {
-    if (std::string why = incomplete(structure, *group); !why.empty()) {
+    if (std::string why = unfit(structure, *group); !why.empty()) {
       refuse(std::move(why));
       continue;
     }

@@ -29,16 +29,16 @@ struct Buffered : ::testing::Test {
 };
 
 TEST_F(Buffered, FiringNeedsItsPlacesAndCountsVersions) {
-  EXPECT_EQ(channel.fire(Side::receive, 1, 0), 0u);
-  EXPECT_EQ(channel.fire(Side::send, 0, 0), 1u);
-  EXPECT_EQ(channel.fire(Side::send, SharedChannel::no_need, full), 2u);
+  EXPECT_EQ(channel.fire(Side::receive, full, 0), 0u);
+  EXPECT_EQ(channel.fire(Side::send, empty, 0), 1u);
+  EXPECT_EQ(channel.fire(Side::send, 0, full), 2u);
   EXPECT_EQ(channel.marking(), full);
-  EXPECT_EQ(channel.fire(Side::receive, 1, 0), 3u);
+  EXPECT_EQ(channel.fire(Side::receive, full, 0), 3u);
 }
 
 TEST_F(Buffered, SkipIsAFiringOfItsOwnVersion) {
-  EXPECT_EQ(channel.fire(Side::receive, 0, empty), 1u);
-  EXPECT_EQ(channel.fire(Side::receive, 0, empty), 2u);
+  EXPECT_EQ(channel.fire(Side::receive, empty, empty), 1u);
+  EXPECT_EQ(channel.fire(Side::receive, empty, empty), 2u);
   EXPECT_EQ(channel.marking(), empty);
 }
 
@@ -49,40 +49,56 @@ TEST_F(Buffered, RegistrationIsRefusedWhenANeedIsMet) {
 
 TEST_F(Buffered, AMetNeedWakesWhoWaitsForIt) {
   ASSERT_TRUE(channel.wait(Side::receive, 0b10));
-  ASSERT_NE(channel.fire(Side::send, 0, 0), 0u);
+  ASSERT_NE(channel.fire(Side::send, empty, 0), 0u);
   EXPECT_EQ(waker.woken[1], 0);
-  ASSERT_NE(channel.fire(Side::send, SharedChannel::no_need, full), 0u);
+  ASSERT_NE(channel.fire(Side::send, 0, full), 0u);
   EXPECT_EQ(waker.woken[1], 1);
 }
 
 TEST_F(Buffered, FiringEndsARegistration) {
   ASSERT_TRUE(channel.wait(Side::receive, 0b10));
-  ASSERT_NE(channel.fire(Side::send, 0, full), 0u);
-  ASSERT_NE(channel.fire(Side::receive, 1, empty), 0u);
-  ASSERT_NE(channel.fire(Side::send, 0, full), 0u);
+  ASSERT_NE(channel.fire(Side::send, empty, full), 0u);
+  ASSERT_NE(channel.fire(Side::receive, full, empty), 0u);
+  ASSERT_NE(channel.fire(Side::send, empty, full), 0u);
   EXPECT_EQ(waker.woken[1], 1) << "it waits no more";
 }
 
-TEST_F(Buffered, WhoFiredLastYieldsToTheOtherThatWaits) {
-  ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);  // skip
-  ASSERT_NE(channel.fire(Side::receive, 0, 0), 0u);      // as if it held the memory
+TEST_F(Buffered, WhoFiredLastMayGoOnUntilTheOtherHasWaitedInVain) {
+  ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
-  ASSERT_NE(channel.fire(Side::receive, SharedChannel::no_need, empty), 0u);
+  ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);
   EXPECT_EQ(waker.woken[0], 1);
-  EXPECT_EQ(channel.fire(Side::receive, 0, empty), 0u) << "the sender was first";
+  ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u) << "the sender has been woken, no more";
+  ASSERT_TRUE(channel.wait(Side::send, 0b01));
+  ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);
+  EXPECT_EQ(channel.fire(Side::receive, empty, 0), 0u) << "now it insists";
+  ASSERT_NE(channel.fire(Side::send, empty, 0), 0u);
+  ASSERT_NE(channel.fire(Side::send, 0, empty), 0u);
+  EXPECT_NE(channel.fire(Side::send, empty, 0), 0u) << "nobody waits any more";
+}
+
+TEST_F(Buffered, WhoFiredLastYieldsToTheOtherThatInsists) {
+  ASSERT_NE(channel.fire(Side::receive, empty, empty), 0u);  // skip
+  ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);      // as if it held the memory
+  ASSERT_TRUE(channel.wait(Side::send, 0b01));
+  ASSERT_TRUE(channel.wait(Side::send, 0b01));
+  ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);
+  EXPECT_EQ(waker.woken[0], 1);
+  EXPECT_EQ(channel.fire(Side::receive, empty, empty), 0u) << "the sender was first";
   EXPECT_TRUE(channel.wait(Side::receive, 0b01)) << "so the receiver waits";
-  ASSERT_NE(channel.fire(Side::send, 0, 0), 0u);
+  ASSERT_NE(channel.fire(Side::send, empty, 0), 0u);
   EXPECT_EQ(waker.woken[1], 0) << "what it waits for has gone";
 }
 
 TEST_F(Buffered, WithdrawalReleasesWhoYielded) {
-  ASSERT_NE(channel.fire(Side::receive, 0, 0), 0u);
+  ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
-  ASSERT_NE(channel.fire(Side::receive, SharedChannel::no_need, empty), 0u);
+  ASSERT_TRUE(channel.wait(Side::send, 0b01));
+  ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);
   ASSERT_TRUE(channel.wait(Side::receive, 0b01));
   ASSERT_TRUE(channel.wait(Side::send, 0));
   EXPECT_EQ(waker.woken[1], 1);
-  EXPECT_NE(channel.fire(Side::receive, 0, empty), 0u);
+  EXPECT_NE(channel.fire(Side::receive, empty, empty), 0u);
 }
 
 TEST(SharedChannel, ANeedMetInPartHoldsNobodyBack) {
@@ -92,9 +108,10 @@ TEST(SharedChannel, ANeedMetInPartHoldsNobodyBack) {
   channel.connect(Side::send, &waker, 0, {lock | free});
   channel.connect(Side::receive, &waker, 1, {lock | item});
   ASSERT_TRUE(channel.wait(Side::receive, 1));
-  ASSERT_NE(channel.fire(Side::send, 0, lock | free),
+  ASSERT_TRUE(channel.wait(Side::receive, 1));
+  ASSERT_NE(channel.fire(Side::send, lock | free, lock | free),
             0u);  // took and gave back: the receiver still lacks an item
-  EXPECT_NE(channel.fire(Side::send, 0, lock | item), 0u);
+  EXPECT_NE(channel.fire(Side::send, lock | free, lock | item), 0u);
   EXPECT_EQ(waker.woken[1], 1);
 }
 
@@ -113,11 +130,11 @@ TEST(SharedChannel, TwoThreadsNeverHoldTheMemoryAtOnceAndNobodyStarves) {
     for (int round = 0; round < rounds; ++round) {
       for (;;) {
         const std::uint32_t ticket = word.ticket();
-        if (channel.fire(side, 0, 0) != 0) break;
+        if (channel.fire(side, 1, 0) != 0) break;
         if (channel.wait(side, 1)) word.sleep(ticket, -1);
       }
       ++guarded;
-      ASSERT_NE(channel.fire(side, SharedChannel::no_need, 1), 0u);
+      ASSERT_NE(channel.fire(side, 0, 1), 0u);
     }
   };
   std::thread other(work, Side::receive);

@@ -191,7 +191,8 @@ TEST(Goals, EqualAgentsAreExploredOnce) {
 
 TEST(Goals, WhatEachAgentCanReachAllCanReachAtOnce) {
   const Goal at_once{Formula::all(each(60, 1))};
-  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {at_once}, Kind::no, {true}, {})[0].kind, Kind::yes);
+  EXPECT_EQ(ask(walkers(60, true), Ask::always_reachable, {at_once}, Kind::no, {true}, {})[0].kind,
+            Kind::yes);
   const net::Net once = walkers(60, false);
   const Found found = ask(once, Ask::reachable, {at_once}, Kind::no, {true}, {})[0];
   EXPECT_EQ(found.kind, Kind::yes);

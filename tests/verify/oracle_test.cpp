@@ -129,13 +129,13 @@ class Comparison {
   Tally& tally_;
 };
 
-TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 150);
+/// Every method by itself and all together, on as many systems as are small enough for the search.
+Tally compared(spec::Model (*system)(std::uint64_t seed), std::uint64_t systems) {
   std::uint64_t seed = from_environment("TESSERA_RANDOM_SEED", 0);
-  Tally tally;
+  Tally tally, of_methods;
   for (std::uint64_t compared = 0; compared < systems; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const spec::Model model = test::random_system(seed);
+    const spec::Model model = system(seed);
     const test::Built built = test::build(model);
     const net::Net abstract = abstract_net(built.net);
     const auto naive = test::explore_naively(abstract, 1500);
@@ -143,17 +143,30 @@ TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
     ++compared;
     const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
     const bool live = every_behaviour_runs(abstract);
-    Comparison comparison(built, invariants, tally);
-    comparison.with("", abstract, *naive, live);
-    comparison.with("explicit", abstract, *naive, live);
-    if (HasFailure()) return;
+    Comparison(built, invariants, tally).with("", abstract, *naive, live);
+    for (const std::string& method : method_names())
+      Comparison(built, invariants, of_methods).with(method, abstract, *naive, live);
+    if (testing::Test::HasFailure()) break;
   }
+  return tally;
+}
+
+void expect_both_verdicts(Tally tally) {
   for (const char* name : {"deadlock_free", "goes_on", "channels_flow"}) {
     const auto& [holds, violated, unknown] = tally.verdicts[name];
     EXPECT_GT(holds, 0) << name;
     EXPECT_GT(violated, 0) << name;
     EXPECT_EQ(unknown, 0) << name;
   }
+}
+
+TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
+  expect_both_verdicts(compared(test::random_system, from_environment("TESSERA_RANDOM_SYSTEMS", 150)));
+}
+
+TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystemsOfOwnModels) {
+  expect_both_verdicts(
+      compared(test::random_system_of_own_models, from_environment("TESSERA_RANDOM_SYSTEMS", 100)));
 }
 
 }  // namespace

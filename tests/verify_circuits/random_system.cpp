@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <random>
 
+#include "spec/parser.hpp"
+
 namespace tessera::test {
 
 spec::Subsystem& SystemBuilder::at(spec::Index instance) {
@@ -47,6 +49,16 @@ spec::Index SystemBuilder::channel(spec::Index from, spec::Index to, Ends ends) 
   return number;
 }
 
+void SystemBuilder::add_models(const std::vector<spec::CommunicationModel>& models) {
+  model_.models.insert(model_.models.end(), models.begin(), models.end());
+}
+
+void SystemBuilder::be_of_model(spec::Index channel, spec::Index model) {
+  model_.channels[channel].model = model;
+  model_.channels[channel].send_timeout.reset();
+  model_.channels[channel].receive_timeout.reset();
+}
+
 spec::Index SystemBuilder::behaviour(spec::Index instance, const std::vector<spec::Index>& sends,
                                      const std::vector<spec::Index>& receives, spec::Transfer transfer) {
   auto& behaviours = at(instance).behaviours;
@@ -88,9 +100,67 @@ void SystemBuilder::may_fail(spec::Index instance, spec::Index behaviour) {
 
 namespace {
 
+/// Both sides wait; only the sender does; a queue of two.
+const std::vector<spec::CommunicationModel>& own_models() {
+  static const std::vector<spec::CommunicationModel> models = [] {
+    diagnostics::Diagnostics file("models.yaml", R"(
+tessera: 1
+system: s
+models:
+  hand_over:
+    shared: { free: 1, there: 0 }
+    send:
+      places: { in, work: { write: 1 }, out }
+      transitions: { t1: { from: [in, free], to: work }, t2: { from: work, to: [out, there] } }
+    receive:
+      places: { in, work: { read: 1 }, out }
+      transitions: { t1: { from: [in, there], to: work }, t2: { from: work, to: [out, free] } }
+  mailbox:
+    shared: { free: 1, there: 0 }
+    send:
+      places: { in, work: { write: 1 }, out }
+      transitions: { t1: { from: [in, free], to: work }, t2: { from: work, to: [out, there] } }
+    receive:
+      places: { in, work: { read: 1 }, out }
+      transitions:
+        t1: { from: [in, there], to: work }
+        t2: { from: work, to: [out, free] }
+        pass: { from: [in, free], to: [out, free] }
+  queue:
+    slots: 2
+    shared: { empty_1: 1, full_1: 0, empty_2: 1, full_2: 0, put_1: 1, put_2: 0, get_1: 1, get_2: 0 }
+    send:
+      places: { in, first: { write: 1 }, second: { write: 2 }, out }
+      transitions:
+        b1: { from: [in, put_1, empty_1], to: first }
+        e1: { from: first, to: [out, full_1, put_2] }
+        b2: { from: [in, put_2, empty_2], to: second }
+        e2: { from: second, to: [out, full_2, put_1] }
+    receive:
+      places: { in, first: { read: 1 }, second: { read: 2 }, out }
+      transitions:
+        b1: { from: [in, get_1, full_1], to: first }
+        e1: { from: first, to: [out, empty_1, get_2] }
+        b2: { from: [in, get_2, full_2], to: second }
+        e2: { from: second, to: [out, empty_2, get_1] }
+agents:
+  a: { control: { rate: 1 Hz, behaviours: { b: {} } } }
+)");
+    return spec::parse(file).value().models;
+  }();
+  return models;
+}
+
+struct Traits {
+  bool differing = false, own_models = false;
+};
+
 class RandomSystem {
  public:
-  RandomSystem(std::uint64_t seed, bool differing) : random_(seed), differing_(differing) {}
+  RandomSystem(std::uint64_t seed, Traits traits)
+      : random_(seed), differing_(traits.differing), own_models_(traits.own_models) {
+    if (own_models_) builder_.add_models(own_models());
+  }
 
   spec::Model result() {
     subsystems_ = between(2, 4);
@@ -116,6 +186,8 @@ class RandomSystem {
     if (to == from && !chance(8)) to = (from + 1) % subsystems_;
     const SystemBuilder::Ends ends{!chance(strict_), !chance(strict_), chance(4), chance(4)};
     const spec::Index channel = builder_.channel(from, to, ends);
+    if (own_models_ && chance(2))
+      builder_.be_of_model(channel, between(0, static_cast<spec::Index>(own_models().size() - 1)));
     sends_[from].push_back(channel);
     receives_[to].push_back(channel);
     waits_to_be_sent_.push_back(ends.send_blocks);
@@ -163,7 +235,7 @@ class RandomSystem {
   }
 
   std::mt19937_64 random_;
-  bool differing_;
+  bool differing_, own_models_;
   SystemBuilder builder_;
   spec::Index subsystems_ = 0, strict_ = 3;
   std::vector<std::vector<spec::Index>> sends_, receives_;  // per subsystem
@@ -172,7 +244,12 @@ class RandomSystem {
 
 }  // namespace
 
-spec::Model random_system(std::uint64_t seed) { return RandomSystem(seed, false).result(); }
-spec::Model random_differing_system(std::uint64_t seed) { return RandomSystem(seed, true).result(); }
+spec::Model random_system(std::uint64_t seed) { return RandomSystem(seed, {}).result(); }
+spec::Model random_differing_system(std::uint64_t seed) {
+  return RandomSystem(seed, {.differing = true}).result();
+}
+spec::Model random_system_of_own_models(std::uint64_t seed) {
+  return RandomSystem(seed, {.own_models = true}).result();
+}
 
 }  // namespace tessera::test

@@ -13,6 +13,8 @@ namespace tessera::test {
 [[nodiscard]] spec::Model random_system(std::uint64_t seed);
 /// The same, but most subsystems have behaviours that use different channels.
 [[nodiscard]] spec::Model random_differing_system(std::uint64_t seed);
+/// The same as random_system, but half of the channels are of a communication model of the author's.
+[[nodiscard]] spec::Model random_system_of_own_models(std::uint64_t seed);
 
 /// For systems built by hand.
 class SystemBuilder {
@@ -25,6 +27,9 @@ class SystemBuilder {
   spec::Index subsystem(bool own_agent = true);
   /// Returns the index of the channel.
   spec::Index channel(spec::Index from, spec::Index to, Ends ends);
+  /// Models that channels may be of.
+  void add_models(const std::vector<spec::CommunicationModel>& models);
+  void be_of_model(spec::Index channel, spec::Index model);
   /// A behaviour that sends and receives on the given channels, in this order. Returns its index.
   spec::Index behaviour(spec::Index instance, const std::vector<spec::Index>& sends,
                         const std::vector<spec::Index>& receives,

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <time.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tessera/controller.hpp"
+#include "tessera/tables.hpp"
+
+/// Systems to be measured: nets of single subsystems, and subsystems as generated code would make them, whose
+/// transition functions do what a benchmark asks for and nothing else.
+namespace tessera::benchmarks {
+
+namespace nets {
+extern const SubsystemNet sender, receiver;  ///< NB -> NB over "x"
+extern const SubsystemNet relay;             ///< NB -> NB, sends "out" and receives "in": 8 firings an iteration
+extern const SubsystemNet alone;             ///< no channel: 6 firings an iteration
+extern const SubsystemNet asker;             ///< B: sends "out", then receives "in"
+extern const SubsystemNet answerer;          ///< B: receives "in" in one behaviour, sends "out" in the next
+}  // namespace nets
+
+/// 64 bytes, as a pose with its covariance would have.
+struct Payload {
+  double values[8];
+};
+
+/// What the transition function of an instance is: called with its number and its context.
+using Call = std::function<void(std::uint32_t, Context&)>;
+
+/// A system of as many subsystems as asked for. One at a time: instances find theirs by order of making.
+class Robot {
+ public:
+  explicit Robot(Call call);
+  Robot(const Robot&) = delete;
+  Robot& operator=(const Robot&) = delete;
+  ~Robot();
+  std::uint32_t add(const SubsystemNet& net, Duration period = Duration{0});
+  void connect(std::uint32_t from, std::string_view out, std::uint32_t to, std::string_view in,
+               std::span<const FusedPlace> places);
+  /// Under the steady clock; aborts with a message when it cannot start or fails.
+  RunSummary run(RunOptions options = {});
+
+ private:
+  std::vector<std::unique_ptr<std::string>> names_;
+  std::vector<Instance> instances_;
+  std::vector<Channel> channels_;
+};
+
+[[nodiscard]] inline std::int64_t ns_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+[[nodiscard]] inline std::int64_t wall_ns() { return ns_of(CLOCK_MONOTONIC); }
+[[nodiscard]] inline std::int64_t thread_cpu_ns() { return ns_of(CLOCK_THREAD_CPUTIME_ID); }
+[[nodiscard]] inline std::int64_t process_cpu_ns() { return ns_of(CLOCK_PROCESS_CPUTIME_ID); }
+
+/// The middle one; of an even number, the lower.
+[[nodiscard]] double median(std::vector<double> values);
+
+}  // namespace tessera::benchmarks

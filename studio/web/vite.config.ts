@@ -8,5 +8,6 @@ export default defineConfig({
   worker: { format: "es" },
   build: { target: "es2022", chunkSizeWarningLimit: 1800 },
   server: { host: "127.0.0.1", proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" } },
-  test: { include: ["tests/model/**/*.test.ts"] },
+  // ELK takes seconds where many builds run at once.
+  test: { include: ["tests/model/**/*.test.ts"], testTimeout: 60_000 },
 });

@@ -9,11 +9,13 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
   const selected = useStore(studio.view, (view) => view.selected);
   const chain = net.ancestry(page);
   const foldable = selected !== null && net.pageByPath.has(selected) && selected !== "";
-  const foldAll = (folded: boolean) =>
+  const foldAll = (folded: boolean) => {
     studio.foldMany(
       net.children(page).map((child) => net.page(child).path),
       folded,
     );
+    studio.fly(net.page(page).path);
+  };
   return (
     <nav className="breadcrumbs" aria-label="Layers">
       <ol>
@@ -41,12 +43,16 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
           Fold {selected.split(".").at(-1)}
         </button>
       )}
-      <button className="quiet" onClick={() => foldAll(true)} title="Draw the pages of this net as double circles">
-        Fold all
-      </button>
-      <button className="quiet" onClick={() => foldAll(false)} title="Show the nets of the pages of this net">
-        Unfold all
-      </button>
+      {net.children(page).length > 0 && (
+        <>
+          <button className="quiet" onClick={() => foldAll(true)} title="Draw the pages of this net as double circles">
+            Fold all
+          </button>
+          <button className="quiet" onClick={() => foldAll(false)} title="Show the nets of the pages of this net">
+            Unfold all
+          </button>
+        </>
+      )}
       <ExportButtons name={net.page(page).path} />
     </nav>
   );

@@ -5,12 +5,19 @@ const mode = (blocking: Channel["send"]) => (blocking === "blocking" ? "B" : "N"
 
 /** A channel: solid where both ends wait, dashed where neither does; its label names the modes of both ends. */
 export function ChannelEdge(props: EdgeProps) {
-  const { channel, selected, complaint } = props.data as unknown as {
+  const { channel, selected, complaint, lane } = props.data as unknown as {
     channel: Channel;
     selected: boolean;
     complaint?: "error" | "warning";
+    /** Height at which it runs when it leads back. */
+    lane?: number;
   };
-  const [path, x, y] = getSmoothStepPath({ ...props, borderRadius: 8 });
+  const back = props.targetX < props.sourceX + 40;
+  const [path, x, y] = getSmoothStepPath({
+    ...props,
+    borderRadius: 8,
+    ...(back && lane !== undefined ? { centerY: lane, offset: 22 } : {}),
+  });
   const blocking = channel.send === "blocking" || channel.receive === "blocking";
   const written = channel.model || `${mode(channel.send)} → ${mode(channel.receive)}`;
   const spoken = `${written}${channel.timeout ? ` ${channel.timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;

@@ -15,11 +15,12 @@ import { flagsOf } from "../model/flags";
 import { spoken } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { neighbour, type Direction } from "../model/neighbour";
-import { boxWithin, Sheets, type Placed } from "../model/sheets";
+import { Sheets, type Placed } from "../model/sheets";
 import type { Box } from "../model/geometry";
 import { Breadcrumbs } from "./breadcrumbs";
 import { elk } from "./elk";
 import { SheetNodeView, type SheetNode } from "./sheet_node";
+import { useSteadyView } from "./steady_view";
 import { ArrowTips } from "./symbols";
 
 const nodeTypes = { sheet: SheetNodeView };
@@ -102,7 +103,9 @@ function Drawing({ net }: { net: NetModel }) {
   );
   const nodes = useNodes(net, sheets, visible, zoom, selected, flags);
   const current = currentPage(visible, { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom });
-  useFirstView(net, sheets, version, width);
+  useFirstView(sheets, version, width);
+  const root = sheets.placed(0)?.sheet;
+  useSteadyView(useMemo(() => root && { x: 0, y: 0, width: root.width, height: root.height }, [root]));
 
   const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
   const click = (event: MouseEvent) => {
@@ -178,7 +181,7 @@ function useNodes(
       const open = children.filter((child) => shown.has(child)).join();
       const folded = children.filter((child) => sheets.folded(child)).join();
       const mine = selected !== null && isOn(net, placed.page, selected) ? selected : null;
-      const near = Math.min(5, Math.max(-1, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
+      const near = Math.min(5, Math.max(-2, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
       const data = { net, placed, open, folded, near, selected: mine, flags };
       const old = before.current.get(placed.page);
       next.set(placed.page, old && alike(old, data) ? old : sheetNode(data));
@@ -238,20 +241,15 @@ function currentPage(visible: Placed[], window: Box): number {
 }
 
 /** Shows the whole drawing once, when it is there. */
-function useFirstView(net: NetModel, sheets: Sheets, version: number, width: number): void {
+function useFirstView(sheets: Sheets, version: number, width: number): void {
   const flow = useReactFlow();
   const done = useRef(false);
   useEffect(() => {
     const root = sheets.placed(0);
     if (done.current || !root || width === 0) return;
     done.current = true;
-    const agents = net.children(0);
-    // One agent alone: its inside is what one wants to see.
-    const only =
-      agents.length === 1 ? root.sheet.nodes[net.page(0).nodes.findIndex((node) => node.page === agents[0])] : undefined;
-    const box = only ? boxWithin(root, only) : { x: 0, y: 0, width: root.sheet.width, height: root.sheet.height };
-    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
-  }, [net, sheets, version, width, flow]);
+    void flow.fitBounds({ x: 0, y: 0, width: root.sheet.width, height: root.sheet.height }, { duration: 0, padding: 0.03 });
+  }, [sheets, version, width, flow]);
 }
 
 interface KeyContext {

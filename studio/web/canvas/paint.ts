@@ -24,7 +24,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     group.classList.toggle("enabled", mode === "game" && isActive(net, marking, index));
     group.classList.toggle("fired", playing && now - firedAt[index]! < 350);
     const text = group.lastElementChild!;
-    const count = playing && counts[index]! > 0 ? short(counts[index]!) : "";
+    const count = playing && counts[index]! > 0 ? `×${short(counts[index]!)}` : "";
     if (text.textContent !== count) text.textContent = count;
   });
   root.querySelectorAll<SVGGElement>("[data-page]").forEach((group) => {

@@ -33,6 +33,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
     return studio.stage.subscribe(now);
   }, [net, studio, sheet, open, folded, selected]);
   const parts = { net, page, direction: sheet.direction };
+  const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);
   const drawn = net.page(page);
   return (
     <svg
@@ -53,6 +54,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
           <PageSymbol
             key={index}
             {...parts}
+            direction={labelled(closed.has(node.page))}
             index={index}
             box={box}
             selected={selected === path}

@@ -12,10 +12,12 @@ import { useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../app/use";
 import { useComplaints, useStructure } from "../app/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
+import type { Box } from "../model/geometry";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";
-import { layoutStructure } from "../model/structure_layout";
+import { lanes, layoutStructure } from "../model/structure_layout";
 import { ChannelEdge, ChannelTip } from "./channel_edge";
 import { ExportButtons } from "./export_button";
+import { useSteadyView } from "./steady_view";
 import { AgentNode, DeviceNode, SubsystemNode } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
@@ -67,8 +69,16 @@ function nodesOf(structure: Structure, selected: string | null, complaints: Comp
   return nodes;
 }
 
+function boxAround(nodes: Node[]): Box | undefined {
+  if (nodes.length === 0) return undefined;
+  const right = Math.max(...nodes.map((one) => one.position.x + (one.width ?? 0)));
+  const bottom = Math.max(...nodes.map((one) => one.position.y + (one.height ?? 0)));
+  return { x: 0, y: 0, width: right, height: bottom };
+}
+
 function edgesOf(structure: Structure, selected: string | null, complaints: Complaints): Edge[] {
   const edges: Edge[] = [];
+  const heights = lanes(structure, layoutStructure(structure));
   for (const channel of structure.channels) {
     const ends = [channel.from, channel.to].map((end) => findThing(structure, end));
     if (ends.some((end) => end?.kind !== "buffer")) continue;
@@ -81,7 +91,12 @@ function edgesOf(structure: Structure, selected: string | null, complaints: Comp
       sourceHandle: from,
       target: to.slice(0, to.lastIndexOf(".")),
       targetHandle: to,
-      data: { channel, selected: selected === id, complaint: complaints.get(id)?.severity },
+      data: {
+        channel,
+        selected: selected === id,
+        complaint: complaints.get(id)?.severity,
+        lane: heights.get(channel.index),
+      },
       focusable: false,
       zIndex: 3,
     });
@@ -120,6 +135,7 @@ function Drawing() {
   const complaints = useComplaints(structure);
   const selected = useStore(studio.view, (view) => view.selected);
   const nodes = useMemo(() => nodesOf(structure, selected, complaints), [structure, selected, complaints]);
+  useSteadyView(useMemo(() => boxAround(nodes), [nodes]));
   const edges = useMemo(() => edgesOf(structure, selected, complaints), [structure, selected, complaints]);
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {

@@ -167,14 +167,20 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
           >
             {pageName(page)}
           </text>
-          <text className="label layer" x={box.x + box.width / 2} y={box.y + box.height / 2 + size / 3 + 18} textAnchor="middle">
+          <text
+            className="label layer"
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3 + size * 0.75}
+            textAnchor="middle"
+            style={{ fontSize: size * 0.52 }}
+          >
             {page.layer}
           </text>
           <text
             className="label running"
             data-running={child}
             x={box.x + box.width / 2}
-            y={box.y + box.height / 2 + size / 3 + 20 + size * 0.6}
+            y={box.y + box.height / 2 + size / 3 + size * 1.75}
             textAnchor="middle"
             style={{ fontSize: size * 0.75 }}
           />

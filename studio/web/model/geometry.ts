@@ -25,6 +25,8 @@ export interface Sheet {
   routes: Route[];
   /** Whether the net runs down (labels to the right) or right (labels below). */
   direction: "down" | "right";
+  /** Whether its pages stand in a grid, with lanes of arcs beside the columns. */
+  grid?: boolean;
 }
 
 export const place = 24;
@@ -66,3 +68,10 @@ function towards(from: Point, to: Point, distance: number): Point {
 
 export const intersects = (a: Box, b: Box) =>
   a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+
+/** What two boxes have in common. */
+export function overlap(a: Box, b: Box): Box | undefined {
+  if (!intersects(a, b)) return undefined;
+  const [x, y] = [Math.max(a.x, b.x), Math.max(a.y, b.y)];
+  return { x, y, width: Math.min(a.x + a.width, b.x + b.width) - x, height: Math.min(a.y + a.height, b.y + b.height) - y };
+}

@@ -53,3 +53,10 @@ export function spoken(net: NetModel, path: string): string {
   const operation = operationText(net.page(element.page), net.page(element.page).nodes[element.index]!.operation);
   return `place ${path}${operation ? `, ${operation}` : ""}`;
 }
+
+/** The same text, which breaks between the parts of its paths; an arrow is one sign. */
+export const breakable = (text: string) => text.replaceAll("->", " → ").replace(/\.(?=\w)/g, ".\u200b");
+
+/** A sentence as a server says it: begins with a capital unless with a path. */
+export const sentence = (text: string) =>
+  breakable(/^[\w[\]]+\./.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));

@@ -84,10 +84,13 @@ interface Grid {
 function gridOf(sizes: { width: number; height: number }[], labels: number): Grid {
   const width = Math.max(...sizes.map((size) => size.width), 60);
   const height = Math.max(...sizes.map((size) => size.height), 40);
-  const gapX = Math.max(48, labels - width + 24);
-  const cell = { width: width + gapX, height: height + 60 };
-  if (sizes.length <= 4) return { columns: Math.max(1, sizes.length), cell };
-  return { columns: Math.ceil(Math.sqrt((sizes.length * cell.height * 1.6) / cell.width)), cell };
+  // In one row the name stands beside the symbol, in a grid below it.
+  if (sizes.length <= 4) {
+    const cell = { width: width + Math.max(48, 2 * labels - width + 24), height: height + 60 };
+    return { columns: Math.max(1, sizes.length), cell };
+  }
+  const cell = { width: Math.max(width, 1.4 * labels) + 48, height: height + 60 };
+  return { columns: Math.ceil(Math.sqrt((sizes.length * cell.height * 1.25) / cell.width)), cell };
 }
 
 /** System and agent: a wide bar forks into all pages and a wide bar joins them; many pages stand in a grid. */
@@ -122,13 +125,15 @@ function fan(net: NetModel, page: Page, folded: Folded): Sheet {
     transitions,
     routes: [],
     direction: "down",
+    grid: rows > 1,
   };
-  sheet.routes = page.transitions.flatMap((transition, at) => fanRoutes(sheet, transition, at, rows > 1));
+  const lane = cell.width / 2 - 12;
+  sheet.routes = page.transitions.flatMap((transition, at) => fanRoutes(sheet, transition, at, lane));
   return sheet;
 }
 
-/** Straight drops in one row; in a grid a lane beside each column. */
-function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: number, grid: boolean): Route[] {
+/** Straight drops in one row; in a grid a lane beside each column, `lane` from its middle. Folded pages are met at their sides. */
+function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: number, lane: number): Route[] {
   const rod = sheet.transitions[at]!;
   const route = (node: number, into: "node" | "transition"): Route => {
     const box = sheet.nodes[node]!;
@@ -136,10 +141,16 @@ function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: nu
     const middle = { x: box.x + box.width / 2, y: above ? box.y + box.height : box.y };
     const end = { x: middle.x, y: above ? rod.y : rod.y + rod.height };
     const points = [middle, end];
-    if (grid && box.width !== place) {
-      const lane = middle.x + (above ? 1 : -1) * (box.width / 2 + 12);
-      const turn = middle.y + (above ? 10 : -10);
-      points.splice(1, 1, { x: middle.x, y: turn }, { x: lane, y: turn }, { x: lane, y: end.y });
+    if (sheet.grid && box.width !== place) {
+      const side = above ? 1 : -1;
+      const x = middle.x + side * lane;
+      if (box.width === foldedPage) {
+        const y = box.y + box.height / 2;
+        points.splice(0, 2, { x: middle.x + (side * box.width) / 2, y }, { x, y }, { x, y: end.y });
+      } else {
+        const turn = middle.y + side * 10;
+        points.splice(1, 1, { x: middle.x, y: turn }, { x, y: turn }, { x, y: end.y });
+      }
     }
     return { transition: at, node, into, points: into === "node" ? points.reverse() : points };
   };

@@ -1,4 +1,4 @@
-import type { Agent, Structure, Subsystem } from "./structure";
+import { withoutIndex, type Agent, type Structure, type Subsystem } from "./structure";
 
 /** Where the structure view puts things: receptors left, control in the middle, effectors right, agents below each other. */
 
@@ -47,9 +47,38 @@ export function layoutStructure(structure: Structure): AgentBox[] {
   let y = 0;
   return structure.agents.map((agent) => {
     const box = layoutAgent(agent, y);
+    const lanes = structure.channels.filter((one) => isBack(agent, one)).length;
+    if (lanes > 0) box.height += 4 + lanes * lane;
     y += box.height + 60;
     return box;
   });
+}
+
+/** Channels that lead back, to the left, go below the boxes, each in a lane of its own. */
+const lane = 22;
+const columnOf = { receptor: 0, control: 1, effector: 2 };
+const owner = (path: string) => withoutIndex(path).split(".").slice(0, 2).join(".");
+
+function isBack(agent: Agent, channel: { from: string; to: string }): boolean {
+  const [from, to] = [channel.from, channel.to].map((end) => agent.subsystems.find((one) => one.path === owner(end)));
+  return from !== undefined && to !== undefined && columnOf[from.kind] >= columnOf[to.kind];
+}
+
+/** Heights at which channels that cannot go straight to the right run to the left, by the channel's index. */
+export function lanes(structure: Structure, boxes: readonly AgentBox[]): Map<number, number> {
+  const heights = new Map<number, number>();
+  const taken = new Map<string, number>();
+  const next = (key: string) => (taken.set(key, (taken.get(key) ?? -1) + 1), taken.get(key)!);
+  const agentOf = (path: string) => structure.agents.findIndex((agent) => path.startsWith(`${agent.name}.`));
+  for (const channel of structure.channels) {
+    const [from, to] = [agentOf(withoutIndex(channel.from)), agentOf(withoutIndex(channel.to))];
+    if (from < 0 || to < 0) continue;
+    const [upper, lower] = [boxes[Math.min(from, to)]!, boxes[Math.max(from, to)]!];
+    if (from !== to) heights.set(channel.index, lower.y - 14 - (next(`${lower.path}^`) % 3) * 16);
+    else if (isBack(structure.agents[from]!, channel))
+      heights.set(channel.index, upper.y + upper.height - 18 - next(upper.path) * lane);
+  }
+  return heights;
 }
 
 function layoutAgent(agent: Agent, top: number): AgentBox {
@@ -59,10 +88,12 @@ function layoutAgent(agent: Agent, top: number): AgentBox {
   const columnHeight = (column: Subsystem[]) => column.reduce((sum, one) => sum + withDevice(one) + gap.y, -gap.y);
   const tallest = Math.max(60, ...columns.map(columnHeight));
   const box: AgentBox = { path: agent.name, x: 0, y: top, width: 0, height: tallest + 66, subsystems: [], devices: [] };
+  // One box a column: their tops stand in line, and so do the first channels.
+  const inOneRow = columns.every((column) => column.length === 1);
   let x = 24;
   for (const column of columns) {
     const wide = width[column[0]!.kind];
-    let y = top + 44 + (tallest - columnHeight(column)) / 2;
+    let y = top + 44 + (inOneRow ? 0 : (tallest - columnHeight(column)) / 2);
     for (const one of column) {
       const height = heightOf(one);
       box.subsystems.push({ path: one.path, x, y, width: wide, height });

@@ -1,5 +1,6 @@
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../app/use";
+import { breakable } from "../model/labels";
 import type { NetModel } from "../model/net";
 
 /** The token game, and the steps of a run that shows a violation. */
@@ -29,13 +30,13 @@ export function PlayPanel() {
         <div className="waits">
           <h3>Who waits for whom</h3>
           {play.waits.map((wait) => (
-            <p key={wait}>{wait}</p>
+            <p key={wait}>{breakable(wait)}</p>
           ))}
         </div>
       )}
       {play.what === "game" && <Choices net={shown} />}
       <Channels net={shown} />
-      <h3>{play.what === "game" ? "Fired so far" : "The run"}</h3>
+      {play.length > 0 && <h3>{play.what === "game" ? "Fired so far" : "The run"}</h3>}
       <Steps net={shown} />
     </>
   );
@@ -111,7 +112,7 @@ function Channels({ net }: { net: NetModel }) {
           const cut = name.lastIndexOf(".");
           return (
             <li key={name} className="path">
-              {name.slice(0, cut)} <strong>{name.slice(cut + 1)}</strong>
+              {breakable(name.slice(0, cut))} <strong>{name.slice(cut + 1)}</strong>
             </li>
           );
         })}

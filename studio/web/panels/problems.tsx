@@ -24,7 +24,7 @@ export function Problems() {
           data-testid="problem-count"
         >
           <span className={`dot ${errors ? "error" : warnings ? "warning" : "good"}`} />
-          {errors === 0 && warnings === 0 ? "No problems" : `${count(errors, "error")}, ${count(warnings, "warning")}`}
+          {[count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "No problems"}
         </button>
         <span className="faint">{checking ? "checking…" : ""}</span>
         <span className="spring" />
@@ -57,4 +57,4 @@ export function Problems() {
   );
 }
 
-const count = (number: number, what: string) => `${number} ${what}${number === 1 ? "" : "s"}`;
+const count = (number: number, what: string) => (number === 0 ? "" : `${number} ${what}${number === 1 ? "" : "s"}`);

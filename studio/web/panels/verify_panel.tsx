@@ -1,6 +1,7 @@
 import { useStore, useStudio } from "../app/use";
 import type { Verdict } from "../live/protocol";
 import { stepsOf } from "../live/verifier";
+import { sentence } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { Icon } from "./icons";
 
@@ -88,15 +89,16 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
         <span className="name">{verdict.name.replaceAll("_", " ")}</span>
         <span className="method">{verdict.verdict}</span>
       </summary>
-      <p>{verdict.asks || asks[verdict.name]}</p>
-      {verdict.why && <p>{verdict.why}</p>}
+      <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
+      {verdict.why && <p>{sentence(verdict.why)}</p>}
       {(verdict.waits ?? []).map((wait) => (
-        <p key={wait}>{wait}</p>
+        <p key={wait}>{sentence(wait)}</p>
       ))}
       <p>
         By {verdict.method || "nothing yet"}
-        {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}. {verdict.meaning}
+        {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
       </p>
+      {verdict.meaning && <p>{sentence(verdict.meaning)}</p>}
       {steps && (
         <div className="buttons">
           <button onClick={show}>Show the run ({steps.length} firings)</button>

@@ -109,7 +109,7 @@ test("a broken file says where, keeps its drawing, and is repaired", () =>
     await editor.focus();
     await page.keyboard.press("End");
     await page.keyboard.type(" ]");
-    await page.getByText(/\d+ errors?, /).waitFor();
+    await page.getByTestId("problem-count").getByText(/\d+ error/).waitFor();
     await page.getByText("this is the drawing of the last version without").waitFor();
     assert.ok((await page.locator(".sheet").count()) > 0);
     assert.ok((await page.locator(".problem-list .problem").count()) > 0);

@@ -1,12 +1,46 @@
 import { describe, expect, it } from "vitest";
-import { intersects, type Sheet } from "../../model/geometry";
+import { foldedPage, intersects, type Point, type Sheet } from "../../model/geometry";
 import { layoutPage } from "../../model/layout";
-import type { NetModel } from "../../model/net";
+import { NetModel, type NetJson, type Page } from "../../model/net";
 import { boxWithin, Sheets } from "../../model/sheets";
 import { elk, lineFollower } from "./line_follower";
 
 const net = lineFollower();
 const nothingFolded = () => false;
+
+/** A system of agents without insides. */
+function manyAgents(count: number): NetJson {
+  const span = { line: 0, column: 0, length: 1 };
+  const node = (name: string, page: number | null) => ({ name, page, fusion: null, tokens: 0, operation: null });
+  const page = (path: string, parent: number | null, inside: string[]): Page => ({
+    path,
+    name: path,
+    layer: parent === null ? "system" : "agent",
+    parent,
+    subsystem: null,
+    input: 0,
+    output: inside.length + 1,
+    span,
+    nodes: [node("in", null), ...inside.map((name, at) => node(name, at + 1)), node("out", null)],
+    transitions: [
+      { name: "t_in", inputs: [0], outputs: inside.map((_, at) => at + 1), condition: null, span },
+      { name: "t_out", inputs: inside.map((_, at) => at + 1), outputs: [inside.length + 1], condition: null, span },
+    ],
+  });
+  const names = Array.from({ length: count }, (_, at) => `robot[${at}]`);
+  return {
+    pages: [page("", null, names), ...names.map((name) => page(name, 0, []))],
+    fusions: [],
+    flat: { places: [], transitions: [] },
+  };
+}
+
+const around = (a: Point, b: Point) => ({
+  x: Math.min(a.x, b.x) - 0.5,
+  y: Math.min(a.y, b.y) - 0.5,
+  width: Math.abs(a.x - b.x) + 1,
+  height: Math.abs(a.y - b.y) + 1,
+});
 
 async function complete(sheets: Sheets, of: NetModel): Promise<void> {
   for (let page = 0; page < of.pages.length; page += 1) while (!sheets.get(page)) await new Promise((done) => setImmediate(done));
@@ -21,6 +55,16 @@ describe("layoutPage", () => {
       const arcs = net.page(page).transitions.reduce((sum, t) => sum + t.inputs.length + t.outputs.length, 0);
       expect(sheet.routes.length).toBe(arcs);
       for (const route of sheet.routes) endsTouch(sheet, route);
+    }
+  });
+  it("leaves the names of many folded pages clear of arcs", async () => {
+    const fleet = new NetModel(manyAgents(30));
+    const sheet = await layoutPage(fleet, 0, () => true, elk);
+    expect(sheet.grid).toBe(true);
+    for (const box of sheet.nodes.filter((one) => one.width === foldedPage)) {
+      const below = { x: box.x - 10, y: box.y + box.height + 1, width: box.width + 20, height: 16 };
+      for (const { points } of sheet.routes)
+        points.slice(1).forEach((end, at) => expect(intersects(around(points[at]!, end), below)).toBe(false));
     }
   });
   it("is the same for equal pages, which are laid out once", async () => {

@@ -3,7 +3,7 @@ import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
-import { chipLines, layoutStructure } from "../../model/structure_layout";
+import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
 import { readStructure } from "../../model/structure";
 import { Timeline } from "../../model/timeline";
 import { intersects } from "../../model/geometry";
@@ -129,5 +129,19 @@ describe("layoutStructure", () => {
     const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;
     expect(chipLines(control("one: {}"))).toBe(1);
     expect(chipLines(control("a_rather_long_name: {}, another_long_name: {}, one: {}"))).toBeGreaterThan(1);
+  });
+  it("leads channels that go back below the boxes of their agent, each in its own lane", () => {
+    const back = readStructure(
+      text("one: {}") +
+        "channels:\n  - a.e.m -> a.control.i\n  - { from: a.control.o, to: a.control.i }\n  - { from: a.control.o, to: a.s.x }\n",
+    );
+    const agents = layoutStructure(back);
+    const heights = [...lanes(back, agents).values()];
+    const lowest = Math.max(...[...agents[0]!.subsystems, ...agents[0]!.devices].map((one) => one.y + one.height));
+    expect(new Set(heights).size).toBe(3);
+    for (const height of heights) {
+      expect(height).toBeGreaterThan(lowest);
+      expect(height).toBeLessThan(agents[0]!.y + agents[0]!.height);
+    }
   });
 });

@@ -181,7 +181,7 @@ function useNodes(
       const open = children.filter((child) => shown.has(child)).join();
       const folded = children.filter((child) => sheets.folded(child)).join();
       const mine = selected !== null && isOn(net, placed.page, selected) ? selected : null;
-      const near = Math.min(5, Math.max(-2, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
+      const near = Math.min(5, Math.max(-3, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
       const data = { net, placed, open, folded, near, selected: mine, flags };
       const old = before.current.get(placed.page);
       next.set(placed.page, old && alike(old, data) ? old : sheetNode(data));

@@ -12,7 +12,7 @@ export interface SheetData extends Record<string, unknown> {
   /** Pages whose nets are drawn by sheets of their own. */
   open: string;
   folded: string;
-  /** How near it is: 2 means that lines and letters would be four times too large, -1 that they are small. */
+  /** How near it is: 2 means that lines and letters would be four times too large, -1 that they are small, -3 mere dots. */
   near: number;
   selected: string | null;
   flags: ReadonlyMap<string, "error" | "warning">;
@@ -23,7 +23,7 @@ export type SheetNode = Node<SheetData, "sheet">;
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);
-  const { net, placed, open, folded, selected, flags } = data;
+  const { net, placed, open, folded, near, selected, flags } = data;
   const { page, sheet, scale } = placed;
   const opened = new Set(open.split(",").map(Number));
   const closed = new Set(folded.split(",").map(Number));
@@ -32,6 +32,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
     now();
     return studio.stage.subscribe(now);
   }, [net, studio, sheet, open, folded, selected]);
+  const far = near <= -3;
   const parts = { net, page, direction: sheet.direction };
   const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);
   const drawn = net.page(page);
@@ -44,7 +45,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
       style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
       data-sheet={drawn.path || "system"}
     >
-      <Arcs net={net} page={page} sheet={sheet} />
+      <Arcs net={net} page={page} sheet={sheet} far={far} />
       {drawn.nodes.map((node, index) => {
         const box = sheet.nodes[index]!;
         if (node.page === null)
@@ -60,6 +61,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
             selected={selected === path}
             folded={closed.has(node.page)}
             open={opened.has(node.page)}
+            far={far}
             flagged={flags.get(path) ?? null}
             onFold={(at, to) => studio.fold(at, to)}
           />
@@ -71,7 +73,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
           {...parts}
           index={index}
           box={sheet.transitions[index]!}
-          selected={selected !== null && net.transitions[net.flatTransitions[page]![index]!]?.name === selected}
+          selected={selected !== null && net.transitions[net.flatTransitions(page)[index]!]?.name === selected}
         />
       ))}
     </svg>
@@ -79,4 +81,4 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
 });
 
 const isSelected = (net: NetModel, page: number, node: number, selected: string | null) =>
-  selected !== null && net.places[net.flatPlaces[page]![node]!]?.name === selected;
+  selected !== null && net.places[net.flatPlaces(page)[node]!]?.name === selected;

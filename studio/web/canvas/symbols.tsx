@@ -31,7 +31,7 @@ function Labels({ box, direction, lines }: { box: Box; direction: "down" | "righ
 export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, direction, selected }: PartProps) {
   const on = net.page(page);
   const node = on.nodes[index]!;
-  const flat = net.flatPlaces[page]![index]!;
+  const flat = net.flatPlaces(page)[index]!;
   const path = net.places[flat]?.name ?? node.name;
   const [cx, cy, r] = [box.x + box.width / 2, box.y + box.height / 2, box.width / 2];
   return (
@@ -61,7 +61,7 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
 
 export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direction, selected }: PartProps) {
   const transition = net.page(page).transitions[index]!;
-  const flat = net.flatTransitions[page]![index]!;
+  const flat = net.flatTransitions(page)[index]!;
   const path = net.transitions[flat]?.name ?? transition.name;
   const never = transition.condition?.truth === "never";
   const wide = box.width > 80;
@@ -101,18 +101,20 @@ interface PageSymbolProps extends PartProps {
   folded: boolean;
   /** Its net is drawn in it by a sheet of its own. */
   open: boolean;
+  /** So far away that a folded page is a dot. */
+  far: boolean;
   flagged: "error" | "warning" | null;
   onFold: (path: string, folded: boolean) => void;
 }
 
 export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
-  const { net, page, index, box, direction, selected, folded, open, flagged } = props;
+  const { net, page, index, box, direction, selected, folded, open, far, flagged } = props;
   const child = net.page(page).nodes[index]!.page!;
   const of: Page = net.page(child);
   const group = (
     <>
-      {folded ? <FoldedPage box={box} /> : <OpenPage page={of} box={box} open={open} child={child} />}
-      {folded && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
+      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} />}
+      {folded && !far && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
       {flagged && (
         <circle className={`flag ${flagged}`} cx={box.x + box.width - (folded ? 4 : 14)} cy={box.y + (folded ? 4 : 11)} r={4.5} />
       )}
@@ -132,13 +134,13 @@ export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
   );
 });
 
-function FoldedPage({ box }: { box: Box }) {
+function FoldedPage({ box, far }: { box: Box; far: boolean }) {
   const [cx, cy] = [box.x + box.width / 2, box.y + box.height / 2];
   return (
     <>
       <circle className="shape" cx={cx} cy={cy} r={foldedPage / 2} />
-      <circle className="ring" cx={cx} cy={cy} r={foldedPage / 2 - 4} />
-      <circle className="token inside" cx={cx} cy={cy} r={6} />
+      {!far && <circle className="ring" cx={cx} cy={cy} r={foldedPage / 2 - 4} />}
+      {!far && <circle className="token inside" cx={cx} cy={cy} r={6} />}
     </>
   );
 }
@@ -190,8 +192,17 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
   );
 }
 
-export const Arcs = memo(function Arcs({ net, page, sheet }: { net: NetModel; page: number; sheet: Sheet }) {
+interface ArcsProps {
+  net: NetModel;
+  page: number;
+  sheet: Sheet;
+  /** So far away that tips cannot be seen: all in one line. */
+  far: boolean;
+}
+
+export const Arcs = memo(function Arcs({ net, page, sheet, far }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
+  if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
   return sheet.routes.map((route, at) => {
     const never = transitions[route.transition]?.condition?.truth === "never";
     const fused = nodes[route.node]?.fusion !== null;

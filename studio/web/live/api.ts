@@ -61,10 +61,9 @@ export class Api {
     } catch {
       throw new ApiError(0, "The server does not answer.");
     }
-    const text = await answer.text();
-    let json: Record<string, unknown> = {};
+    let json: Record<string, unknown>;
     try {
-      json = text ? (JSON.parse(text) as Record<string, unknown>) : {};
+      json = answer.headers.get("Content-Length") === "0" ? {} : ((await answer.json()) as Record<string, unknown>);
     } catch {
       throw new ApiError(answer.status || 500, `The server answered ${path} with something that is not JSON.`);
     }

@@ -19,7 +19,6 @@ export class Stage {
   /** The net that is shown, and how it came there. */
   readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
   private net: NetModel | null = null;
-  private ancestors: number[][] = [];
   private readonly listeners = new Set<() => void>();
   private frame = 0;
 
@@ -27,7 +26,6 @@ export class Stage {
   reset(net: NetModel, mode: StageMode): void {
     this.net = net;
     this.mode = mode;
-    this.ancestors = net.pages.map((_, index) => net.ancestry(index));
     this.marking = initialMarking(net);
     this.counts = new Uint32Array(net.transitions.length);
     this.firedAt = new Float64Array(net.transitions.length).fill(-Infinity);
@@ -76,12 +74,11 @@ export class Stage {
 
   private occupy(): void {
     const { net } = this;
-    if (!net) return;
-    this.occupied = new Uint8Array(net.pages.length);
+    if (!net || this.mode === "edit") return;
+    const occupied = (this.occupied = new Uint8Array(net.pages.length));
     net.places.forEach((place, index) => {
-      if (this.marking[index] === 0 || place.page === null) return;
-      // The initial token of the system is not something that runs.
-      for (const page of this.ancestors[place.page]!) this.occupied[page] = 1;
+      if (this.marking[index] === 0) return;
+      for (let page = place.page; page !== null && occupied[page] === 0; page = net.page(page).parent) occupied[page] = 1;
     });
   }
 }

@@ -39,12 +39,10 @@ export const nodeName = (node: PageNode) => node.name;
 
 /** What a screen reader says of an element. */
 export function spoken(net: NetModel, path: string): string {
+  const asPage = net.pageByPath.get(path);
+  if (asPage !== undefined) return `${layerTitle[net.page(asPage).layer]} ${path || "system"}`;
   const element = net.find(path);
   if (!element) return path || "system";
-  if (element.kind === "page") {
-    const page = net.page(net.pageByPath.get(path)!);
-    return `${layerTitle[page.layer]} ${path || "system"}`;
-  }
   if (element.kind === "transition") {
     const transition = net.page(element.page).transitions[element.index]!;
     const condition = transition.condition?.text;

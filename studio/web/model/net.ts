@@ -85,20 +85,45 @@ export interface Element {
 
 const join = (path: string, name: string) => (path ? `${path}.${name}` : name);
 
-/** The net with the ways through it: by path, from drawn elements to flat ones and back. */
+/** Which of a list belong to each page, without a list per page: the last one of it, and for each the one before. */
+class ByPage {
+  private readonly last: Int32Array;
+  private readonly before: Int32Array;
+
+  constructor(all: readonly { page: number | null }[], pages: number) {
+    this.last = new Int32Array(pages).fill(-1);
+    this.before = new Int32Array(all.length);
+    all.forEach(({ page }, index) => {
+      if (page === null) return;
+      this.before[index] = this.last[page]!;
+      this.last[page] = index;
+    });
+  }
+
+  find(page: number, is: (index: number) => boolean): number {
+    for (let at = this.last[page]!; at >= 0; at = this.before[at]!) if (is(at)) return at;
+    return -1;
+  }
+}
+
+const indexByName = (all: readonly { name: string }[]) => new Map(all.map(({ name }, index) => [name, index]));
+
+/**
+ * The net with the ways through it: by path, from drawn elements to flat ones and back. Large nets open without being
+ * looked through: what only some views ask for is made when they do.
+ */
 export class NetModel {
   readonly pages: Page[];
   readonly places: FlatPlace[];
   readonly transitions: FlatTransition[];
-  /** Page index by path; the system is "". */
-  readonly pageByPath = new Map<string, number>();
-  readonly placeByName = new Map<string, number>();
-  readonly transitionByName = new Map<string, number>();
-  /** For each page, the flat place behind each node (-1: a page), and the flat transition behind each bar. */
-  readonly flatPlaces: Int32Array[];
-  readonly flatTransitions: Int32Array[];
-  /** Transitions that consume from a place. */
-  readonly consumers: number[][];
+  private paths: Map<string, number> | undefined;
+  private placeNames: Map<string, number> | undefined;
+  private transitionNames: Map<string, number> | undefined;
+  private fused: Map<string, number> | undefined;
+  private placesByPage: ByPage | undefined;
+  private transitionsByPage: ByPage | undefined;
+  private readonly flatPlacesOf = new Map<number, Int32Array>();
+  private readonly flatTransitionsOf = new Map<number, Int32Array>();
 
   constructor(
     readonly json: NetJson,
@@ -108,21 +133,58 @@ export class NetModel {
     this.pages = json.pages;
     this.places = json.flat.places;
     this.transitions = json.flat.transitions;
-    this.pages.forEach((page, index) => this.pageByPath.set(page.path, index));
-    this.places.forEach((place, index) => this.placeByName.set(place.name, index));
-    this.transitions.forEach((transition, index) => this.transitionByName.set(transition.name, index));
-    this.flatPlaces = this.pages.map((page) => Int32Array.from(page.nodes, (node) => this.flatPlace(page, node)));
-    this.flatTransitions = this.pages.map((page) =>
-      Int32Array.from(page.transitions, (t) => this.transitionByName.get(join(page.path, t.name)) ?? -1),
-    );
-    this.consumers = this.places.map(() => []);
-    this.transitions.forEach((t, index) => t.inputs.forEach((arc) => this.consumers[arc.place]?.push(index)));
   }
 
-  private flatPlace(page: Page, node: PageNode): number {
+  /** Page index by path; the system is "". */
+  get pageByPath(): ReadonlyMap<string, number> {
+    return (this.paths ??= new Map(this.pages.map(({ path }, index) => [path, index])));
+  }
+  get placeByName(): ReadonlyMap<string, number> {
+    return (this.placeNames ??= indexByName(this.places));
+  }
+  get transitionByName(): ReadonlyMap<string, number> {
+    return (this.transitionNames ??= indexByName(this.transitions));
+  }
+
+  /** The flat place behind each node of a page; -1: a page. */
+  flatPlaces(index: number): Int32Array {
+    let known = this.flatPlacesOf.get(index);
+    if (!known) {
+      const page = this.page(index);
+      known = Int32Array.from(page.nodes, (node) => this.flatPlace(index, page, node));
+      this.flatPlacesOf.set(index, known);
+    }
+    return known;
+  }
+
+  /** The flat transition behind each bar of a page. */
+  flatTransitions(index: number): Int32Array {
+    let known = this.flatTransitionsOf.get(index);
+    if (!known) {
+      const of = (this.transitionsByPage ??= new ByPage(this.transitions, this.pages.length));
+      const { path, transitions } = this.page(index);
+      known = Int32Array.from(transitions, ({ name }) => {
+        const whole = join(path, name);
+        return of.find(index, (at) => this.transitions[at]!.name === whole);
+      });
+      this.flatTransitionsOf.set(index, known);
+    }
+    return known;
+  }
+
+  private flatPlace(index: number, page: Page, node: PageNode): number {
     if (node.page !== null) return -1;
-    const name = node.fusion !== null ? this.json.fusions[node.fusion]!.name : join(page.path, node.name);
-    return this.placeByName.get(name) ?? -1;
+    if (node.fusion !== null) return this.fusedPlaces.get(this.json.fusions[node.fusion]!.name) ?? -1;
+    const of = (this.placesByPage ??= new ByPage(this.places, this.pages.length));
+    const name = join(page.path, node.name);
+    return of.find(index, (at) => this.places[at]!.name === name);
+  }
+
+  /** Places that are on no page of their own, by name. */
+  private get fusedPlaces(): ReadonlyMap<string, number> {
+    return (this.fused ??= new Map(
+      this.places.flatMap(({ name, page }, index) => (page === null ? [[name, index] as const] : [])),
+    ));
   }
 
   /** Whether something that was made of the net of that name belongs to this one. */
@@ -158,7 +220,7 @@ export class NetModel {
     if (flat !== undefined && this.places[flat]!.page === null)
       return Math.max(
         0,
-        this.flatPlaces.findIndex((places) => places.includes(flat)),
+        this.pages.findIndex((_, page) => this.flatPlaces(page).includes(flat)),
       );
     for (let end = path.length; end > 0; end = path.lastIndexOf(".", end - 1)) {
       const page = this.pageByPath.get(path.slice(0, end));
@@ -178,7 +240,7 @@ export class NetModel {
     const page = this.page(index);
     const nodes = page.nodes.map((node, at): Element => {
       if (node.page !== null) return this.pageElement(node.page);
-      const flat = this.places[this.flatPlaces[index]![at]!];
+      const flat = this.places[this.flatPlaces(index)[at]!];
       return {
         path: flat?.name ?? join(page.path, node.name),
         kind: "place",

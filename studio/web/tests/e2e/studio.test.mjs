@@ -28,14 +28,20 @@ test("keys alone lead from the system to a transition and back", () =>
   onPage(lineFollower, async (page) => {
     await page.getByRole("application", { name: /Drawing of the net/ }).focus();
     const said = page.locator(".canvas [aria-live]");
-    for (const key of ["ArrowDown", "ArrowDown"]) await page.keyboard.press(key);
-    assert.match(await said.innerText(), /transition robot\.t_in/);
-    for (const key of ["ArrowDown", "Enter"]) await page.keyboard.press(key);
     const here = page.getByRole("navigation", { name: "Layers" });
-    await here.getByText("subsystem", { exact: true }).waitFor();
-    assert.match(await said.innerText(), /place robot\.sensor\.in/);
-    await page.keyboard.press("Escape");
+    for (const [key, name] of [
+      ["ArrowDown", "place in"],
+      ["ArrowDown", "transition t_in"],
+      ["ArrowDown", "agent robot"],
+      ["Enter", "place robot.in"],
+      ["ArrowDown", "transition robot.t_in"],
+    ]) {
+      await page.keyboard.press(key);
+      await said.getByText(name, { exact: true }).waitFor();
+    }
     await here.getByText("agent", { exact: true }).waitFor();
+    await page.keyboard.press("Escape");
+    await here.getByText("multi-agent system", { exact: true }).waitFor();
   }));
 
 test("a folded page is a double circle, and opens again", () =>

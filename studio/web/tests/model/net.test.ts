@@ -8,10 +8,10 @@ describe("NetModel", () => {
   it("finds the flat element behind every drawn one", () => {
     net.pages.forEach((page, index) => {
       page.nodes.forEach((node, at) =>
-        expect(net.flatPlaces[index]![at]! >= 0, `${page.path}.${node.name}`).toBe(node.page === null),
+        expect(net.flatPlaces(index)[at]! >= 0, `${page.path}.${node.name}`).toBe(node.page === null),
       );
       expect(
-        [...net.flatTransitions[index]!].every((flat) => flat >= 0),
+        [...net.flatTransitions(index)].every((flat) => flat >= 0),
         page.path,
       ).toBe(true);
     });
@@ -19,7 +19,7 @@ describe("NetModel", () => {
   it("gives the members of a fusion set one flat place", () => {
     const places = ["robot.control.init.rcv", "robot.control.follow.rcv", "robot.sensor.watch.snd"].map((path) => {
       const page = net.pageByPath.get(path)!;
-      return net.flatPlaces[page]![net.page(page).nodes.findIndex((node) => node.fusion === 0)];
+      return net.flatPlaces(page)[net.page(page).nodes.findIndex((node) => node.fusion === 0)];
     });
     expect(new Set(places).size).toBe(1);
   });

@@ -44,6 +44,8 @@ const char* kind_of(const Event& event) {
       return "log";
     case Event::Kind::stop:
       return "stop";
+    case Event::Kind::fault:
+      return "fault";
   }
   return "";
 }
@@ -73,13 +75,26 @@ std::vector<const Recording::Entry*> chosen(const Recording& recording, const Op
   return entries;
 }
 
+/// In front of the text of an event that is no firing.
+std::string prefix_of(const Event& event) {
+  switch (event.kind()) {
+    case Event::Kind::firing:
+    case Event::Kind::log:
+      return "";
+    case Event::Kind::stop:
+      return "stop: ";
+    case Event::Kind::fault:
+      return fmt::format("fault ({}): ", name_of(static_cast<Fault>(event.version)));
+  }
+  return "";
+}
+
 void print_events(const Recording& recording, const Options& options) {
   for (const Recording::Entry* entry : chosen(recording, options)) {
     const Event& event = entry->event;
     const bool firing = event.kind() == Event::Kind::firing;
     fmt::print("{:14.6f} {}{}{}{}\n", static_cast<double>(event.time_ns) * 1e-9,
-               firing ? "" : path_of(recording, event) + ": ",
-               event.kind() == Event::Kind::stop ? "stop: " : "", text_of(recording, *entry),
+               firing ? "" : path_of(recording, event) + ": ", prefix_of(event), text_of(recording, *entry),
                firing && event.version != 0 ? fmt::format("  (version {})", event.version) : "");
   }
 }

@@ -178,6 +178,10 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
   simulate->add_option("--scenario", line.options.scenario,
                        "Follow this run first (tessera verify --scenario), then run on freely");
+  simulate->add_flag("--interleave", line.options.interleave,
+                     "Subsystems take turns after every firing, drawn from the seed");
+  simulate->add_option("--schedules", line.schedules,
+                       "Try so many seeds from --seed on, interleaved; report the first whose run fails");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   try {
     app.parse(argc, argv);

@@ -28,14 +28,14 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
   context.period = parts_.instance->period;
 }
 
-/// Runs user code; false when it threw. Nothing a user throws gets past here.
+/// Runs user code; false when it threw. Nothing a user throws gets past here. activity: in front of what was
+/// thrown.
 template <class Code>
-bool Operations::survives(std::uint16_t behaviour, std::string_view activity, Code&& code) {
+bool Operations::survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code) {
   std::array<char, 512> text;
   const auto describe = [&](std::string_view what) {
-    const std::string_view name = parts_.instance->net->behaviours[behaviour].name;
-    const auto end = fmt::format_to_n(text.data(), text.size(), "{}{}: {}", name, activity, what);
-    fail({text.data(), std::min(end.size, text.size())});
+    const auto end = fmt::format_to_n(text.data(), text.size(), "{}{}", activity, what);
+    fail(fault, behaviour, {text.data(), std::min(end.size, text.size())});
   };
   try {
     std::forward<Code>(code)();
@@ -48,11 +48,21 @@ bool Operations::survives(std::uint16_t behaviour, std::string_view activity, Co
   return false;
 }
 
-void Operations::fail(std::string_view what) {
-  log(LogLevel::error, what);
+void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view what) {
+  report(fault, place_of_call(behaviour), what);
   failed_ = true;
   parts_.subsystem->restore_outputs();
   give_safe_command();
+}
+
+/// Where the token stands while that behaviour's transition function runs.
+std::string_view Operations::place_of_call(std::uint16_t behaviour) const {
+  const SubsystemNet& net = *parts_.instance->net;
+  const std::string_view name = net.behaviours[behaviour].name;
+  const auto place = std::find_if(net.places.begin(), net.places.end(), [&](const Place& one) {
+    return one.does.kind == Does::Kind::call && one.does.subject == name;
+  });
+  return place == net.places.end() ? name : place->name;
 }
 
 // -------------------------------------------------------------------------------------------- transition
@@ -66,16 +76,17 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   Context& context = parts_.subsystem->context();
   context.now = now;
   context.iteration = iteration_;
-  if (!survives(behaviour, " (reading a real receptor)", [&] { read_receptors(now); })) return;
+  if (!survives(Fault::device, behaviour, "reading a real receptor: ", [&] { read_receptors(now); })) return;
   refresh_ages(now);
-  static_cast<void>(survives(behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
+  static_cast<void>(survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
 }
 
 void Operations::finish_call(Time now) {
   // Real inputs stay fresh for the conditions of this iteration; the next one reads them again.
   for (const Bindings::Incoming& input : parts_.bindings.inputs) input.arrival->fresh = false;
   if (!parts_.effectors.empty() && !failed_)
-    static_cast<void>(survives(behaviour_, " (writing a real effector)", [&] { write_effectors(now); }));
+    static_cast<void>(
+        survives(Fault::device, behaviour_, "writing a real effector: ", [&] { write_effectors(now); }));
 }
 
 void Operations::read_receptors(Time now) {
@@ -91,7 +102,7 @@ void Operations::read_receptors(Time now) {
 
 void Operations::write_effectors(Time now) {
   if (!outputs_are_finite())
-    return fail("a real output is not a finite number; the device got the safe command");
+    return fail(Fault::not_finite, behaviour_, "a real output is not a finite number");
   if (must_be_safe(now)) {
     held_safe_ = true;
     return give_safe_command();
@@ -102,7 +113,7 @@ void Operations::write_effectors(Time now) {
     if (parts_.effectors[index]->write({static_cast<const std::byte*>(output.value), output.size}))
       output.departure->stamp = now;
     else
-      return fail("a real effector refused its command");
+      return fail(Fault::device, behaviour_, "a real effector refused its command");
   }
 }
 
@@ -171,8 +182,8 @@ void Operations::refresh_ages(Time now) {
 Outcome Operations::decide(std::uint16_t behaviour, Time now) {
   refresh_ages(now);
   Outcome outcome = Outcome::error;
-  if (!survives(behaviour, " (its conditions)",
-                [&] { outcome = parts_.subsystem->decide(behaviour, failed_); }))
+  if (!survives(Fault::exception, behaviour,
+                "a condition: ", [&] { outcome = parts_.subsystem->decide(behaviour, failed_); }))
     outcome = Outcome::error;
   if (failed_) outcome = Outcome::error;
   accept_outcome(outcome);
@@ -187,8 +198,9 @@ void Operations::accept_outcome(Outcome outcome) {
 int Operations::route(std::uint16_t behaviour, Time now) {
   refresh_ages(now);
   int entry = no_entry;
-  const bool known = survives(behaviour, " (its conditions of `next`)",
-                              [&] { entry = parts_.subsystem->route(behaviour, erroneous_); });
+  const bool known = survives(Fault::exception, behaviour, "a condition of `next`: ", [&] {
+    entry = parts_.subsystem->route(behaviour, erroneous_);
+  });
   return known ? entry : unknown_entry;
 }
 
@@ -234,6 +246,26 @@ void Operations::log(LogLevel level, std::string_view text) {
   const Time now = clock_.now();
   console::print(level, now, parts_.path, text);
   if (lane_ != nullptr) lane_->text(Event::Kind::log, now, static_cast<std::uint32_t>(level), text);
+}
+
+void Operations::report(Fault fault, std::string_view place, std::string_view what) {
+  const Time now = clock_.now();
+  const std::string_view effect = parts_.effectors.empty() ? "" : "; the devices get the safe command";
+  std::array<char, 768> text;
+  const auto end =
+      fmt::format_to_n(text.data(), text.size(), "{}.{}: {}{}", parts_.path, place, what, effect);
+  const std::string_view line(text.data(), std::min(end.size, text.size()));
+  if (lane_ != nullptr) lane_->text(Event::Kind::fault, now, static_cast<std::uint32_t>(fault), line);
+  const std::size_t path = std::min(parts_.path.size() + 1 + place.size(), line.size());
+  console::print(LogLevel::error, now, line.substr(0, path), line.substr(std::min(path + 2, line.size())));
+}
+
+void Operations::broken(std::string_view assertion) {
+  report(Fault::assertion, place_of_call(behaviour_), assertion);
+  std::array<char, 512> reason;
+  const auto end =
+      fmt::format_to_n(reason.data(), reason.size(), "{}: broken assertion: {}", parts_.path, assertion);
+  control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
 }
 
 void Operations::stop(std::string_view reason) { control_.request_stop(reason, /*fault=*/false); }

@@ -81,6 +81,9 @@ class Operations final : public ContextServices {
 
   void log(LogLevel level, std::string_view text) override;
   void stop(std::string_view reason) override;
+  void broken(std::string_view assertion) override;
+  /// Something has gone wrong in a place of this subsystem: to the terminal and the record.
+  void report(Fault fault, std::string_view place, std::string_view what);
 
   [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
@@ -95,10 +98,11 @@ class Operations final : public ContextServices {
   void write_effectors(Time now);
   [[nodiscard]] bool outputs_are_finite() const;
   void refresh_ages(Time now);
-  void fail(std::string_view what);
+  void fail(Fault fault, std::uint16_t behaviour, std::string_view what);
+  [[nodiscard]] std::string_view place_of_call(std::uint16_t behaviour) const;
   [[nodiscard]] bool must_be_safe(Time now) const;
   template <class Code>
-  [[nodiscard]] bool survives(std::uint16_t behaviour, std::string_view activity, Code&& code);
+  [[nodiscard]] bool survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code);
 
   SubsystemParts parts_;
   RunControl& control_;

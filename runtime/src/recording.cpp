@@ -40,6 +40,8 @@ constexpr std::string_view magic = "TESSREC1";
     case Event::Kind::log:
     case Event::Kind::stop:
       return true;
+    case Event::Kind::fault:
+      return !name_of(static_cast<Fault>(event.version)).empty();
   }
   return false;
 }
@@ -66,6 +68,26 @@ void read_events(std::string_view bytes, Recording& recording) {
 }
 
 }  // namespace
+
+std::string_view name_of(Fault fault) {
+  switch (fault) {
+    case Fault::net:
+      return "net";
+    case Fault::assertion:
+      return "assertion";
+    case Fault::exception:
+      return "exception";
+    case Fault::not_finite:
+      return "not finite";
+    case Fault::device:
+      return "device";
+    case Fault::stale:
+      return "stale";
+    case Fault::stall:
+      return "stall";
+  }
+  return "";
+}
 
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   std::ifstream file(path, std::ios::binary);

@@ -71,7 +71,9 @@ std::uint32_t SimulatedRun::draw_ready() {
 }
 
 void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
-  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step();
+  const std::uint64_t most = assembly.options.interleave ? 1 : UINT64_MAX;
+  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step(most);
+  if (progress.state == SubsystemExecutor::State::ready) wake(instance);
   deadlines_.set(instance,
                  progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
   if (progress.state != SubsystemExecutor::State::ended) return;

@@ -27,7 +27,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
 
 void SubsystemExecutor::enter() { put(plan_->in, clock_.now()); }
 
-SubsystemExecutor::Progress SubsystemExecutor::step() {
+SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
   if (blocked_since_ != Time::max()) waited_ += clock_.now() - std::exchange(blocked_since_, Time::max());
   for (;;) {
     if (control_.stopping()) return {State::stopped};
@@ -35,9 +35,11 @@ SubsystemExecutor::Progress SubsystemExecutor::step() {
       end();
       return {State::ended};
     }
+    if (most-- == 0) return {State::ready};
     const Time now = clock_.now();
     if (fire_one(now)) {
-      if (time_stands_still(now)) fault("time stands still: it fires for ever at one instant");
+      if (time_stands_still(now))
+        fault(marked_.front(), "time stands still: it fires for ever at one instant");
       continue;
     }
     if (advance_operations(now)) continue;
@@ -131,7 +133,7 @@ void SubsystemExecutor::take(std::uint32_t place) {
 
 void SubsystemExecutor::put(std::uint32_t place, Time now) {
   Token& token = tokens_[place];
-  if (token.position != Plan::none) return fault("a place got a second token: the net is not safe");
+  if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
   token.arrival = now;
   token.phase = Phase::finished;
@@ -191,8 +193,8 @@ void SubsystemExecutor::route(std::uint32_t place, Time now) {
   token.latched = Operations::no_entry;
   if (script_ends_without_choice()) return;
   token.latched = operations_.route(plan_->places[place].subject, now);
-  if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
-  if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
+  if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
+  if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
   if (token.latched >= 0) check_way_out(place, now);
 }
 
@@ -201,11 +203,12 @@ void SubsystemExecutor::check_way_out(std::uint32_t place, Time now) {
   const auto leaving = plan_->leaving_of(place);
   const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index], now); };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
-    fault("what was decided has no transition: the generated code does not fit its net");
+    fault(place, "what was decided has no transition: the generated code does not fit its net");
 }
 
 void SubsystemExecutor::arrive_at_end() {
-  if (operations_.ended_by_error()) fault("ended by an error that no `next` leads to another behaviour");
+  if (operations_.ended_by_error())
+    fault(plan_->out, "ended by an error that no `next` leads to another behaviour");
 }
 
 Time SubsystemExecutor::release(Time arrival) {
@@ -287,7 +290,7 @@ std::string_view forced_by(const Guard& guard) {
 SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
   const std::uint32_t transition = script_[followed_++];
   if (transition == Plan::none) {
-    fault("no condition of `next` holds");
+    fault(marked_.front(), "no condition of `next` holds");
     return {Followed::fired, Time::max(), "no initial condition"};
   }
   const Time now = clock_.now();
@@ -385,8 +388,8 @@ bool SubsystemExecutor::time_stands_still(Time now) {
 
 // -------------------------------------------------------------------------------------------- ends
 
-void SubsystemExecutor::fault(std::string_view text) {
-  operations_.log(LogLevel::error, text);
+void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
+  operations_.report(Fault::net, operations_.parts().instance->net->places[place].name, text);
   std::array<char, 512> reason;
   const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
   control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);

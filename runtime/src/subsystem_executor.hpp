@@ -45,13 +45,14 @@ class SubsystemExecutor {
   /// Puts the token into `in`: t_in of the agent has fired.
   void enter();
 
-  enum class State : std::uint8_t { waiting, ended, stopped };
+  enum class State : std::uint8_t { waiting, ended, stopped, ready };
   struct Progress {
     State state = State::waiting;
     Time deadline = Time::max();  ///< of waiting: step again then, or when woken
   };
   /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
-  [[nodiscard]] Progress step();
+  /// most: how many firings and operations at most; ready: it could have gone on.
+  [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
   /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
   /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
@@ -121,7 +122,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool register_waits(Time now);
   [[nodiscard]] Time next_deadline() const;
   [[nodiscard]] bool time_stands_still(Time now);
-  void fault(std::string_view text);
+  void fault(std::uint32_t place, std::string_view text);
   void end();
 
   std::uint32_t index_;

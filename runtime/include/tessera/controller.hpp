@@ -21,6 +21,9 @@ struct RunOptions {
   bool realtime = false;             ///< simulated clock: not faster than the wall clock
   std::optional<Duration> duration;  ///< unset: until the net ends or something stops it
   std::uint64_t seed = 1;
+  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, not only where
+  /// they have to wait. Finds more of the interleavings that threads can have.
+  bool interleave = false;
   std::string recording;                                        ///< file; empty: none
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System

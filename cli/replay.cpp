@@ -46,6 +46,8 @@ const char* kind_of(const Event& event) {
       return "stop";
     case Event::Kind::fault:
       return "fault";
+    case Event::Kind::overrun:
+      return "overrun";
   }
   return "";
 }
@@ -55,8 +57,14 @@ std::string path_of(const Recording& recording, const Event& event) {
 }
 
 std::string text_of(const Recording& recording, const Recording::Entry& entry) {
-  return entry.event.kind() == Event::Kind::firing ? recording.transitions[entry.event.subject].name
-                                                   : entry.text;
+  switch (entry.event.kind()) {
+    case Event::Kind::firing:
+      return recording.transitions[entry.event.subject].name;
+    case Event::Kind::overrun:
+      return fmt::format("{} instants of its rate missed", entry.event.subject);
+    default:
+      return entry.text;
+  }
 }
 
 /// Those that the options ask for, in the order of their times.
@@ -83,6 +91,8 @@ std::string prefix_of(const Event& event) {
       return "";
     case Event::Kind::stop:
       return "stop: ";
+    case Event::Kind::overrun:
+      return "overrun: ";
     case Event::Kind::fault:
       return fmt::format("fault ({}): ", name_of(static_cast<Fault>(event.version)));
   }
@@ -161,8 +171,9 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
-    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}\n", one.path, one.iterations, one.firings,
-               count_of(one.errors, "errors"), count_of(one.timeouts, "timeouts"),
+    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", one.path, one.iterations, one.firings,
+               count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
+               count_of(one.faults, "faults"), count_of(one.timeouts, "timeouts"),
                count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
     if (one.iterations > 0)
       fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
@@ -192,6 +203,8 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
                           {"firings", one.firings},
                           {"iterations", one.iterations},
                           {"errors", one.errors},
+                          {"overruns", one.overruns},
+                          {"faults", one.faults},
                           {"timeouts", one.timeouts},
                           {"skips", one.skips},
                           {"overwrites", one.overwrites},

@@ -58,6 +58,7 @@ std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
     if (!value.empty()) line.insert(line.end(), {option, value});
   };
   for (const std::string& value : options.set) add("--set", value);
+  for (const std::string& fault : options.inject) add("--inject", fault);
   add("--parameters", options.parameters);
   add("--track", options.track);
   if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));

@@ -96,7 +96,7 @@ class Writing {
 
   void write_log() {
     for (const auto& [event, text] : recording_.entries) {
-      if (event.kind() == Event::Kind::firing) continue;
+      if (!event.has_text()) continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
       const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
       write({{"ph", "i"},

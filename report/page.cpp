@@ -127,7 +127,7 @@ void put_message(std::string& html, const Recording& recording, const Recording:
 void put_messages(std::string& html, const Recording& recording) {
   std::vector<const Recording::Entry*> messages;
   for (const auto& entry : recording.entries) {
-    if (entry.event.kind() != Event::Kind::firing) messages.push_back(&entry);
+    if (entry.event.has_text()) messages.push_back(&entry);
   }
   if (messages.empty()) return;
   html += R"(<h2>Messages</h2><div class="panel"><table>)";

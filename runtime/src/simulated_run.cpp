@@ -174,7 +174,8 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (assembly.control.stopping())
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
     if (upper.ended()) return ending("net ended", false);
-    const Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
     pace.wait_for(std::min(next, end), assembly.recorder.get());
     if (next >= end) {
@@ -182,6 +183,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
       return ending("duration", assembly.control.failed());
     }
     move_to(assembly, next);
+    assembly.signals.raise_due(next);
     progress.update(next);
     while (!deadlines_.empty() && deadlines_.first_time() <= next) {
       const std::uint32_t due = deadlines_.first();

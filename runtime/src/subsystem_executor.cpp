@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
+
+#include "console.hpp"
 
 namespace tessera {
 
@@ -43,7 +46,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
       continue;
     }
     if (advance_operations(now)) continue;
-    operations_.guard_effectors(now);
+    operations_.guard_effectors(now, name_of(marked_.front()));
     if (!register_waits(now)) continue;
     if (registrations_ > 0) blocked_since_ = now;
     return {State::waiting, next_deadline()};
@@ -212,7 +215,8 @@ void SubsystemExecutor::arrive_at_end() {
 }
 
 Time SubsystemExecutor::release(Time arrival) {
-  const Duration period = operations_.parts().instance->period;
+  const Instance& instance = *operations_.parts().instance;
+  const Duration period = instance.period;
   const Duration waited = std::exchange(waited_, Duration::zero());
   if (period == Duration::zero()) return arrival;
   const auto first_not_before = [&](Time time) {
@@ -221,11 +225,25 @@ Time SubsystemExecutor::release(Time arrival) {
   if (next_release_ < 0) {
     next_release_ = arrival.time_since_epoch() / period;  // the first call starts at once
   } else {
-    const std::int64_t missed_by_work = first_not_before(arrival - waited) - next_release_;
-    if (missed_by_work > 0) overruns_ += static_cast<std::uint64_t>(missed_by_work);
-    next_release_ = std::max(next_release_, first_not_before(arrival));
+    const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
+    count_overruns(without_waiting, arrival);
+    if (instance.policies.overrun == Overrun::skip)
+      next_release_ = std::max(next_release_, now);
+    else
+      next_release_ =
+          std::max(next_release_, now - std::max<std::int64_t>(0, without_waiting - next_release_));
   }
   return Time(period * next_release_++);
+}
+
+/// Instants before `end` that no call has been made for.
+void SubsystemExecutor::count_overruns(std::int64_t end, Time now) {
+  const std::int64_t missed = end - std::max(next_release_, counted_to_);
+  if (missed <= 0) return;
+  counted_to_ = end;
+  overruns_ += static_cast<std::uint64_t>(missed);
+  if (lane_ != nullptr)
+    lane_->overrun(now, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
 }
 
 bool SubsystemExecutor::advance_operations(Time now) {
@@ -246,14 +264,49 @@ bool SubsystemExecutor::advance(std::uint32_t place, Time now) {
     operations_.start_call(behaviour, now);
     token.phase = Phase::running;
     token.due = clock_.simulated() ? now + operations_.takes(behaviour) : now;
+    const Duration watchdog = operations_.parts().instance->policies.watchdog;
+    if (watchdog > Duration::zero() && token.due > now + watchdog)
+      returns_ = std::exchange(token.due, now + watchdog + Duration(1));
     if (token.due > now) return true;
+  }
+  if (returns_ != Time{}) {
+    token.due = std::exchange(returns_, Time{});
+    raise_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed), lane_);
+    return true;
   }
   const Time done = clock_.now();
   operations_.finish_call(done);
   gauges_.end_call(done);
+  if (operations_.parts().instance->policies.watchdog > Duration::zero()) end_alarm();
   show();
   token.phase = Phase::finished;
   return true;
+}
+
+void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) {
+  control_.mark_stalled(index_, true);
+  // Either this sees that the call is over, or the subsystem's thread sees the mark.
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (!gauges_.calling.load(std::memory_order_relaxed) ||
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns)
+    return control_.mark_stalled(index_, false);
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
+  if (!operations_.give_safe_command_from_outside())
+    console::print(LogLevel::error, clock_.now(), path(),
+                   "its devices are in use, or refuse the safe command");
+  wake_receivers();
+}
+
+void SubsystemExecutor::end_alarm() {
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (!control_.is_stalled(index_)) return;
+  control_.mark_stalled(index_, false);
+  wake_receivers();
+}
+
+void SubsystemExecutor::wake_receivers() {
+  for (const PortLink& port : operations_.parts().ports)
+    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
 }
 
 /// Once an iteration, for those who watch.
@@ -295,7 +348,7 @@ SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
   }
   const Time now = clock_.now();
   while (advance_operations(now)) continue;
-  operations_.guard_effectors(now);
+  operations_.guard_effectors(now, name_of(marked_.front()));
   if (!try_fire(transition, now)) {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};
@@ -389,7 +442,7 @@ bool SubsystemExecutor::time_stands_still(Time now) {
 // -------------------------------------------------------------------------------------------- ends
 
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
-  operations_.report(Fault::net, operations_.parts().instance->net->places[place].name, text);
+  operations_.report(Fault::net, name_of(place), text);
   std::array<char, 512> reason;
   const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
   control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
@@ -400,8 +453,7 @@ void SubsystemExecutor::end() {
       register_waits(clock_.now()));  // withdraws: nobody must yield to a subsystem that has ended
   leave();
   control_.mark_ended(index_);
-  for (const PortLink& port : operations_.parts().ports)
-    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
+  wake_receivers();
 }
 
 std::string SubsystemExecutor::whereabouts(const System& system) const {

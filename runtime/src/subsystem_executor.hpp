@@ -24,7 +24,7 @@ namespace tessera {
 /// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
 /// not before the token's arrival and later than that of the call before; the grid is one for all behaviours.
 /// The first call starts at once. Instants passed over are overruns, unless the time went by waiting for
-/// other subsystems.
+/// other subsystems; Overrun::catch_up makes up for them, one call after the other.
 ///
 /// *Ends.* The token in `out`: the subsystem has ended. It is a fault, which stops the system, when that
 /// happens after an error (nobody routed it to another behaviour), and when no condition of `next` holds or
@@ -69,6 +69,13 @@ class SubsystemExecutor {
   /// A line on the console and in the recording.
   void note(std::string_view text) { operations_.log(LogLevel::info, text); }
 
+  /// The transition function of call `since` has run longer than the watchdog allows: to `lane`, the devices
+  /// get their safe command, and those who receive from here look at theirs. Threads: any, with a lane of its
+  /// own.
+  void raise_alarm(std::int64_t since_ns, RecordingLane* lane);
+  /// The safe command from another thread; false: the devices are in use.
+  [[nodiscard]] bool leave_from_outside() { return operations_.give_safe_command_from_outside(); }
+
   /// The safe command, on every way out of the run.
   void leave() { operations_.give_safe_command(); }
 
@@ -110,6 +117,12 @@ class SubsystemExecutor {
   [[nodiscard]] bool advance_operations(Time now);
   [[nodiscard]] bool advance(std::uint32_t place, Time now);
   [[nodiscard]] Time release(Time arrival);
+  void count_overruns(std::int64_t end, Time now);
+  void end_alarm();
+  void wake_receivers();
+  [[nodiscard]] std::string_view name_of(std::uint32_t place) const {
+    return operations_.parts().instance->net->places[place].name;
+  }
   void show();
 
   // Scripts.
@@ -144,6 +157,8 @@ class SubsystemExecutor {
   std::size_t followed_ = 0;           // of the script
 
   std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
+  std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
+  Time returns_{};                  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   std::uint64_t firings_ = 0, overruns_ = 0;

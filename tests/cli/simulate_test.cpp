@@ -87,6 +87,33 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
       << printed.text;
 }
 
+TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
+  example("01_line_follower");
+  const cli::Exit thrown =
+      tessera("simulate 01_line_follower --for 5s --inject robot.control.follow:throw@2.5s");
+  EXPECT_EQ(thrown.code, 1) << thrown.text;
+  const cli::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
+  for (const char* line : {"robot.control: injected: robot.control.follow:throw@2.5s",
+                           "robot.control: fault (exception): robot.control.follow.in: injected",
+                           "ended by an error that no `next` leads to another behaviour"})
+    EXPECT_NE(printed.text.find(line), std::string::npos) << printed.text;
+  const cli::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  EXPECT_NE(summary.text.find("1 errors, 2 faults"), std::string::npos) << summary.text;
+  EXPECT_NE(summary.text.find("legal: "), std::string::npos) << summary.text;
+
+  // NaN inside a structure.
+  tessera("simulate 01_line_follower --for 5s --inject robot.control:nan@1s");
+  EXPECT_NE(tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --containing finite")
+                .text.find("robot.control.follow.in: output 'motion' is not finite"),
+            std::string::npos);
+
+  const cli::Exit wrong = tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
+  EXPECT_EQ(wrong.code, 1) << wrong.text;
+  EXPECT_NE(wrong.text.find("unknown 'robot.control.folow'; did you mean 'robot.control.follow'?"),
+            std::string::npos)
+      << wrong.text;
+}
+
 TEST_F(Simulate, RunWithoutDriversNamesTheRealBuffer) {
   example("01_line_follower");
   const cli::Exit done = tessera("run 01_line_follower --for 1s");

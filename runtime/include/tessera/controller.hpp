@@ -33,7 +33,8 @@ struct RunOptions {
   /// File of a run that is followed first (tessera verify --scenario); after it everything runs freely, and
   /// `duration` begins. Simulated clock only.
   std::string scenario;
-  bool progress = false;  ///< a line on standard error that is rewritten
+  std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
+  bool progress = false;            ///< a line on standard error that is rewritten
 };
 
 /// What a run came to.

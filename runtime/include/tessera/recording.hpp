@@ -33,7 +33,8 @@ struct Event {
     firing = 1,  ///< subject: transition; version: of the channel it touched (0: none)
     log = 2,     ///< subject: bytes of text, which follow in whole events' worth of space; version: level
     stop = 3,    ///< like log: why the run ended
-    fault = 4    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
+    fault = 4,   ///< like log: "PLACE: what, and what was done about it"; version: the Fault
+    overrun = 5  ///< subject: how many instants of its rate the subsystem's work has made it miss
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
@@ -42,6 +43,7 @@ struct Event {
   std::uint32_t origin = 0;    ///< instance * 256 + kind; instance 0xffffff: the system itself
 
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
+  [[nodiscard]] bool has_text() const { return kind() != Kind::firing && kind() != Kind::overrun; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);

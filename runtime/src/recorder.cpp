@@ -95,6 +95,14 @@ void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t ve
   publish();
 }
 
+void RecordingLane::overrun(Time time, std::uint32_t missed) {
+  Event late = event(Event::Kind::overrun, time);
+  if (!has_room(1)) return;
+  late.subject = missed;
+  push(late);
+  publish();
+}
+
 void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text) {
   Event head = event(kind, time);
   if (!has_room(1 + (text.size() + sizeof(Event) - 1) / sizeof(Event))) return;

@@ -39,7 +39,10 @@ constexpr std::string_view magic = "TESSREC1";
       return event.subject < recording.transitions.size();
     case Event::Kind::log:
     case Event::Kind::stop:
+    case Event::Kind::overrun:
       return true;
+    case Event::Kind::fault:
+      return !name_of(static_cast<Fault>(event.version)).empty();
   }
   return false;
 }
@@ -53,7 +56,7 @@ void read_events(std::string_view bytes, Recording& recording) {
     std::memcpy(&entry.event, bytes.data(), sizeof(Event));
     bytes.remove_prefix(sizeof(Event));
     if (!makes_sense(entry.event, recording)) return;
-    if (entry.event.kind() != Event::Kind::firing) {
+    if (entry.event.has_text()) {
       const std::size_t length = entry.event.subject;
       const std::size_t padded = (length + sizeof(Event) - 1) / sizeof(Event) * sizeof(Event);
       if (padded > bytes.size()) return;
@@ -66,6 +69,26 @@ void read_events(std::string_view bytes, Recording& recording) {
 }
 
 }  // namespace
+
+std::string_view name_of(Fault fault) {
+  switch (fault) {
+    case Fault::net:
+      return "net";
+    case Fault::assertion:
+      return "assertion";
+    case Fault::exception:
+      return "exception";
+    case Fault::not_finite:
+      return "not finite";
+    case Fault::device:
+      return "device";
+    case Fault::stale:
+      return "stale";
+    case Fault::stall:
+      return "stall";
+  }
+  return "";
+}
 
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   std::ifstream file(path, std::ios::binary);

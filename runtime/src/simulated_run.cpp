@@ -71,7 +71,9 @@ std::uint32_t SimulatedRun::draw_ready() {
 }
 
 void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
-  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step();
+  const std::uint64_t most = assembly.options.interleave ? 1 : UINT64_MAX;
+  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step(most);
+  if (progress.state == SubsystemExecutor::State::ready) wake(instance);
   deadlines_.set(instance,
                  progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
   if (progress.state != SubsystemExecutor::State::ended) return;
@@ -172,7 +174,8 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (assembly.control.stopping())
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
     if (upper.ended()) return ending("net ended", false);
-    const Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
     pace.wait_for(std::min(next, end), assembly.recorder.get());
     if (next >= end) {
@@ -180,6 +183,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
       return ending("duration", assembly.control.failed());
     }
     move_to(assembly, next);
+    assembly.signals.raise_due(next);
     progress.update(next);
     while (!deadlines_.empty() && deadlines_.first_time() <= next) {
       const std::uint32_t due = deadlines_.first();

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
+
+#include "console.hpp"
 
 namespace tessera {
 
@@ -30,7 +33,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
 
 void SubsystemExecutor::enter() { put(plan_->in); }
 
-SubsystemExecutor::Progress SubsystemExecutor::step() {
+SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
   renew_time();
   if (blocked_since_ != Time::max()) waited_ += now_ - std::exchange(blocked_since_, Time::max());
   bool up_to_date = true;  // nothing has happened since the clock was read
@@ -40,9 +43,11 @@ SubsystemExecutor::Progress SubsystemExecutor::step() {
       end();
       return {State::ended};
     }
+    if (most-- == 0) return {State::ready};
     if (fire_one()) {
       up_to_date = false;
-      if (simulated_ && time_stands_still()) fault("time stands still: it fires for ever at one instant");
+      if (simulated_ && time_stands_still())
+        fault(marked_.front(), "time stands still: it fires for ever at one instant");
       continue;
     }
     if (advance_operations()) {
@@ -54,7 +59,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step() {
       renew_time();
       continue;
     }
-    operations_.guard_effectors(now_);
+    operations_.guard_effectors(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
     if (registrations_ > 0) blocked_since_ = now_;
     return {State::waiting, next_deadline()};
@@ -189,7 +194,7 @@ inline void SubsystemExecutor::take(std::uint32_t place) {
 
 inline void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
-  if (token.position != Plan::none) return fault("a place got a second token: the net is not safe");
+  if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
   token.phase = Phase::finished;
   marked_.push_back(place);
@@ -236,7 +241,8 @@ void SubsystemExecutor::decide(std::uint32_t place) {
     token.latched = next->decided;
     return;
   }
-  token.latched = static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, time_of_conditions()));
+  token.latched =
+      static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, time_of_conditions()));
   check_way_out(place);
 }
 
@@ -249,8 +255,8 @@ void SubsystemExecutor::route(std::uint32_t place) {
   token.latched = Operations::no_entry;
   if (script_ends_without_choice()) return;
   token.latched = operations_.route(plan_->places[place].subject, time_of_conditions());
-  if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
-  if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
+  if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
+  if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
   if (token.latched >= 0) check_way_out(place);
 }
 
@@ -261,16 +267,18 @@ void SubsystemExecutor::check_way_out(std::uint32_t place) {
   const auto leaving = plan_->leaving_of(place);
   const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
-    fault("what was decided has no transition: the generated code does not fit its net");
+    fault(place, "what was decided has no transition: the generated code does not fit its net");
 }
 
 void SubsystemExecutor::arrive_at_end() {
   at_end_ = true;
-  if (operations_.ended_by_error()) fault("ended by an error that no `next` leads to another behaviour");
+  if (operations_.ended_by_error())
+    fault(plan_->out, "ended by an error that no `next` leads to another behaviour");
 }
 
 Time SubsystemExecutor::release() {
-  const Duration period = operations_.parts().instance->period;
+  const Instance& instance = *operations_.parts().instance;
+  const Duration period = instance.period;
   const Duration waited = std::exchange(waited_, Duration::zero());
   if (period == Duration::zero()) return Time::min();
   renew_time();
@@ -281,11 +289,25 @@ Time SubsystemExecutor::release() {
   if (next_release_ < 0) {
     next_release_ = arrival.time_since_epoch() / period;  // the first call starts at once
   } else {
-    const std::int64_t missed_by_work = first_not_before(arrival - waited) - next_release_;
-    if (missed_by_work > 0) overruns_ += static_cast<std::uint64_t>(missed_by_work);
-    next_release_ = std::max(next_release_, first_not_before(arrival));
+    const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
+    count_overruns(without_waiting);
+    if (instance.policies.overrun == Overrun::skip)
+      next_release_ = std::max(next_release_, now);
+    else
+      next_release_ =
+          std::max(next_release_, now - std::max<std::int64_t>(0, without_waiting - next_release_));
   }
   return Time(period * next_release_++);
+}
+
+/// Instants before `end` that no call has been made for.
+void SubsystemExecutor::count_overruns(std::int64_t end) {
+  const std::int64_t missed = end - std::max(next_release_, counted_to_);
+  if (missed <= 0) return;
+  counted_to_ = end;
+  overruns_ += static_cast<std::uint64_t>(missed);
+  if (lane_ != nullptr)
+    lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
 }
 
 bool SubsystemExecutor::advance_operations() {
@@ -297,6 +319,7 @@ bool SubsystemExecutor::advance_operations() {
 /// Begins or ends a transition function; false when that has to wait.
 bool SubsystemExecutor::advance(std::uint32_t place) {
   Token& token = tokens_[place];
+  const Duration watchdog = operations_.parts().instance->policies.watchdog;
   if (token.phase == Phase::released_later) {
     // User code may take long: nobody must be held back meanwhile by a wait that is over.
     if (registrations_ > 0 && !register_waits()) return true;
@@ -308,14 +331,48 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     token.phase = Phase::running;
     token.due = Time::min();
     if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (watchdog > Duration::zero() && token.due > begin + watchdog)
+      returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
     if (token.due > begin) return true;
   }
-  if (watched_ || operations_.commands_devices()) renew_time();
+  if (returns_ != Time{}) {
+    token.due = std::exchange(returns_, Time{});
+    raise_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed), lane_);
+    return true;
+  }
+  if (watched_ || operations_.commands_devices() || watchdog > Duration::zero()) renew_time();
   operations_.finish_call(now_);
   gauges_.end_call(now_);
+  if (watchdog > Duration::zero()) end_alarm();
   show();
   token.phase = Phase::finished;
   return true;
+}
+
+void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) {
+  control_.mark_stalled(index_, true);
+  // Either this sees that the call is over, or the subsystem's thread sees the mark.
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (!gauges_.calling.load(std::memory_order_relaxed) ||
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns)
+    return control_.mark_stalled(index_, false);
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
+  if (!operations_.give_safe_command_from_outside())
+    console::print(LogLevel::error, clock_.now(), path(),
+                   "its devices are in use, or refuse the safe command");
+  wake_receivers();
+}
+
+void SubsystemExecutor::end_alarm() {
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (!control_.is_stalled(index_)) return;
+  control_.mark_stalled(index_, false);
+  wake_receivers();
+}
+
+void SubsystemExecutor::wake_receivers() {
+  for (const PortLink& port : operations_.parts().ports)
+    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
 }
 
 /// Once an iteration, for those who watch.
@@ -352,12 +409,12 @@ std::string_view forced_by(Guard::Kind guard) {
 SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
   const std::uint32_t transition = script_[followed_++];
   if (transition == Plan::none) {
-    fault("no condition of `next` holds");
+    fault(marked_.front(), "no condition of `next` holds");
     return {Followed::fired, Time::max(), "no initial condition"};
   }
   renew_time();
   while (advance_operations()) continue;
-  operations_.guard_effectors(now_);
+  operations_.guard_effectors(now_, name_of(marked_.front()));
   if (!try_fire(transition)) {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};
@@ -448,8 +505,8 @@ bool SubsystemExecutor::time_stands_still() {
 
 // -------------------------------------------------------------------------------------------- ends
 
-void SubsystemExecutor::fault(std::string_view text) {
-  operations_.log(LogLevel::error, text);
+void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
+  operations_.report(Fault::net, name_of(place), text);
   std::array<char, 512> reason;
   const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
   control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
@@ -459,8 +516,7 @@ void SubsystemExecutor::end() {
   static_cast<void>(register_waits());  // withdraws: nobody must yield to a subsystem that has ended
   leave();
   control_.mark_ended(index_);
-  for (const PortLink& port : operations_.parts().ports)
-    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
+  wake_receivers();
 }
 
 std::string SubsystemExecutor::whereabouts(const System& system) const {

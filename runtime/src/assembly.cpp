@@ -160,8 +160,8 @@ class Assembler {
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
-      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received),
-                                                                   std::max<std::size_t>(channel.slots, 1)));
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(
+          marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
       if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
     }
@@ -174,6 +174,18 @@ class Assembler {
     const SubsystemParts& parts = parts_[end.instance];
     const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
+  }
+
+  /// nullptr: bytes, or no end is used.
+  [[nodiscard]] const ValueType* value_type(const Channel& channel) const {
+    for (const auto& [end, side] :
+         {std::pair{&channel.from, Side::send}, std::pair{&channel.to, Side::receive}}) {
+      if (end->port.empty()) continue;
+      const SubsystemParts& parts = parts_[end->instance];
+      const std::uint32_t buffer = parts.ports[ports_[end->instance].at(end->port)].buffer;
+      return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
+    }
+    return nullptr;
   }
 
   /// false: an operation of that end is about a slot that the channel does not have.

@@ -16,6 +16,13 @@ namespace {
 /// A value of another thread may be younger than this thread's last look at the clock.
 [[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
 
+void assign(void* to, const void* from, std::size_t size, const ValueType* type) {
+  if (type == nullptr)
+    std::memcpy(to, from, size);
+  else
+    type->assign(to, from);
+}
+
 }  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
@@ -126,7 +133,7 @@ void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Outgoing& output = parts_.bindings.outputs[link.buffer];
   SharedChannel::Memory& memory = link.channel->memory(slot);
-  std::memcpy(memory.bytes.data(), output.value, output.size);
+  assign(memory.bytes.data(), output.value, output.size, output.type);
   memory.stamp = now;
   memory.valid = !failed_;
   memory.sequence = link.channel->next_sequence();
@@ -141,7 +148,7 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   input.arrival->timed_out = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
-  std::memcpy(input.value, memory.bytes.data(), input.size);
+  assign(input.value, memory.bytes.data(), input.size, input.type);
   input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
   state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
@@ -203,9 +210,10 @@ int Operations::route(std::uint16_t behaviour, Time now) {
 
 void Operations::give_safe_command() {
   for (std::size_t index = 0; index < parts_.effectors.size(); ++index) {
+    const Bindings::RealOutgoing& output = parts_.bindings.real_outputs[index];
     bool taken = false;
     try {
-      taken = parts_.effectors[index]->write(parts_.bindings.real_outputs[index].safe);
+      taken = parts_.effectors[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size});
     } catch (...) {  // the other devices must get theirs
     }
     if (!taken) log(LogLevel::error, "a real effector refused its safe command");

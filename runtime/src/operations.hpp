@@ -86,9 +86,7 @@ class Operations final : public ContextServices {
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
     return parts_.instance->net->behaviours[behaviour].takes;
   }
-  [[nodiscard]] bool has_inputs() const {
-    return !inputs_.empty() || !parts_.bindings.real_inputs.empty();
-  }
+  [[nodiscard]] bool has_inputs() const { return !inputs_.empty() || !parts_.bindings.real_inputs.empty(); }
   [[nodiscard]] bool commands_devices() const { return !parts_.effectors.empty(); }
   [[nodiscard]] bool ended_by_error() const { return erroneous_; }
   [[nodiscard]] std::uint64_t iterations() const { return calls_; }

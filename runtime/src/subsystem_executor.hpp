@@ -85,11 +85,15 @@ class SubsystemExecutor {
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
+  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock and at
+  /// RunControl.
+  static constexpr std::uint32_t look_up = 64;
+
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
   struct Token {
     Time arrival{};  // in places from which a timeout counts
-    Time due{};  // of released_later and running
+    Time due{};      // of released_later and running
     Phase phase = Phase::finished;
     std::int32_t latched = 0;             // the outcome or the entry of `next`
     std::uint32_t position = Plan::none;  // in marked_
@@ -112,7 +116,7 @@ class SubsystemExecutor {
 
   void take(std::uint32_t place);
   void put(std::uint32_t place);
-  void start_operation(std::uint32_t place);
+  void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();
@@ -145,8 +149,8 @@ class SubsystemExecutor {
   Time now_{};                  // of the last look at the clock
   bool time_is_known_ = false;  // no code of the user's has run since
   bool watched_, simulated_;
-  bool at_end_ = false;    // the token is in `out`
-  const PortLink* ports_;  // of operations_
+  bool at_end_ = false;                  // the token is in `out`
+  const PortLink* ports_;                // of operations_
   const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
 
   std::vector<Token> tokens_;              // per place

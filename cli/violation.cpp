@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cli/walk.hpp"
 #include "explore/explore.hpp"
@@ -67,6 +68,29 @@ std::vector<std::string> marked_after(const net::Net& net, const std::vector<net
   return names;
 }
 
+namespace {
+
+/// The places of channels that a run marks in the end, of those channels that somebody in it uses.
+std::vector<std::string> channels_after(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  std::set<std::uint32_t> acting, used;
+  for (const net::TransitionId id : run) acting.insert(net[id].subsystem);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    if (net[id].subsystem == net::no_subsystem || !acting.contains(net[id].subsystem)) continue;
+    for (const auto arcs : {net.preset(id), net.postset(id)})
+      for (const net::Arc& arc : arcs)
+        if (net[arc.place].fused()) used.insert(arc.place.value);
+  }
+  std::vector<std::string> names;
+  const std::optional<explore::Marking> end = explore::replay(explore::PtNet(net), run);
+  if (!end) return names;
+  for (const std::uint32_t place : used)
+    if ((*end)[place] > 0) names.push_back(net.places()[place].name);
+  return names;
+}
+
+}  // namespace
+
 std::string headline(const verify::PropertyResult& property) {
   const bool holds = property.verdict == verify::Verdict::holds;
   // What the waits say is not said twice.
@@ -83,7 +107,7 @@ std::string run_text(const net::Net& judged, const verify::PropertyResult& prope
   std::string text = fmt::format("  a run of {} firing{} shows it:\n", property.trace.size(),
                                  property.trace.size() == 1 ? "" : "s");
   text += of_layers(net) ? told(verify::narrate(net, property.trace)) : listed(net, property.trace);
-  const std::vector<std::string> channels = marked_after(net, property.trace, true);
+  const std::vector<std::string> channels = channels_after(net, property.trace);
   if (!channels.empty()) text += "  channels at the end:\n";
   for (std::size_t index = 0; index < std::min(channels.size(), shown_channels); ++index)
     text += "    " + channels[index] + "\n";

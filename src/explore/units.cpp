@@ -1,6 +1,9 @@
 #include "explore/units.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace tessera::explore {
 namespace {
@@ -17,7 +20,6 @@ class UnitSearch {
   UnitSearch(const PtNet& net, const std::vector<char>& covered)
       : net_(net), covered_(covered), state_(net.places(), State::open) {
     for (std::uint32_t place = 0; place < net.places(); ++place) {
-      if (net.initial()[place] == 1) marked_.push_back(place);
       const bool heavy = std::ranges::any_of(
           net.of_place(place), [](const Touch& touch) { return touch.consumes > 1 || touch.produces > 1; });
       if (heavy || net.initial()[place] > 1) state_[place] = State::never;
@@ -40,15 +42,27 @@ class UnitSearch {
   enum class State : std::uint8_t { open, in, out, never };
   static constexpr int guesses_per_place = 256;
 
+  /// Beside a place with the token of the unit no other with a token can be in it.
+  [[nodiscard]] bool is_open(std::uint32_t place) const {
+    return state_[place] == State::open && (token_at_ == nowhere || net_.initial()[place] == 0);
+  }
+
   bool decide(std::uint32_t place, State state) {
     if (state_[place] != State::open) return (state_[place] == State::in) == (state == State::in);
+    if (state == State::in && net_.initial()[place] == 1) {
+      if (token_at_ != nowhere) return false;
+      token_at_ = place;
+    }
     state_[place] = state;
     trail_.push_back(place);
     return true;
   }
 
   void take_back(std::size_t length) {
-    for (; trail_.size() > length; trail_.pop_back()) state_[trail_.back()] = State::open;
+    for (; trail_.size() > length; trail_.pop_back()) {
+      state_[trail_.back()] = State::open;
+      if (trail_.back() == token_at_) token_at_ = nowhere;
+    }
     settled_ = std::min(settled_, length);
   }
 
@@ -57,18 +71,12 @@ class UnitSearch {
     while (settled_ < trail_.size()) {
       const std::uint32_t place = trail_[settled_++];
       const bool in = state_[place] == State::in;
-      if (in && net_.initial()[place] == 1 && !keep_out(marked_, place)) return false;
       for (const Touch& touch : net_.of_place(place)) {
         if (in && !keep_rivals_out(touch, place)) return false;
         if (!balance(touch.node)) return false;
       }
     }
     return true;
-  }
-
-  bool keep_out(const std::vector<std::uint32_t>& places, std::uint32_t but) {
-    return std::ranges::all_of(
-        places, [&](std::uint32_t place) { return place == but || decide(place, State::out); });
   }
 
   bool keep_rivals_out(const Touch& touch, std::uint32_t place) {
@@ -93,7 +101,7 @@ class UnitSearch {
       const State state = state_[touch.node];
       sides.takes |= state == State::in && touch.consumes > 0;
       sides.gives |= state == State::in && touch.produces > 0;
-      if (state != State::open) continue;
+      if (!is_open(touch.node)) continue;
       if (touch.consumes > 0) ++sides.takers, sides.taker = touch.node;
       if (touch.produces > 0) ++sides.givers, sides.giver = touch.node;
     }
@@ -111,46 +119,49 @@ class UnitSearch {
 
   /// A guess that can be replaced by the next of its candidates.
   struct Guess {
-    std::size_t trail;
+    std::size_t trail;                      // its length before
+    std::size_t even;                       // the members before this one of the trail touch nothing uneven
     std::vector<std::uint32_t> candidates;  // the next one last
   };
 
   bool complete() {
     std::vector<Guess> guesses;
     bool consistent = settle();
+    std::size_t even = 0;
     while (true) {
-      if (!consistent) {
-        while (!guesses.empty() && guesses.back().candidates.empty()) guesses.pop_back();
-        if (guesses.empty() || --guesses_left_ < 0) return false;
-        take_back(guesses.back().trail);
-      } else {
-        Guess next = next_guess();
-        if (next.candidates.empty()) return true;
-        guesses.push_back(std::move(next));
+      if (consistent) {
+        std::optional<Guess> next = next_guess(even);
+        if (!next) return true;
+        guesses.push_back(std::move(*next));
       }
-      const std::uint32_t place = guesses.back().candidates.back();
-      guesses.back().candidates.pop_back();
+      while (!guesses.empty() && guesses.back().candidates.empty()) guesses.pop_back();
+      if (guesses.empty() || (!consistent && --guesses_left_ < 0)) return false;
+      Guess& guess = guesses.back();
+      take_back(guess.trail);
+      even = guess.even;
+      const std::uint32_t place = guess.candidates.back();
+      guess.candidates.pop_back();
       consistent = decide(place, State::in) && settle();
     }
   }
 
-  /// The ways to balance some uneven transition, none if all are even. Places of no unit yet are tried first.
-  Guess next_guess() {
-    for (const std::uint32_t member : trail_) {
-      if (state_[member] != State::in) continue;
-      for (const Touch& touch : net_.of_place(member)) {
+  /// The ways to balance the first uneven transition, nullopt if all are even. Places of no unit yet are
+  /// tried first.
+  std::optional<Guess> next_guess(std::size_t even) {
+    for (; even < trail_.size(); ++even) {
+      if (state_[trail_[even]] != State::in) continue;
+      for (const Touch& touch : net_.of_place(trail_[even])) {
         const Sides now = sides(touch.node);
-        if (uneven(now)) return {trail_.size(), candidates(touch.node, now.takes)};
+        if (uneven(now)) return Guess{trail_.size(), even, candidates(touch.node, now.takes)};
       }
     }
-    return {};
+    return std::nullopt;
   }
 
   std::vector<std::uint32_t> candidates(std::uint32_t transition, bool giving) const {
     std::vector<std::uint32_t> open;
     for (const Touch& touch : net_.of_transition(transition))
-      if (state_[touch.node] == State::open && (giving ? touch.produces : touch.consumes) > 0)
-        open.push_back(touch.node);
+      if (is_open(touch.node) && (giving ? touch.produces : touch.consumes) > 0) open.push_back(touch.node);
     std::ranges::stable_sort(open,
                              [&](std::uint32_t a, std::uint32_t b) { return covered_[a] > covered_[b]; });
     return open;
@@ -159,7 +170,8 @@ class UnitSearch {
   const PtNet& net_;
   const std::vector<char>& covered_;
   std::vector<State> state_;
-  std::vector<std::uint32_t> marked_;  // initially
+  static constexpr std::uint32_t nowhere = UINT32_MAX;
+  std::uint32_t token_at_ = nowhere;  // the place in the set that is marked initially
   std::vector<std::uint32_t> trail_;
   std::size_t settled_ = 0;
   Losses losses_ = Losses::forbidden;

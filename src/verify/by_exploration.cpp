@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "verify/causes.hpp"
 #include "verify/claims.hpp"
 #include "verify/decider.hpp"
 #include "verify/exploration.hpp"
@@ -93,10 +94,13 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
   Finding finding = judged(found[worst], Found::Kind::yes);
   finding.subjects = {sets[worst]->id};
   if (finding.kind != Finding::Kind::violated) return finding;
+  std::vector<TransitionId> stuck = sets[worst]->any_of;
+  finding.trace = causes_of_standstill(given.probed.net, std::move(finding.trace), stuck);
   // Probes change nothing, and the net that is shown has none.
-  std::erase_if(finding.trace, [&](TransitionId id) { return id.value >= given.probed.transitions; });
-  const TransitionId first = sets[worst]->any_of.front();
-  finding.waits = waits_after(given.abstract, finding.trace, {given.probed.net[first].subsystem});
+  for (std::vector<TransitionId>* ids : {&finding.trace, &stuck})
+    std::erase_if(*ids, [&](TransitionId id) { return id.value >= given.probed.transitions; });
+  finding.trace = until_all_concerned_wait(given.abstract, std::move(finding.trace), stuck);
+  finding.waits = waits_after(given.abstract, finding.trace, {given.abstract[stuck.front()].subsystem});
   return finding;
 }
 

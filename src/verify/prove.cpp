@@ -176,7 +176,7 @@ class Prover {
     for (const auto& decider : portfolio()) {
       const bool allowed = options_.method.empty() || options_.method == decider->name();
       if (!allowed || !answering.wants(*decider)) continue;
-      const explore::Limits limits = limits_for(name, answering.only_run() ? 0.3 : 1);
+      const explore::Limits limits = answering.only_run() ? limits_for(name, 0.15, 0.25) : limits_for(name);
       if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
         answering.hear(std::move(*finding), *decider);
     }
@@ -184,11 +184,12 @@ class Prover {
   }
 
   /// The time that is left is shared among the properties that are left.
-  [[nodiscard]] explore::Limits limits_for(const std::string& name, double share) const {
+  [[nodiscard]] explore::Limits limits_for(const std::string& name, double time = 1,
+                                           double memory = 1) const {
     explore::Limits limits;
     const Seconds left = options_.time - Seconds(Clock::now() - start_);
-    limits.time = std::max(Seconds(0), left * share / static_cast<double>(std::max<std::size_t>(left_, 1)));
-    limits.bytes = options_.bytes;
+    limits.time = std::max(Seconds(0), left * time / static_cast<double>(std::max<std::size_t>(left_, 1)));
+    limits.bytes = static_cast<std::uint64_t>(static_cast<double>(options_.bytes) * memory);
     limits.stop = options_.stop;
     if (options_.progress)
       limits.progress = [this, &name](const explore::Progress& progress) {

@@ -111,7 +111,31 @@ std::vector<Fault> made() {
   const auto handles_error = [](const std::string& handler) {
     return "go: { error: in.x.v < 0, next: [{ to: safe, when: error }, go] }, safe: { " + handler + " }";
   };
+  const auto of_author = [](const std::string& text, const std::string& property) {
+    return text + "properties:\n  - { name: mine, " + property + " }\n";
+  };
+  const std::string turns = "go: { terminal: in.x.v > 1, next: wait }, wait: { terminal: true, next: go }";
   return {
+      {"two in the workspace at once",
+       of_author(pair("enter: {}", "enter: {}", "", ""), "never: a.control.enter.in and b.control.enter.in"),
+       of_author(pair("hear: { send: [], terminal: true, next: enter }, enter: { send: [], terminal: true, "
+                      "next: tell }, tell: { receive: [], terminal: true, next: hear }",
+                      "enter: { send: [], receive: [], terminal: true, next: tell }, tell: { receive: [], "
+                      "terminal: true, next: hear }, hear: { send: [], terminal: true, next: enter }",
+                      receives, receives),
+                 "never: a.control.enter.in and b.control.enter.in"),
+       "mine"},
+      {"a state that is never left",
+       of_author(line("go: {}", "go: { terminal: in.x.v > 1, next: stop }, stop: {}", ""),
+                 "always_reachable: b.control.go"),
+       of_author(line("go: {}", turns, ""), "always_reachable: b.control.go"), "mine"},
+      {"a request without an answer",
+       of_author(line("ask: { terminal: true, next: rest }, rest: {}", "wait: {}, grant: {}", ""),
+                 "leads_to: [a.control.ask, b.control.grant]"),
+       of_author(line("ask: { terminal: true, next: rest }, rest: {}",
+                      "wait: { terminal: in.x.v > 1, next: grant }, grant: {}", ""),
+                 "leads_to: [a.control.ask, b.control.grant]"),
+       "mine"},
       {"crossed blocking receives", pair(listens_first, listens_first, receives, receives),
        pair(tells_first, tells_first, receives, receives), "deadlock_free"},
       {"crossed blocking sends", pair("go: {}", "go: {}", both, both),

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "layers/layers.hpp"
+#include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "spec/parser.hpp"
 
@@ -13,6 +14,7 @@ struct Built {
   spec::Model model;
   net::HierarchicalNet pages;
   net::Net net;
+  std::vector<net::Property> properties;
 };
 
 Built built(const std::string& text) {
@@ -20,8 +22,9 @@ Built built(const std::string& text) {
   auto model = spec::parse(source);
   auto pages = model ? layers::build(*model, source) : std::nullopt;
   auto net = pages ? net::flatten(*pages, source) : std::nullopt;
-  if (!net) throw std::runtime_error(render(source) + text);
-  return {std::move(*model), std::move(*pages), std::move(*net)};
+  auto properties = net ? layers::properties(*model, *pages, *net, source) : std::nullopt;
+  if (!properties) throw std::runtime_error(render(source) + text);
+  return {std::move(*model), std::move(*pages), std::move(*net), std::move(*properties)};
 }
 
 }  // namespace
@@ -31,7 +34,7 @@ Proved proved(const std::string& text) {
   ProveOptions options;
   options.time = std::chrono::seconds(20);
   const std::vector<net::Invariant> invariants = layers::invariants(all.model, all.pages, all.net);
-  Report report = prove({all.net, &all.pages, invariants}, options);
+  Report report = prove({all.net, &all.pages, invariants, all.properties}, options);
   return {std::move(all.net), std::move(report)};
 }
 

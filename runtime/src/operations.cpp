@@ -172,8 +172,6 @@ void Operations::note_answer(std::uint32_t port) {
 }
 
 void Operations::refresh_ages(Time now) {
-  if (now == ages_of_) return;
-  ages_of_ = now;
   for (std::size_t index = 0; index < inputs_.size(); ++index) {
     Arrival& arrival = *parts_.bindings.inputs[index].arrival;
     if (inputs_[index].sequence != 0) arrival.age = age(arrival.stamp, now);

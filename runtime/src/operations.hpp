@@ -116,7 +116,6 @@ class Operations final : public ContextServices {
     bool used = false;  // some behaviour receives it
   };
   std::vector<InputState> inputs_;  // as Bindings::inputs
-  Time ages_of_ = Time::min();      // when the ages that inputs say were right
   std::uint64_t iteration_ = 0;     // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
   std::uint16_t behaviour_ = 0;  // the last called

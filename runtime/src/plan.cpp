@@ -183,23 +183,10 @@ class Compilation {
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
     }
     plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
-    join_departures();
-  }
-
-  void join_departures() {
+    for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
     for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
-      Plan::PlaceEntry& entry = plan_.places[place];
-      entry.rests = entry.does == Does::Kind::nothing && !entry.timed && place != plan_.out;
-    }
-    for (const std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
-    for (std::uint32_t place = 0; place < plan_.places.size(); ++place)
-      if (plan_.first_leaving[place] != plan_.first_leaving[place + 1])
-        plan_.departures[plan_.first_leaving[place + 1] - 1].last_way = true;
-    for (Plan::TransitionEntry& departure : plan_.departures) {
-      if (departure.to == Plan::none) continue;
-      departure.onwards = plan_.way_from(departure.to);
-      departure.moves_only = departure.port == Plan::none && departure.guard.kind == Guard::Kind::none &&
-                             plan_.places[departure.to].rests;
+      plan_.places[place].first_departure = plan_.first_leaving[place];
+      plan_.places[place].end_of_departures = plan_.first_leaving[place + 1];
     }
   }
 

@@ -11,22 +11,17 @@
 namespace tessera {
 
 /// The net of a subsystem made ready to be fired: names resolved to indices, arcs in compressed rows.
-/// Instances with the same tables share one. Immutable. Its transitions point to each other: to be moved, not
-/// copied.
+/// Instances with the same tables share one. Immutable.
 struct Plan {
-  Plan() = default;
-  Plan(Plan&&) = default;
-  Plan& operator=(Plan&&) = default;
-
   static constexpr std::uint32_t none = UINT32_MAX;
 
   struct PlaceEntry {
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< that is written or read, from 0
-    bool rests = false;         ///< a token that arrives starts nothing, and no timeout counts from it
     std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
-    bool timed = false;         ///< a timeout counts from the arrival of its token
+    std::uint32_t first_departure = 0, end_of_departures = 0;  ///< into departures
+    bool timed = false;  ///< a timeout counts from the arrival of its token
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;
@@ -43,9 +38,6 @@ struct Plan {
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
-    bool moves_only = false;  ///< from `from` to `to`, where a token rests, always, without a channel
-    bool last_way = false;    ///< of those in departures that leave the same place
-    const TransitionEntry* onwards = nullptr;  ///< of `to`: the first of departures; nullptr: there is none
     bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
   };
   struct PortEntry {
@@ -70,10 +62,9 @@ struct Plan {
   [[nodiscard]] std::span<const std::uint32_t> leaving_of(std::uint32_t place) const {
     return std::span(leaving).subspan(first_leaving[place], first_leaving[place + 1] - first_leaving[place]);
   }
-  /// The first transition that takes from it; the others follow, up to last_way. nullptr: none.
-  [[nodiscard]] const TransitionEntry* way_from(std::uint32_t place) const {
-    return first_leaving[place] == first_leaving[place + 1] ? nullptr
-                                                            : departures.data() + first_leaving[place];
+  [[nodiscard]] std::span<const TransitionEntry> departures_of(std::uint32_t place) const {
+    return {departures.data() + places[place].first_departure,
+            departures.data() + places[place].end_of_departures};
   }
 };
 

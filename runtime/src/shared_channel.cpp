@@ -37,51 +37,7 @@ SharedChannel::~SharedChannel() {
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,
                             std::vector<std::uint16_t> needs) {
   assert(needs.size() <= max_needs);
-  parties_[static_cast<std::size_t>(side)] = {
-      .seen = word_.load(),
-      .unusual = Word::insisting | Word::field << Word::wants_shift(side),
-      .others_wants = Word::field << Word::wants_shift(other(side)),
-      .last = side == Side::receive ? Word::receiver_last : 0,
-      .waker = waker,
-      .instance = instance,
-      .needs = std::move(needs)};
-}
-
-SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint16_t wants) const {
-  return {(bits & ~(field << wants_shift(side))) | static_cast<std::uint64_t>(wants) << wants_shift(side)};
-}
-
-SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uint16_t taken,
-                                                      std::uint16_t given) const {
-  std::uint32_t next = version() + 1;
-  if (next == 0) next = 1;  // 0 means "no channel" in a recording
-  const auto marked = static_cast<std::uint64_t>((marking() & ~taken) | given);
-  const std::uint64_t wanted = bits & field << wants_shift(other(side));
-  const std::uint64_t insists = wants(side) != 0 ? 0 : bits & insisting;  // it has had its turn
-  const std::uint64_t last = side == Side::receive ? receiver_last : 0;
-  return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
-}
-
-bool SharedChannel::may_take(Word word, Side side, std::uint16_t need) const {
-  if (need == 0) return true;
-  return (word.marking() & need) == need && !must_yield(word, side);
-}
-
-/// As fire, whatever the word is.
-std::uint32_t SharedChannel::fire_anyhow(Side side, std::uint16_t taken, std::uint16_t produced) {
-  std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
-  if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);
-  for (;;) {
-    const Word before{seen};
-    if (!may_take(before, side, taken)) return 0;
-    const Word after = before.after_firing(side, taken, produced);
-    if (word_.compare_exchange_weak(seen, after.bits, std::memory_order_acq_rel, std::memory_order_acquire)) {
-      assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
-      seen = after.bits;
-      if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
-      return after.version();
-    }
-  }
+  parties_[static_cast<std::size_t>(side)] = {word_.load(), waker, instance, std::move(needs)};
 }
 
 bool SharedChannel::wait(Side side, std::uint16_t wants) {

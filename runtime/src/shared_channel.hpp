@@ -111,8 +111,7 @@ class alignas(64) SharedChannel {
     [[nodiscard]] Word after_firing(Side side, std::uint16_t taken, std::uint16_t given) const;
   };
   struct alignas(64) Party {
-    std::uint64_t seen = 0;                                 // the word as this side left or found it; its own
-    std::uint64_t unusual = 0, others_wants = 0, last = 0;  // bits: see fire
+    std::uint64_t seen = 0;  // the word as this side left or found it; its own
     Waker* waker = nullptr;
     std::uint32_t instance = 0;
     std::vector<std::uint16_t> needs;
@@ -120,13 +119,15 @@ class alignas(64) SharedChannel {
   [[nodiscard]] static constexpr Side other(Side side) {
     return side == Side::send ? Side::receive : Side::send;
   }
-  [[nodiscard]] bool may_take(Word word, Side side, std::uint16_t need) const;
+  [[nodiscard]] bool may_take(Word word, Side side, std::uint16_t need) const {
+    if (need == 0) return true;
+    return (word.marking() & need) == need && !must_yield(word, side);
+  }
   [[nodiscard]] bool waits_for_met_need(Word word, Side side) const;
   [[nodiscard]] bool must_yield(Word word, Side side) const {
     return word.insists() && word.last_was(side) && waits_for_met_need(word, other(side));
   }
   void wake_if_ready(Word word, Side side);
-  [[nodiscard]] std::uint32_t fire_anyhow(Side side, std::uint16_t taken, std::uint16_t produced);
   [[nodiscard]] const Party& party(Side side) const { return parties_[static_cast<std::size_t>(side)]; }
 
   std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
@@ -136,22 +137,37 @@ class alignas(64) SharedChannel {
   alignas(64) std::uint64_t writes_ = 0;  // the sender's own
 };
 
+inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint16_t wants) const {
+  return {(bits & ~(field << wants_shift(side))) | static_cast<std::uint64_t>(wants) << wants_shift(side)};
+}
+
+inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uint16_t taken,
+                                                             std::uint16_t given) const {
+  std::uint32_t next = version() + 1;
+  if (next == 0) next = 1;  // 0 means "no channel" in a recording
+  const auto marked = static_cast<std::uint64_t>((marking() & ~taken) | given);
+  const std::uint64_t wanted = bits & field << wants_shift(other(side));
+  const std::uint64_t insists = wants(side) != 0 ? 0 : bits & insisting;  // it has had its turn
+  const std::uint64_t last = side == Side::receive ? receiver_last : 0;
+  return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
+}
+
 /// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once
-/// to change. As a rule this side is not registered and nobody insists.
+/// to change.
 inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
-  Party& own = parties_[static_cast<std::size_t>(side)];
-  const std::uint64_t before = own.seen;
-  if ((before & (taken | own.unusual)) != taken) return fire_anyhow(side, taken, produced);
-  const std::uint64_t after =
-      ((before & ~(taken | Word::receiver_last)) | produced | own.last) + (std::uint64_t{1} << 32);
-  const auto version = static_cast<std::uint32_t>(after >> 32);
-  if (version == 0 ||
-      !word_.compare_exchange_strong(own.seen, after, std::memory_order_acq_rel, std::memory_order_acquire))
-    return fire_anyhow(side, taken, produced);
-  assert((before & ~taken & produced) == 0 && "the net is not safe");
-  own.seen = after;
-  if ((after & own.others_wants) != 0) wake_if_ready({after}, other(side));
-  return version;
+  std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
+  if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);
+  for (;;) {
+    const Word before{seen};
+    if (!may_take(before, side, taken)) return 0;
+    const Word after = before.after_firing(side, taken, produced);
+    if (word_.compare_exchange_weak(seen, after.bits, std::memory_order_acq_rel, std::memory_order_acquire)) {
+      assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
+      seen = after.bits;
+      if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
+      return after.version();
+    }
+  }
 }
 
 inline std::uint16_t SharedChannel::marking() const {

@@ -19,7 +19,6 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       clock_(shared.clock),
       waker_(shared.waker),
       lane_(lane),
-      quietly_(lane == nullptr ? look_up - 1 : 0),
       watched_(shared.watched),
       simulated_(shared.clock.simulated()),
       ports_(operations_.parts().ports.data()),
@@ -80,47 +79,29 @@ Time SubsystemExecutor::now() {
 bool SubsystemExecutor::fire_one() {
   if (marked_.size() == 1) return walk();
   for (const std::uint32_t place : marked_)
-    if (tokens_[place].phase == Phase::finished && fire_from(plan_->way_from(place)) != nullptr) return true;
+    if (tokens_[place].phase == Phase::finished && fire_from(place) != nullptr) return true;
   return false;
 }
 
-/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can, through
-/// the transition functions too.
+/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can.
 bool SubsystemExecutor::walk() {
   std::uint32_t place = marked_.front();
-  const Plan::TransitionEntry* way = plan_->way_from(place);
   bool walked = false;
-  for (;;) {
-    if (tokens_[place].phase != Phase::finished) {
-      if (simulated_ || now_ < tokens_[place].due || !advance(place)) break;
-      walked = true;
-      if (control_.stopping()) break;
-      continue;
-    }
-    const Plan::TransitionEntry* const fired = fire_from(way);
-    if (fired == nullptr) break;
+  while (tokens_[place].phase == Phase::finished) {
+    const Plan::TransitionEntry* const fired = fire_from(place);
+    if (fired == nullptr) return walked;
     walked = true;
     // Now and then it looks up: at the clock, and whether the run is to stop.
     if (fired->to == Plan::none || simulated_ || marked_.size() != 1 || firings_ % look_up == 0) break;
     place = fired->to;
-    way = fired->onwards;
   }
   return walked;
 }
 
-/// Fires the first that may of the transitions that leave one place, whose token has finished.
-inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(const Plan::TransitionEntry* way) {
-  for (; way != nullptr; way = way->last_way ? nullptr : way + 1) {
-    if (way->moves_only && marked_.size() == 1) {
-      note_firing(*way, 0);
-      tokens_[way->from].position = Plan::none;
-      tokens_[way->to].position = 0;
-      tokens_[way->to].phase = Phase::finished;
-      marked_.front() = way->to;
-      return way;
-    }
-    const bool enabled = way->from != Plan::none || locally_enabled(*way);
-    if (enabled && fire_enabled(*way)) return way;
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(std::uint32_t place) {
+  for (const Plan::TransitionEntry& transition : plan_->departures_of(place)) {
+    const bool enabled = transition.from != Plan::none || locally_enabled(transition);
+    if (enabled && fire_enabled(transition)) return &transition;
   }
   return nullptr;
 }
@@ -176,33 +157,21 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   return arrival + timeout;
 }
 
-inline void SubsystemExecutor::note_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
-  if ((++firings_ & quietly_) != 0) return;
-  renew_time();
-  if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
-}
-
-/// A token to another place of the subsystem.
-inline void SubsystemExecutor::move(std::uint32_t from, std::uint32_t to) {
-  if (marked_.size() != 1) {
-    take(from);
-    return put(to);
-  }
-  tokens_[from].position = Plan::none;
-  tokens_[to].position = 0;
-  marked_.front() = to;
-  arrive(to);
-}
-
 inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
-  note_firing(transition, version);
+  if (++firings_ % look_up == 0 || lane_ != nullptr) renew_time();
+  if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
   if (transition.tells_of_timeout) {
     if (transition.guard.kind == Guard::Kind::elapsed)
       operations_.note_timeout(transition.port);
     else
       operations_.note_answer(transition.port);
   }
-  if (transition.to != Plan::none) return move(transition.from, transition.to);
+  if (transition.to != Plan::none && marked_.size() == 1) {
+    tokens_[transition.from].position = Plan::none;
+    tokens_[transition.to].position = 0;
+    marked_.front() = transition.to;
+    return arrive(transition.to);
+  }
   for (const std::uint32_t place : plan_->inputs(transition)) take(place);
   for (const std::uint32_t place : plan_->outputs(transition)) put(place);
 }
@@ -231,7 +200,6 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
   const Plan::PlaceEntry& entry = plan_->places[place];
   Token& token = tokens_[place];
   token.phase = Phase::finished;
-  if (entry.rests) return;
   if (entry.timed) {
     renew_time();
     token.arrival = now_;

@@ -106,14 +106,12 @@ class SubsystemExecutor {
   [[nodiscard]] bool fire_one();
   [[nodiscard]] bool try_fire(std::uint32_t transition);
   [[nodiscard]] bool walk();
-  [[nodiscard]] const Plan::TransitionEntry* fire_from(const Plan::TransitionEntry* way);
+  [[nodiscard]] const Plan::TransitionEntry* fire_from(std::uint32_t place);
   [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
   [[nodiscard]] bool outwait_peer();
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
-  void note_firing(const Plan::TransitionEntry& transition, std::uint32_t version);
-  void move(std::uint32_t from, std::uint32_t to);
   void after_firing(const Plan::TransitionEntry& transition, std::uint32_t version);
 
   void take(std::uint32_t place);
@@ -150,7 +148,6 @@ class SubsystemExecutor {
 
   Time now_{};                  // of the last look at the clock
   bool time_is_known_ = false;  // no code of the user's has run since
-  std::uint64_t quietly_;       // of the count of firings: all bits 0: look up, and record
   bool watched_, simulated_;
   bool at_end_ = false;                  // the token is in `out`
   const PortLink* ports_;                // of operations_

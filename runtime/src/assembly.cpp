@@ -188,7 +188,7 @@ class Assembler {
       for (const Bindings::RealOutgoing& output : parts.bindings.real_outputs)
         parts.effectors.push_back(with_faults(finder.effector(fmt::format("{}.{}", parts.path, output.name)),
                                               faults_of(parts.index, output.name, of_device), clock_,
-                                              output.safe));
+                                              output.safe.get()));
     }
     error_ = finder.complaints();
     return error_.empty();
@@ -203,8 +203,8 @@ class Assembler {
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
-      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received),
-                                                                   std::max<std::size_t>(channel.slots, 1)));
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(
+          marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
       if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
     }
@@ -217,6 +217,18 @@ class Assembler {
     const SubsystemParts& parts = parts_[end.instance];
     const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
+  }
+
+  /// nullptr: bytes, or no end is used.
+  [[nodiscard]] const ValueType* value_type(const Channel& channel) const {
+    for (const auto& [end, side] :
+         {std::pair{&channel.from, Side::send}, std::pair{&channel.to, Side::receive}}) {
+      if (end->port.empty()) continue;
+      const SubsystemParts& parts = parts_[end->instance];
+      const std::uint32_t buffer = parts.ports[ports_[end->instance].at(end->port)].buffer;
+      return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
+    }
+    return nullptr;
   }
 
   /// false: an operation of that end is about a slot that the channel does not have.

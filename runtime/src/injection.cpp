@@ -236,11 +236,10 @@ class FaultyReceptor final : public RealReceptor {
 /// Refuses commands.
 class FaultyEffector final : public RealEffector {
  public:
-  FaultyEffector(std::unique_ptr<RealEffector> inner, Injections faults, const Clock& clock,
-                 std::vector<std::byte> safe)
-      : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock), safe_(std::move(safe)) {}
+  FaultyEffector(std::unique_ptr<RealEffector> inner, Injections faults, const Clock& clock, const void* safe)
+      : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock), safe_(safe) {}
   bool write(std::span<const std::byte> value) override {
-    const bool is_safe = std::equal(value.begin(), value.end(), safe_.begin(), safe_.end());
+    const bool is_safe = value.data() == safe_;
     if (!is_safe && happening(faults_, clock_.now()) != nullptr) return false;
     return inner_->write(value);
   }
@@ -249,7 +248,7 @@ class FaultyEffector final : public RealEffector {
   std::unique_ptr<RealEffector> inner_;
   Injections faults_;
   const Clock& clock_;
-  std::vector<std::byte> safe_;
+  const void* safe_;
 };
 
 }  // namespace
@@ -261,9 +260,9 @@ std::unique_ptr<RealReceptor> with_faults(std::unique_ptr<RealReceptor> device, 
 }
 
 std::unique_ptr<RealEffector> with_faults(std::unique_ptr<RealEffector> device, Injections faults,
-                                          const Clock& clock, std::vector<std::byte> safe) {
+                                          const Clock& clock, const void* safe) {
   if (device == nullptr || faults.empty()) return device;
-  return std::make_unique<FaultyEffector>(std::move(device), std::move(faults), clock, std::move(safe));
+  return std::make_unique<FaultyEffector>(std::move(device), std::move(faults), clock, safe);
 }
 
 }  // namespace tessera

@@ -105,9 +105,9 @@ class InjectedSignals {
 /// The device, or one with faults around it.
 [[nodiscard]] std::unique_ptr<RealReceptor> with_faults(std::unique_ptr<RealReceptor> device,
                                                         Injections faults, const Clock& clock);
-/// safe: the command that the faults let pass, for what is tested is whether it is given.
+/// safe: where the command is that the faults let pass, for what is tested is whether it is given.
 [[nodiscard]] std::unique_ptr<RealEffector> with_faults(std::unique_ptr<RealEffector> device,
                                                         Injections faults, const Clock& clock,
-                                                        std::vector<std::byte> safe);
+                                                        const void* safe);
 
 }  // namespace tessera

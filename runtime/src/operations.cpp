@@ -13,9 +13,6 @@
 namespace tessera {
 namespace {
 
-/// A value of another thread may be younger than this thread's last look at the clock.
-[[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
-
 /// One thread at a time writes to the effectors of a subsystem. Others come only when it stalls, so this
 /// costs no system call as a rule.
 class DeviceLock {
@@ -34,6 +31,16 @@ class DeviceLock {
   std::atomic_flag& in_use_;
 };
 
+/// A value of another thread may be younger than this thread's last look at the clock.
+[[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
+
+void assign(void* to, const void* from, std::size_t size, const ValueType* type) {
+  if (type == nullptr)
+    std::memcpy(to, from, size);
+  else
+    type->assign(to, from);
+}
+
 }  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
@@ -48,11 +55,11 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
   }
-  context_.attach(this);
-  context_.period = parts_.instance->period;
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
+  context_.attach(this);
+  context_.period = parts_.instance->period;
 }
 
 /// Runs user code; false when it threw. Nothing a user throws gets past here. activity: in front of what was
@@ -179,7 +186,7 @@ void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Outgoing& output = parts_.bindings.outputs[link.buffer];
   SharedChannel::Memory& memory = link.channel->memory(slot);
-  std::memcpy(memory.bytes.data(), output.value, output.size);
+  assign(memory.bytes.data(), output.value, output.size, output.type);
   memory.stamp = now;
   memory.valid = !failed_;
   memory.sequence = link.channel->next_sequence();
@@ -194,7 +201,7 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   input.arrival->timed_out = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
-  std::memcpy(input.value, memory.bytes.data(), input.size);
+  assign(input.value, memory.bytes.data(), input.size, input.type);
   input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
   state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
@@ -273,8 +280,11 @@ bool Operations::give_safe_command_from_outside() {
 bool Operations::write_safe_command() {
   bool taken = true;
   for (std::size_t index = 0; index < parts_.effectors.size(); ++index) {
+    const Bindings::RealOutgoing& output = parts_.bindings.real_outputs[index];
     try {
-      taken = parts_.effectors[index]->write(parts_.bindings.real_outputs[index].safe) && taken;
+      taken =
+          parts_.effectors[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) &&
+          taken;
     } catch (...) {  // the other devices must get theirs
       taken = false;
     }

@@ -38,7 +38,7 @@ struct Plan {
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
-    bool answers_in_time = false;           ///< the untimed way out of a place that also has a timed one
+    bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits

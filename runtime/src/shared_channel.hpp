@@ -49,7 +49,12 @@ class alignas(64) SharedChannel {
   static constexpr std::size_t max_places = 10;
   static constexpr std::size_t max_needs = 10;  ///< different ones, per side
 
-  SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1);
+  /// type: of the values, if they are more than their bytes.
+  SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1,
+                const ValueType* type = nullptr);
+  ~SharedChannel();
+  SharedChannel(const SharedChannel&) = delete;
+  SharedChannel& operator=(const SharedChannel&) = delete;
 
   /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
@@ -128,6 +133,7 @@ class alignas(64) SharedChannel {
   std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
   std::array<Party, 2> parties_;
   std::vector<Memory> slots_;
+  const ValueType* type_;
   alignas(64) std::uint64_t writes_ = 0;  // the sender's own
 };
 

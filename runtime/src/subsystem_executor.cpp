@@ -22,7 +22,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       clock_(shared.clock),
       waker_(shared.waker),
       lane_(lane),
-      watched_(shared.watched),
+      watched_(shared.watched || operations_.parts().instance->policies.watchdog > Duration::zero()),
       simulated_(shared.clock.simulated()),
       ports_(operations_.parts().ports.data()),
       tokens_(plan_->places.size()),
@@ -96,8 +96,9 @@ bool SubsystemExecutor::walk() {
     const Plan::TransitionEntry* const fired = fire_from(place);
     if (fired == nullptr) return walked;
     walked = true;
-    if (simulated_ || marked_.size() != 1 || at_end_ || control_.stopping()) break;
-    place = marked_.front() == fired->to ? fired->to : marked_.front();
+    // Now and then it looks up: at the clock, and whether the run is to stop.
+    if (fired->to == Plan::none || simulated_ || marked_.size() != 1 || firings_ % look_up == 0) break;
+    place = fired->to;
   }
   return walked;
 }
@@ -162,20 +163,19 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
 }
 
 inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
-  ++firings_;
-  if (firings_ % 64 == 0) renew_time();  // however long it goes on without code of the user's
-  if (lane_ != nullptr) {
-    renew_time();
-    lane_->firing(now_, first_transition_ + transition.index, version);
+  if (++firings_ % look_up == 0 || lane_ != nullptr) renew_time();
+  if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
+  if (transition.tells_of_timeout) {
+    if (transition.guard.kind == Guard::Kind::elapsed)
+      operations_.note_timeout(transition.port);
+    else
+      operations_.note_answer(transition.port);
   }
-  if (transition.guard.kind == Guard::Kind::elapsed)
-    operations_.note_timeout(transition.port);
-  else if (transition.answers_in_time && transition.port != Plan::none)
-    operations_.note_answer(transition.port);
-  if (transition.from != Plan::none) {
-    take(transition.from);
-    put(transition.to);
-    return;
+  if (transition.to != Plan::none && marked_.size() == 1) {
+    tokens_[transition.from].position = Plan::none;
+    tokens_[transition.to].position = 0;
+    marked_.front() = transition.to;
+    return arrive(transition.to);
   }
   for (const std::uint32_t place : plan_->inputs(transition)) take(place);
   for (const std::uint32_t place : plan_->outputs(transition)) put(place);
@@ -184,7 +184,7 @@ inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transit
 // -------------------------------------------------------------------------------------------- tokens,
 // operations
 
-inline void SubsystemExecutor::take(std::uint32_t place) {
+void SubsystemExecutor::take(std::uint32_t place) {
   const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
   marked_[hole] = marked_.back();
   tokens_[marked_[hole]].position = hole;
@@ -192,22 +192,23 @@ inline void SubsystemExecutor::take(std::uint32_t place) {
   marked_.pop_back();
 }
 
-inline void SubsystemExecutor::put(std::uint32_t place) {
+void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
   if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
-  token.phase = Phase::finished;
   marked_.push_back(place);
-  if (plan_->places[place].timed) {
+  arrive(place);
+}
+
+/// Starts the operation.
+inline void SubsystemExecutor::arrive(std::uint32_t place) {
+  const Plan::PlaceEntry& entry = plan_->places[place];
+  Token& token = tokens_[place];
+  token.phase = Phase::finished;
+  if (entry.timed) {
     renew_time();
     token.arrival = now_;
   }
-  start_operation(place);
-}
-
-inline void SubsystemExecutor::start_operation(std::uint32_t place) {
-  const Plan::PlaceEntry& entry = plan_->places[place];
-  Token& token = tokens_[place];
   switch (entry.does) {
     case Does::Kind::nothing:
       if (place == plan_->out) arrive_at_end();
@@ -340,7 +341,7 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     raise_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed), lane_);
     return true;
   }
-  if (watched_ || operations_.commands_devices() || watchdog > Duration::zero()) renew_time();
+  if (watched_ || operations_.commands_devices()) renew_time();
   operations_.finish_call(now_);
   gauges_.end_call(now_);
   if (watchdog > Duration::zero()) end_alarm();

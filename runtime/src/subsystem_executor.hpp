@@ -93,6 +93,10 @@ class SubsystemExecutor {
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
+  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock and at
+  /// RunControl.
+  static constexpr std::uint32_t look_up = 64;
+
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
   struct Token {
@@ -120,7 +124,7 @@ class SubsystemExecutor {
 
   void take(std::uint32_t place);
   void put(std::uint32_t place);
-  void start_operation(std::uint32_t place);
+  void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();

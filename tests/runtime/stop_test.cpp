@@ -191,7 +191,7 @@ TEST(Recording, OfASlowWriterLosesEventsAndDoesNotHoldUpTheRun) {
   talks.call = [&](ScriptState& state) {
     const std::string line(500, 'x');
     for (int count = 0; count < 100; ++count) state.context.log("{}", line);
-    if (state.context.iteration < 40) return;
+    if (state.context.iteration < 300) return;
     far = true;
     far.notify_one();
     state.context.stop("enough");

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <new>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -107,25 +109,46 @@ template <class T>
   return ValueKind::other;
 }
 
+/// How to keep values of a type that is more than its bytes, such as a LargeArray.
+struct ValueType {
+  void (*construct)(void* where);
+  void (*assign)(void* to, const void* from);
+  void (*destroy)(void* where);
+};
+/// nullptr: the bytes are the value.
+template <class T>
+[[nodiscard]] const ValueType* value_type_of() {
+  if constexpr (std::is_trivially_copyable_v<T>) {
+    return nullptr;
+  } else {
+    static constexpr ValueType type{
+        [](void* where) { ::new (where) T(); },
+        [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); },
+        [](void* where) { static_cast<T*>(where)->~T(); }};
+    return &type;
+  }
+}
+
 /// Where the buffers and parameters of one subsystem live; filled by Subsystem::bind, used by the executor.
-/// Values are trivially copyable, so a channel moves bytes.
 struct Bindings {
   struct Incoming {
     std::string_view name;
     void* value;
     std::size_t size;
     Arrival* arrival;
+    const ValueType* type;  ///< nullptr: bytes
   };
   struct Outgoing {
     std::string_view name;
     void* value;
     std::size_t size;
     Departure* departure;
+    const ValueType* type;                               ///< nullptr: bytes
     bool (*finite)(const void* value) = nullptr;         ///< nullptr: always
     void (*fill)(void* value, double number) = nullptr;  ///< fill_floats; nullptr: there are none
   };
   struct RealOutgoing : Outgoing {
-    std::vector<std::byte> safe;  ///< the safe command
+    std::shared_ptr<const void> safe;  ///< the safe command, of the same type
   };
   struct Parameter {
     std::string_view name;
@@ -154,8 +177,7 @@ struct Bindings {
   }
   template <class T>
   void real_output(std::string_view name, Output<T>& buffer, const T& safe) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(&safe);
-    real_outputs.push_back({outgoing(name, buffer), {bytes, bytes + sizeof(T)}});
+    real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe)});
   }
   template <class T>
   void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),
@@ -170,13 +192,11 @@ struct Bindings {
  private:
   template <class T>
   static Incoming incoming(std::string_view name, Input<T>& buffer) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    return {name, &payload(buffer), sizeof(T), &buffer};
+    return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
   }
   template <class T>
   static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    Outgoing made{name, &payload(buffer), sizeof(T), &buffer};
+    Outgoing made{name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
     if constexpr (has_floats<T>()) {
       made.finite = [](const void* at) { return all_finite(*static_cast<const T*>(at)); };
       made.fill = [](void* at, double number) { fill_floats(*static_cast<T*>(at), number); };

@@ -31,10 +31,10 @@ class RunControl {
 
   /// Its transition function has run longer than its watchdog allows, and has not returned.
   void mark_stalled(std::uint32_t instance, bool stalled) {
-    stalled_[instance].store(stalled, std::memory_order_release);
+    stalled_[instance].store(stalled, std::memory_order_seq_cst);
   }
   [[nodiscard]] bool is_stalled(std::uint32_t instance) const {
-    return stalled_[instance].load(std::memory_order_acquire);
+    return stalled_[instance].load(std::memory_order_seq_cst);
   }
 
  private:

@@ -352,9 +352,9 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
 
 void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) {
   control_.mark_stalled(index_, true);
-  // Either this sees that the call is over, or the subsystem's thread sees the mark.
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  if (!gauges_.calling.load(std::memory_order_relaxed) ||
+  // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
+  // the call and both looks are sequentially consistent.
+  if (!gauges_.calling.load(std::memory_order_seq_cst) ||
       gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns)
     return control_.mark_stalled(index_, false);
   operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
@@ -365,7 +365,7 @@ void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) 
 }
 
 void SubsystemExecutor::end_alarm() {
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  gauges_.calling.store(false, std::memory_order_seq_cst);
   if (!control_.is_stalled(index_)) return;
   control_.mark_stalled(index_, false);
   wake_receivers();

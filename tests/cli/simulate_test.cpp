@@ -97,9 +97,10 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
                            "robot.control: fault (exception): robot.control.follow.in: injected",
                            "ended by an error that no `next` leads to another behaviour"})
     EXPECT_NE(printed.text.find(line), std::string::npos) << printed.text;
-  const cli::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  const cli::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr");
   EXPECT_NE(summary.text.find("1 errors, 2 faults"), std::string::npos) << summary.text;
-  EXPECT_NE(summary.text.find("legal: "), std::string::npos) << summary.text;
+  const cli::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  EXPECT_NE(checked.text.find("legal: "), std::string::npos) << checked.text;
 
   // NaN inside a structure.
   tessera("simulate 01_line_follower --for 5s --inject robot.control:nan@1s");

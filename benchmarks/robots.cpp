@@ -26,6 +26,7 @@ constexpr Port both[] = {{"in", Side::receive, "value"}, {"out", Side::send, "va
 constexpr Place alone_places[] = {RUN_PLACES};
 constexpr Place sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x")};
 constexpr Place receiver_places[] = {RUN_PLACES, RECEIVE_PLACES("run", "x")};
+constexpr Place patient_sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x"), WAIT_PLACE("run", "x")};
 constexpr Place relay_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), RECEIVE_PLACES("run", "in")};
 constexpr Place asker_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), WAIT_PLACE("run", "out"),
                                   RECEIVE_PLACES("run", "in")};
@@ -39,6 +40,8 @@ constexpr Place answerer_places[] = {{"in"},
 const Transition alone_transitions[] = {RUN, NO_SEND("run"), NO_RECEIVE("run")};
 const Transition sender_transitions[] = {RUN, SND(ASYNC_SEND, "x"), NO_RECEIVE("run")};
 const Transition receiver_transitions[] = {RUN, NO_SEND("run"), RCV(ASYNC_RECEIVE, "x")};
+const Transition patient_sender_transitions[] = {RUN, SND(B_SEND, "x"), NO_RECEIVE("run")};
+const Transition patient_receiver_transitions[] = {RUN, NO_SEND("run"), RCV(B_RECEIVE_ACK, "x")};
 const Transition relay_transitions[] = {RUN, SND(ASYNC_SEND, "out"), RCV(ASYNC_RECEIVE, "in")};
 const Transition asker_transitions[] = {RUN, SND(B_SEND, "out"), RCV(B_RECEIVE_ACK, "in")};
 const Transition answerer_transitions[] = {ENTER("take"),
@@ -56,6 +59,8 @@ const Transition answerer_transitions[] = {ENTER("take"),
 const SubsystemNet alone{run_only, {}, alone_places, alone_transitions};
 const SubsystemNet sender{run_only, sends_x, sender_places, sender_transitions};
 const SubsystemNet receiver{run_only, receives_x, receiver_places, receiver_transitions};
+const SubsystemNet patient_sender{run_only, sends_x, patient_sender_places, patient_sender_transitions};
+const SubsystemNet patient_receiver{run_only, receives_x, receiver_places, patient_receiver_transitions};
 const SubsystemNet relay{run_only, both, relay_places, relay_transitions};
 const SubsystemNet asker{run_only, both, asker_places, asker_transitions};
 const SubsystemNet answerer{take_give, both, answerer_places, answerer_transitions};
@@ -119,7 +124,8 @@ Robot::~Robot() { call_in_use = nullptr; }
 
 std::uint32_t Robot::add(const SubsystemNet& net, Duration period) {
   const auto index = static_cast<std::uint32_t>(instances_.size());
-  const std::string& name = *names_.emplace_back(std::make_unique<std::string>("part" + std::to_string(index)));
+  const std::string& name =
+      *names_.emplace_back(std::make_unique<std::string>("part" + std::to_string(index)));
   instances_.push_back({"robot", name, Kind::control, &net,
                         net.behaviours.size() == 1 ? make_one : make_changing, period, Duration{0}});
   return index;

@@ -17,11 +17,12 @@
 namespace tessera::benchmarks {
 
 namespace nets {
-extern const SubsystemNet sender, receiver;  ///< NB -> NB over "x"
-extern const SubsystemNet relay;             ///< NB -> NB, sends "out" and receives "in": 8 firings an iteration
-extern const SubsystemNet alone;             ///< no channel: 6 firings an iteration
-extern const SubsystemNet asker;             ///< B: sends "out", then receives "in"
-extern const SubsystemNet answerer;          ///< B: receives "in" in one behaviour, sends "out" in the next
+extern const SubsystemNet sender, receiver;                  ///< NB -> NB over "x"
+extern const SubsystemNet patient_sender, patient_receiver;  ///< B -> B over "x"
+extern const SubsystemNet relay;     ///< NB -> NB, sends "out" and receives "in": 8 firings an iteration
+extern const SubsystemNet alone;     ///< no channel: 6 firings an iteration
+extern const SubsystemNet asker;     ///< B: sends "out", then receives "in"
+extern const SubsystemNet answerer;  ///< B: receives "in" in one behaviour, sends "out" in the next
 }  // namespace nets
 
 /// 64 bytes, as a pose with its covariance would have.

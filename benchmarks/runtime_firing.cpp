@@ -1,6 +1,7 @@
 // What the subsystem executor costs, beside what one would write by hand: an iteration alone, a value through
-// a channel between two threads, a blocking round trip, an event of a recording. Whatever is compared takes
-// turns in the same run, and the counters are medians over the repetitions. Figures are in docs/performance.md.
+// a channel between two threads, a blocking round trip. Whatever is compared takes
+// turns in the same run, and the counters are medians over the repetitions. Figures are in
+// docs/performance.md.
 
 #include <benchmark/benchmark.h>
 #include <linux/futex.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -53,20 +55,6 @@ void iteration(benchmark::State& state, const SubsystemNet& net) {
 BENCHMARK_CAPTURE(iteration, eight_firings, nets::relay)->UseManualTime()->Iterations(rounds);
 BENCHMARK_CAPTURE(iteration, six_firings, nets::alone)->UseManualTime()->Iterations(rounds);
 
-/// What recording adds to a firing.
-void recorded_event(benchmark::State& state) {
-  std::vector<double> ns;
-  RunOptions recorded;
-  recorded.recording = "/dev/null";
-  for (auto _ : state) {
-    const double without = iteration_ns(nets::relay);
-    ns.push_back((iteration_ns(nets::relay, recorded) - without) / 8);
-    state.SetIterationTime(ns.back() * 1e-9);
-  }
-  state.counters["event_ns"] = median(ns);
-}
-BENCHMARK(recorded_event)->UseManualTime()->Iterations(rounds);
-
 // -------------------------------------------------------------------------------------------- channels
 
 struct Pair {
@@ -91,7 +79,8 @@ struct Pair {
                  summary.subsystems[1].iterations);
 }
 
-/// The channel alone, as the executor uses it: take, copy 64 bytes, give back; asleep when that takes too long.
+/// The channel alone, as the executor uses it: take, copy 64 bytes, give back; asleep when that takes too
+/// long.
 [[nodiscard]] Pair by_channel() {
   struct Words final : Waker {
     std::array<WakeWord, 2> words;
@@ -210,7 +199,8 @@ BENCHMARK(channel_cycle)->UseManualTime()->Iterations(rounds);
 
 constexpr std::uint64_t trips = 20'000;
 
-[[nodiscard]] double round_trip_ns() {
+/// Wall time of an iteration of subsystem 0.
+[[nodiscard]] double trip_ns(const std::function<void(Robot&)>& build) {
   std::int64_t begin = 0, end = 0;
   Robot robot([&](std::uint32_t number, Context& context) {
     if (number != 0) return;
@@ -219,11 +209,22 @@ constexpr std::uint64_t trips = 20'000;
     end = wall_ns();
     context.stop("enough");
   });
+  build(robot);
+  robot.run();
+  return static_cast<double>(end - begin) / static_cast<double>(trips);
+}
+
+/// A value there, its acknowledgement back.
+void one_channel(Robot& robot) {
+  const std::uint32_t from = robot.add(nets::patient_sender), to = robot.add(nets::patient_receiver);
+  robot.connect(from, "x", to, "x", acknowledged);
+}
+
+/// A value there and acknowledged, another back and acknowledged.
+void both_ways(Robot& robot) {
   const std::uint32_t asker = robot.add(nets::asker), answerer = robot.add(nets::answerer);
   robot.connect(asker, "out", answerer, "in", acknowledged);
   robot.connect(answerer, "out", asker, "in", acknowledged);
-  robot.run();
-  return static_cast<double>(end - begin) / static_cast<double>(trips);
 }
 
 void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value) {
@@ -260,11 +261,11 @@ void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value)
   return static_cast<double>(end - begin) / static_cast<double>(trips);
 }
 
-void blocking_round_trip(benchmark::State& state) {
+void blocking_round_trip(benchmark::State& state, void (*build)(Robot&)) {
   std::vector<double> ns, bare_ns, ratio;
   for (auto _ : state) {
     bare_ns.push_back(bare_round_trip_ns());
-    ns.push_back(round_trip_ns());
+    ns.push_back(trip_ns(build));
     ratio.push_back(ns.back() / bare_ns.back());
     state.SetIterationTime(ns.back() * 1e-9);
   }
@@ -272,7 +273,8 @@ void blocking_round_trip(benchmark::State& state) {
   state.counters["bare_ns"] = median(bare_ns);
   state.counters["ratio"] = median(ratio);
 }
-BENCHMARK(blocking_round_trip)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, one_channel, one_channel)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, both_ways, both_ways)->UseManualTime()->Iterations(rounds);
 
 }  // namespace
 }  // namespace tessera::benchmarks

@@ -22,6 +22,12 @@ void declare(CLI::App& command, project::LaunchOptions& options) {
   command.add_option("--parameters", options.parameters,
                      "YAML file of parameters (default: params.yaml of the project)");
   command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
+  command
+      .add_option("--inject", options.inject,
+                  "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
+                  "device:robot.motor@any (docs/running.md)")
+      ->take_all()
+      ->allow_extra_args(false);
   declare_gate(command, options.gate);
   command.add_flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }

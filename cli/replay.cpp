@@ -46,6 +46,10 @@ const char* kind_of(const Event& event) {
       return "log";
     case Event::Kind::stop:
       return "stop";
+    case Event::Kind::fault:
+      return "fault";
+    case Event::Kind::overrun:
+      return "overrun";
   }
   return "";
 }
@@ -55,8 +59,14 @@ std::string path_of(const Recording& recording, const Event& event) {
 }
 
 std::string text_of(const Recording& recording, const Recording::Entry& entry) {
-  return entry.event.kind() == Event::Kind::firing ? recording.transitions[entry.event.subject].name
-                                                   : entry.text;
+  switch (entry.event.kind()) {
+    case Event::Kind::firing:
+      return recording.transitions[entry.event.subject].name;
+    case Event::Kind::overrun:
+      return fmt::format("{} instants of its rate missed", entry.event.subject);
+    default:
+      return entry.text;
+  }
 }
 
 /// Those that the options ask for, in the order of their times.
@@ -75,13 +85,28 @@ std::vector<const Recording::Entry*> chosen(const Recording& recording, const Op
   return entries;
 }
 
+/// In front of the text of an event that is no firing.
+std::string prefix_of(const Event& event) {
+  switch (event.kind()) {
+    case Event::Kind::firing:
+    case Event::Kind::log:
+      return "";
+    case Event::Kind::stop:
+      return "stop: ";
+    case Event::Kind::overrun:
+      return "overrun: ";
+    case Event::Kind::fault:
+      return fmt::format("fault ({}): ", name_of(static_cast<Fault>(event.version)));
+  }
+  return "";
+}
+
 void print_events(const Recording& recording, const Options& options) {
   for (const Recording::Entry* entry : chosen(recording, options)) {
     const Event& event = entry->event;
     const bool firing = event.kind() == Event::Kind::firing;
     fmt::print("{:14.6f} {}{}{}{}\n", static_cast<double>(event.time_ns) * 1e-9,
-               firing ? "" : path_of(recording, event) + ": ",
-               event.kind() == Event::Kind::stop ? "stop: " : "", text_of(recording, *entry),
+               firing ? "" : path_of(recording, event) + ": ", prefix_of(event), text_of(recording, *entry),
                firing && event.version != 0 ? fmt::format("  (version {})", event.version) : "");
   }
 }
@@ -148,8 +173,9 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
-    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}\n", one.path, one.iterations, one.firings,
-               count_of(one.errors, "errors"), count_of(one.timeouts, "timeouts"),
+    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", one.path, one.iterations, one.firings,
+               count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
+               count_of(one.faults, "faults"), count_of(one.timeouts, "timeouts"),
                count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
     if (one.iterations > 0)
       fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
@@ -179,6 +205,8 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
                           {"firings", one.firings},
                           {"iterations", one.iterations},
                           {"errors", one.errors},
+                          {"overruns", one.overruns},
+                          {"faults", one.faults},
                           {"timeouts", one.timeouts},
                           {"skips", one.skips},
                           {"overwrites", one.overwrites},

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/commands.hpp"
@@ -17,7 +19,8 @@ namespace {
 
 struct SimulateOptions : LaunchOptions {
   std::string json, report, scenario;
-  bool realtime = false;
+  bool realtime = false, interleave = false;
+  std::uint64_t schedules = 0;
   std::uint64_t steps = PlayOptions{}.steps;
 };
 
@@ -49,6 +52,42 @@ int launch(const Controller& controller, const LaunchOptions& options, const Com
   return exit.code;
 }
 
+// The command that makes one of the schedules again, alone and recorded.
+std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
+  Command line{"tessera", "simulate",           options.spec, "--interleave",
+               "--seed",  std::to_string(seed), "--for",      options.duration};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) line.insert(line.end(), {option, value});
+  };
+  for (const std::string& value : options.set) add("--set", value);
+  for (const std::string& fault : options.inject) add("--inject", fault);
+  add("--parameters", options.parameters);
+  add("--track", options.track);
+  if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
+  if (!options.start.empty()) line.push_back("--start=" + options.start);
+  add("--scenario", options.scenario);
+  return shell_line(line);
+}
+
+// The controller says what it found; how to look at it only this command knows.
+int launch_schedules(const Controller& controller, const SimulateOptions& options, Command command) {
+  command.insert(command.end(), {"--schedules", std::to_string(options.schedules)});
+  if (options.debug) return print_debugger(command);
+  const RunFiles files = run_files(controller.specification, options);
+  std::filesystem::remove(files.summary);
+  const Exit exit = run(command);
+  nlohmann::json summary =
+      nlohmann::json::parse(std::ifstream(files.summary), nullptr, /*allow_exceptions=*/false);
+  if (summary.is_discarded()) return exit.code == 0 ? failed : exit.code;
+  if (const nlohmann::json& failure = summary["failure"]; failure.is_object()) {
+    const std::string again = reproduction(options, failure.at("seed").get<std::uint64_t>());
+    fmt::print(stderr, "  make it again: {}\n", again);
+    summary["reproduce"] = again;
+  }
+  if (!options.json.empty()) write_output(options.json, summary.dump(2) + "\n");
+  return exit.code;
+}
+
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
@@ -58,15 +97,16 @@ int simulate_command(SimulateOptions options) {
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return failed;
   const bool with_world = controller->specification.model.simulation.has_value();
-  LaunchOptions launching = options;
-  if (launching.duration.empty()) launching.duration = "60s";
-  Command command = controller_command(*controller, launching, "simulate", with_world);
+  if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
+  Command command = controller_command(*controller, options, "simulate", with_world);
+  if (options.interleave) command.push_back("--interleave");
   if (options.realtime) command.push_back("--realtime");
   if (!options.scenario.empty()) {
     command.emplace_back("--scenario");
     command.push_back(std::filesystem::absolute(options.scenario).string());
   }
-  return launch(*controller, launching, command, options.json, options.report);
+  if (options.schedules > 0) return launch_schedules(*controller, options, command);
+  return launch(*controller, options, command, options.json, options.report);
 }
 
 // On the steady clock without a world, every real buffer needs a device of its own.
@@ -117,15 +157,24 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->add_option("--scenario", options->scenario,
                    "Drive the controller through this run first (tessera verify --scenario)")
       ->check(CLI::ExistingFile);
+  CLI::Option* schedules = command->add_option(
+      "--schedules", options->schedules,
+      "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
+      "that breaks an assertion, ends with an error or hangs");
+  command->add_flag("--interleave", options->interleave,
+                    "Subsystems take turns after every firing, as in --schedules, which this makes one of");
   command->add_flag("--realtime", options->realtime, "Not faster than the wall clock");
   command->add_option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
-  command->add_option("--report", options->report, "Folder for a page and a picture of the run");
+  command->add_option("--report", options->report, "Folder for a page and a picture of the run")
+      ->excludes(schedules);
+  command->get_option("--record")->excludes(schedules);
   command->footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
+      "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
       "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
   command->callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }

@@ -150,6 +150,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameters_of(specification, options)) append(command, {"--set", value});
   for (const std::string& value : options.set) append(command, {"--set", value});
+  for (const std::string& fault : options.inject) append(command, {"--inject", fault});
   if (with_world) add_world(command, specification, options);
   return command;
 }

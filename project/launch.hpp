@@ -15,7 +15,7 @@ namespace tessera::project {
 struct LaunchOptions {
   std::string spec = ".";
   std::string duration;  ///< "60s"; empty: until stopped
-  std::vector<std::string> set;
+  std::vector<std::string> set, inject;
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
   std::string record;
   std::string folder;                                            ///< of the run's files; empty: .tessera/last

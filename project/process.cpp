@@ -57,7 +57,12 @@ pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool ow
   arguments.push_back(nullptr);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  if (own_group) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  // Whoever waits for SIGINT and SIGTERM blocks them; a program that was started must hear them all the same.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(
+      &attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | (own_group ? POSIX_SPAWN_SETPGROUP : 0)));
   pid_t child = 0;
   const int problem = posix_spawnp(&child, arguments[0], actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);

@@ -10,6 +10,10 @@
 namespace tessera::replay {
 namespace {
 
+[[nodiscard]] const char* category_of(Event::Kind kind) {
+  return kind == Event::Kind::fault ? "fault" : kind == Event::Kind::stop ? "stop" : "log";
+}
+
 using nlohmann::json;
 
 /// Where a subsystem is drawn: agents are processes, numbered from 1.
@@ -92,12 +96,12 @@ class Writing {
 
   void write_log() {
     for (const auto& [event, text] : recording_.entries) {
-      if (event.kind() == Event::Kind::firing) continue;
+      if (!event.has_text()) continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
       const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
       write({{"ph", "i"},
              {"name", text},
-             {"cat", event.kind() == Event::Kind::stop ? "stop" : "log"},
+             {"cat", category_of(event.kind())},
              {"pid", row.process},
              {"tid", row.thread},
              {"ts", static_cast<double>(event.time_ns) * 1e-3},

@@ -75,6 +75,9 @@ class Counting {
     last_ = at_ns;
   }
 
+  void overrun(std::uint32_t missed) { statistics_.overruns += missed; }
+  void fault() { ++statistics_.faults; }
+
   SubsystemStatistics finish() {
     statistics_.period = distribution_of(std::move(periods_));
     statistics_.iteration = distribution_of(std::move(iterations_));
@@ -112,7 +115,10 @@ std::vector<SubsystemStatistics> statistics_of(const Recording& recording) {
   std::vector<Counting> counting;
   for (const std::string& path : recording.instances) counting.emplace_back(path);
   for (const auto& [event, text] : recording.entries) {
-    if (event.kind() != Event::Kind::firing || event.instance() >= counting.size()) continue;
+    if (event.instance() >= counting.size()) continue;
+    if (event.kind() == Event::Kind::overrun) counting[event.instance()].overrun(event.subject);
+    if (event.kind() == Event::Kind::fault) counting[event.instance()].fault();
+    if (event.kind() != Event::Kind::firing) continue;
     std::string_view name = recording.transitions[event.subject].name;
     const std::string& path = recording.instances[event.instance()];
     if (name.starts_with(path) && name.size() > path.size()) name.remove_prefix(path.size() + 1);

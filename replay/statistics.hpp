@@ -19,8 +19,10 @@ struct Distribution {
 struct SubsystemStatistics {
   std::string path;
   std::uint64_t firings = 0, iterations = 0, errors = 0;
-  Distribution period;     ///< from one end of a transition function (t1) to the next
-  Distribution iteration;  ///< from t1 to t4, t5 or t6: what communication took
+  std::uint64_t overruns = 0;  ///< instants of its rate that its work made it miss
+  std::uint64_t faults = 0;    ///< of any kind
+  Distribution period;         ///< from one end of a transition function (t1) to the next
+  Distribution iteration;      ///< from t1 to t4, t5 or t6: what communication took
   struct Wait {
     std::string channel;  ///< path of the block's transition without the path of the subsystem
     Distribution time;    ///< from the subsystem's firing before it
@@ -31,7 +33,7 @@ struct SubsystemStatistics {
   std::uint64_t overwrites = 0;  ///< firings of `t1o`
 };
 
-/// What each subsystem did, from the firings alone. Linear in the recording (quantiles: linear on average).
+/// What each subsystem did. Linear in the recording (quantiles: linear on average).
 [[nodiscard]] std::vector<SubsystemStatistics> statistics_of(const Recording& recording);
 
 }  // namespace tessera::replay

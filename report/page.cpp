@@ -111,7 +111,12 @@ void put_verification(std::string& html, const ReportInput& input) {
 
 void put_message(std::string& html, const Recording& recording, const Recording::Entry& entry) {
   const bool stop = entry.event.kind() == Event::Kind::stop;
-  const char* kind = stop ? "" : entry.event.version == 1 ? "warn" : entry.event.version == 2 ? "bad" : "";
+  const bool fault = entry.event.kind() == Event::Kind::fault;
+  const char* kind = fault                      ? "bad"
+                     : stop                     ? ""
+                     : entry.event.version == 1 ? "warn"
+                     : entry.event.version == 2 ? "bad"
+                                                : "";
   const std::uint32_t instance = entry.event.instance();
   put(html, R"(<tr><td class="n">{:.3f} s<td class="mono">{}<td class="message {}">{}{}</tr>)",
       static_cast<double>(entry.event.time_ns) * 1e-9,
@@ -122,7 +127,7 @@ void put_message(std::string& html, const Recording& recording, const Recording:
 void put_messages(std::string& html, const Recording& recording) {
   std::vector<const Recording::Entry*> messages;
   for (const auto& entry : recording.entries) {
-    if (entry.event.kind() != Event::Kind::firing) messages.push_back(&entry);
+    if (entry.event.has_text()) messages.push_back(&entry);
   }
   if (messages.empty()) return;
   html += R"(<h2>Messages</h2><div class="panel"><table>)";

@@ -20,8 +20,9 @@ class Assembler {
       : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
 
   bool run() {
-    return check_version() && bind() && link_ports() && compile_plans() && check_hash() && read_script() &&
-           set_values() && open_devices() && make_channels() && open_recording() && make_executors();
+    return check_version() && read_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
+           read_script() && set_values() && open_devices() && make_channels() && open_recording() &&
+           make_executors();
   }
 
  private:
@@ -42,7 +43,9 @@ class Assembler {
       SubsystemParts& parts = parts_.emplace_back();
       parts.path = fmt::format("{}.{}", instance.agent, instance.name);
       parts.instance = &instance;
+      parts.index = static_cast<std::uint32_t>(parts_.size() - 1);
       parts.subsystem = instance.make();
+      plant_faults(parts);
       parts.subsystem->bind(parts.bindings);
       parts.ports.resize(instance.net->ports.size());
       ports_.emplace_back();
@@ -50,6 +53,40 @@ class Assembler {
         ports_.back().emplace(instance.net->ports[port].name, port);
     }
     return true;
+  }
+
+  bool read_faults() {
+    for (const std::string& text : assembly_.options.inject) {
+      std::optional<Injection> fault =
+          read_injection(text, system_, assembly_.options.seed, assembly_.options.duration, error_);
+      if (!fault) return false;
+      assembly_.faults.push_back(std::make_shared<Injection>(std::move(*fault)));
+    }
+    assembly_.signals = InjectedSignals(assembly_.faults);
+    return true;
+  }
+
+  void plant_faults(SubsystemParts& parts) {
+    Injections faults = faults_of(parts.index, "", [](const Injection& fault) {
+      return fault.kind == Injection::Kind::exception || fault.kind == Injection::Kind::stall ||
+             fault.kind == Injection::Kind::number;
+    });
+    if (faults.empty()) return;
+    auto faulty = std::make_unique<FaultySubsystem>(std::move(parts.subsystem), *parts.instance->net,
+                                                    std::move(faults), clock_);
+    parts.faulty = faulty.get();
+    parts.subsystem = std::move(faulty);
+  }
+
+  /// buffer: those of this device; empty: of all parts.
+  template <class Wanted>
+  [[nodiscard]] Injections faults_of(std::uint32_t instance, std::string_view buffer, Wanted wanted) const {
+    Injections found;
+    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
+      if (fault->instance == instance && wanted(*fault) &&
+          (buffer.empty() || fault->part.empty() || fault->part == buffer))
+        found.push_back(fault);
+    return found;
   }
 
   /// Which channel is behind each port.
@@ -141,11 +178,17 @@ class Assembler {
     assembly_.world = open_world(assembly_.options, error_);
     if (assembly_.world == nullptr && assembly_.options.world) return false;
     DeviceFinder finder(system_, assembly_.options, assembly_.world.get());
+    const auto of_device = [](const Injection& fault) {
+      return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
+    };
     for (SubsystemParts& parts : parts_) {
       for (const Bindings::Incoming& input : parts.bindings.real_inputs)
-        parts.receptors.push_back(finder.receptor(fmt::format("{}.{}", parts.path, input.name)));
+        parts.receptors.push_back(with_faults(finder.receptor(fmt::format("{}.{}", parts.path, input.name)),
+                                              faults_of(parts.index, input.name, of_device), clock_));
       for (const Bindings::RealOutgoing& output : parts.bindings.real_outputs)
-        parts.effectors.push_back(finder.effector(fmt::format("{}.{}", parts.path, output.name)));
+        parts.effectors.push_back(with_faults(finder.effector(fmt::format("{}.{}", parts.path, output.name)),
+                                              faults_of(parts.index, output.name, of_device), clock_,
+                                              output.safe.get()));
     }
     error_ = finder.complaints();
     return error_.empty();
@@ -160,8 +203,8 @@ class Assembler {
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
-      assembly_.channels.push_back(std::make_unique<SharedChannel>(marking, std::max(sent, received),
-                                                                   std::max<std::size_t>(channel.slots, 1)));
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(
+          marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
       if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
     }
@@ -174,6 +217,18 @@ class Assembler {
     const SubsystemParts& parts = parts_[end.instance];
     const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
+  }
+
+  /// nullptr: bytes, or no end is used.
+  [[nodiscard]] const ValueType* value_type(const Channel& channel) const {
+    for (const auto& [end, side] :
+         {std::pair{&channel.from, Side::send}, std::pair{&channel.to, Side::receive}}) {
+      if (end->port.empty()) continue;
+      const SubsystemParts& parts = parts_[end->instance];
+      const std::uint32_t buffer = parts.ports[ports_[end->instance].at(end->port)].buffer;
+      return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
+    }
+    return nullptr;
   }
 
   /// false: an operation of that end is about a slot that the channel does not have.
@@ -211,6 +266,7 @@ class Assembler {
           {{"name", property.name}, {"verdict", property.verdict}, {"method", property.method}});
     header["seed"] = assembly_.options.seed;
     header["clock"] = clock;
+    if (!assembly_.options.inject.empty()) header["injected"] = assembly_.options.inject;
     header["instances"] = nlohmann::ordered_json::array();
     for (const SubsystemParts& parts : parts_) header["instances"].push_back(parts.path);
     header["transitions"] = nlohmann::ordered_json::array();

@@ -8,6 +8,7 @@
 #include "clock.hpp"
 #include "devices.hpp"
 #include "flat_net.hpp"
+#include "injection.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
 #include "scenario.hpp"
@@ -30,6 +31,8 @@ struct Assembly {
   std::unique_ptr<World> world;
   std::unique_ptr<Recorder> recorder;
   std::optional<Scenario> scenario;
+  Injections faults;
+  InjectedSignals signals;
   std::vector<std::unique_ptr<SharedChannel>> channels;
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };

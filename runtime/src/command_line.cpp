@@ -63,6 +63,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       .add_option("--driver", words.drivers,
                   "BUFFER=KIND:TARGET[,OPTION=NUMBER...]: robot.sensor.left=reflectance:eye_left,noise=0.01")
       ->allow_extra_args(false);
+  command
+      .add_option("--inject", options.inject,
+                  "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
+                  "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
+                  "signal:SIGINT@2s; WHEN may be `any`")
+      ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
   command.add_option("--summary", line.summary, "Write what the run came to as JSON; - is standard output");
   command.add_flag("--progress", options.progress, "Show progress on standard error");
@@ -178,6 +184,10 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
   simulate->add_option("--scenario", line.options.scenario,
                        "Follow this run first (tessera verify --scenario), then run on freely");
+  simulate->add_flag("--interleave", line.options.interleave,
+                     "Subsystems take turns after every firing, drawn from the seed");
+  simulate->add_option("--schedules", line.schedules,
+                       "Try so many seeds from --seed on, interleaved; report the first whose run fails");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   simulate->add_flag("--controlled", words.controlled,
                      "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");

@@ -11,7 +11,8 @@ namespace tessera {
 /// What the command line of a controller asks for.
 struct CommandLine {
   RunOptions options;
-  std::string summary;  ///< file; "-": standard output; empty: none
+  std::string summary;          ///< file; "-": standard output; empty: none
+  std::uint64_t schedules = 0;  ///< how many to try; 0: one run
 };
 
 /// The command line, or the exit code with which to leave (help: 0, wrong usage: 2, unreadable file: 1).

@@ -11,7 +11,7 @@
 namespace tessera::console {
 namespace {
 
-std::atomic<bool> progress_shown{false};
+std::atomic<bool> progress_shown{false}, silent{false};
 
 template <std::size_t Size>
 void emit(std::array<char, Size>& line, std::size_t wanted) {
@@ -24,6 +24,7 @@ void emit(std::array<char, Size>& line, std::size_t wanted) {
 }  // namespace
 
 void print(LogLevel level, Time time, std::string_view path, std::string_view text) {
+  if (silent.load(std::memory_order_relaxed)) return;
   std::array<char, 896> line;
   const char* erase = progress_shown.exchange(false, std::memory_order_relaxed) ? "\r\x1b[K" : "";
   const char* mark = level == LogLevel::info ? "" : level == LogLevel::warning ? "warning: " : "error: ";
@@ -43,6 +44,8 @@ void clear_progress() {
   if (progress_shown.exchange(false, std::memory_order_relaxed))
     emit(line, fmt::format_to_n(line.data(), line.size(), "\r\x1b[K").size);
 }
+
+void silence(bool wanted) { silent.store(wanted, std::memory_order_relaxed); }
 
 }  // namespace tessera::console
 

@@ -18,6 +18,8 @@ void print(LogLevel level, Time time, std::string_view path, std::string_view te
 /// Rewrites the line that shows progress; the next print removes it.
 void progress(std::string_view text);
 void clear_progress();
+/// From now on print does nothing, or again what it did: of a thousand runs nobody reads every line.
+void silence(bool wanted);
 }  // namespace console
 
 /// "12.3 s of 60 s, 45.0x real time", rewritten a few times a second of the wall clock.

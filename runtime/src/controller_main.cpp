@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
 
 #include "command_line.hpp"
+#include "schedules.hpp"
 #include "summary_text.hpp"
 #include "tessera/controller.hpp"
 
@@ -33,12 +35,31 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_termina
   return exit_ok;
 }
 
+[[nodiscard]] int run_schedules(const System& system, const CommandLine& line) {
+  std::string error;
+  const std::optional<ScheduleReport> report = try_schedules(system, line.options, line.schedules, error);
+  if (!report) {
+    fmt::print(stderr, "error: {}\n", error);
+    return exit_failed;
+  }
+  fmt::print(stderr, "{}", schedules_line(*report));
+  if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  if (report->failed) return exit_failed;
+  return report->interrupted == 0         ? exit_ok
+         : report->interrupted == SIGTERM ? exit_terminated
+                                          : exit_interrupted;
+}
+
 }  // namespace
 
 int controller_main(const System& system, int argc, char** argv) try {
   const std::variant<CommandLine, int> parsed = parse_command_line(system, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const CommandLine& line = std::get<CommandLine>(parsed);
+  if (line.schedules > 0) return run_schedules(system, line);
   std::string error;
   const std::optional<RunSummary> summary = execute(system, line.options, error);
   if (!summary) {

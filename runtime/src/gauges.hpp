@@ -21,7 +21,7 @@ struct alignas(64) Gauges {
   void begin_call(std::uint16_t called, Time now) {
     behaviour.store(called, std::memory_order_relaxed);
     called_at_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
-    calling.store(true, std::memory_order_relaxed);
+    calling.store(true, std::memory_order_release);  // who sees it sees when it began
   }
   void end_call(Time now) {
     const std::int64_t took = now.time_since_epoch().count() - called_at_ns.load(std::memory_order_relaxed);

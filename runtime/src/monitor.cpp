@@ -23,7 +23,11 @@ namespace tessera {
 namespace {
 
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
-constexpr std::size_t most_clients = 8, longest_command = std::size_t{1} << 20U;
+constexpr std::size_t most_clients = 8, longest_command = std::size_t{1} << 20U,
+                      most_waiting = std::size_t{16} << 20U;
+constexpr std::int64_t patience_ns = 5'000'000'000;
+/// Of a large system a line takes long to write; the thread may take this part of a processor.
+constexpr std::int64_t rest_per_work = 50;
 
 [[nodiscard]] double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -113,22 +117,28 @@ void Monitor::serve() {
   for (;;) {
     std::vector<pollfd> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
                                 pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
-    for (const Client& client : clients_)
-      sources.push_back(
-          {.fd = client.socket, .events = remote_ == nullptr ? short{0} : short{POLLIN}, .revents = 0});
+    for (const Client& client : clients_) {
+      const int wanted = (remote_ == nullptr ? 0 : POLLIN) | (client.waiting.empty() ? 0 : POLLOUT);
+      sources.push_back({.fd = client.socket, .events = static_cast<short>(wanted), .revents = 0});
+    }
     const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
     // Nobody watches: no work at all.
     poll(sources.data(), sources.size(),
          clients_.empty() ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
     if ((sources[0].revents & POLLIN) != 0) return;
-    for (std::size_t client = 0; client + 2 < sources.size(); ++client)
-      if (sources[client + 2].revents != 0) hear(clients_[client]);
+    for (std::size_t client = 0; client + 2 < sources.size(); ++client) {
+      const int ready = sources[client + 2].revents;
+      if ((ready & POLLOUT) != 0) deliver(clients_[client]);
+      if ((ready & ~POLLOUT) != 0) hear(clients_[client]);
+    }
     drop_the_gone();
     if ((sources[1].revents & POLLIN) != 0) admit();
-    if (monotonic_ns() < due_ns) continue;
+    const std::int64_t begin_ns = monotonic_ns();
+    if (begin_ns < due_ns) continue;
     send_to_all();
-    due_ns =
-        monotonic_ns() + std::int64_t{remote_ == nullptr ? send_period_ms : controlled_period_ms} * 1'000'000;
+    const std::int64_t end_ns = monotonic_ns(),
+                       period_ms = remote_ == nullptr ? send_period_ms : controlled_period_ms;
+    due_ns = end_ns + std::max(period_ms * 1'000'000, (end_ns - begin_ns) * rest_per_work);
   }
 }
 
@@ -139,7 +149,7 @@ void Monitor::admit() {
     close(client);
     return;
   }
-  clients_.push_back({.socket = client, .said = {}});
+  clients_.push_back({.socket = client, .said = {}, .waiting = {}});
   send_to_all();
 }
 
@@ -152,7 +162,7 @@ void Monitor::hear(Client& client) {
   client.said.append(bytes.data(), static_cast<std::size_t>(count));
   for (std::size_t end; (end = client.said.find('\n')) != std::string::npos; client.said.erase(0, end + 1))
     obey(client, client.said.substr(0, end));
-  client.gone = client.said.size() > longest_command;
+  client.gone = client.gone || client.said.size() > longest_command || client.waiting.size() > most_waiting;
 }
 
 void Monitor::obey(Client& client, const std::string& line) {
@@ -168,9 +178,9 @@ void Monitor::obey(Client& client, const std::string& line) {
     wrong = remote_->command(command);
   } catch (const nlohmann::json::exception&) {  // members of another type
   }
-  const std::string answer = nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
-  client.gone = send(client.socket, answer.data(), answer.size(), MSG_NOSIGNAL | MSG_DONTWAIT) !=
-                static_cast<ssize_t>(answer.size());
+  if (client.waiting.empty()) client.took_ns = monotonic_ns();
+  client.waiting += nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
+  deliver(client);
 }
 
 void Monitor::drop_the_gone() {
@@ -182,12 +192,29 @@ void Monitor::drop_the_gone() {
   });
 }
 
+/// As much as there is room for.
+void Monitor::deliver(Client& client) {
+  const ssize_t count =
+      send(client.socket, client.waiting.data(), client.waiting.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  client.gone = client.gone || (count < 0 && errno != EAGAIN && errno != EINTR);
+  if (count <= 0) return;
+  client.waiting.erase(0, static_cast<std::size_t>(count));
+  client.took_ns = monotonic_ns();
+}
+
+/// Who has not taken the last line yet goes without this one, and who takes nothing at all is dropped.
 void Monitor::send_to_all() {
-  const std::string line = snapshot() + '\n';
-  // A part of a line would be worth nothing, so a client with a full buffer is dropped.
-  for (Client& client : clients_)
-    client.gone = send(client.socket, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) !=
-                  static_cast<ssize_t>(line.size());
+  std::string line;
+  for (Client& client : clients_) {
+    if (!client.waiting.empty()) {
+      client.gone = client.gone || monotonic_ns() - client.took_ns > patience_ns;
+      continue;
+    }
+    if (line.empty()) line = snapshot() + '\n';
+    client.waiting = line;
+    client.took_ns = monotonic_ns();
+    deliver(client);
+  }
   drop_the_gone();
 }
 

@@ -31,11 +31,14 @@ class Monitor {
   void admit();
   struct Client {
     int socket;
-    std::string said;  ///< the beginning of a command
+    std::string said;          ///< the beginning of a command
+    std::string waiting;       ///< what its socket had no room for
+    std::int64_t took_ns = 0;  ///< when it last took some of that
     bool owner = false;
     bool gone = false;
   };
   void send_to_all();
+  static void deliver(Client& client);
   void hear(Client& client);
   void obey(Client& client, const std::string& line);
   void drop_the_gone();

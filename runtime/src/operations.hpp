@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "clock.hpp"
+#include "injection.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
 #include "shared_channel.hpp"
@@ -27,25 +29,28 @@ struct PortLink {
 /// What a subsystem is made of besides its net.
 struct SubsystemParts {
   std::string path;
+  std::uint32_t index = 0;  ///< into System::instances
   const Instance* instance = nullptr;
   std::unique_ptr<Subsystem> subsystem;
   Bindings bindings;
   std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs
   std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
+  FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
 };
 
 /// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code.
 /// Knows no net.
 ///
-/// *Failure.* When user code or a device fails during the transition function, the outputs become those of
-/// the iteration before, they are sent marked invalid until an iteration succeeds, an effector gets its safe
-/// command at once, and the outcome is error whatever the conditions say.
+/// *Failure.* When user code throws, a device fails, an output is not finite, or the transition function
+/// takes longer than the watchdog, the outputs become those of the iteration before, they are sent marked
+/// invalid until an iteration succeeds, an effector gets its safe command at once, and the outcome is error
+/// whatever the conditions say.
 ///
 /// *Safe command.* Given instead of the outputs while no valid value has arrived on some input for longer
 /// than `stale` (counted from the start of the run before the first; an invalid value is no news), and for
-/// good once a subsystem that feeds an input has ended. Given at once on failure, and by give_safe_command on
-/// every way out of the run.
+/// good once a subsystem that feeds an input has ended, and while one stalls. Given at once on failure, and
+/// by give_safe_command on every way out of the run.
 ///
 /// Threads: the subsystem's.
 class Operations final : public ContextServices {
@@ -73,22 +78,34 @@ class Operations final : public ContextServices {
   void note_answer(std::uint32_t port);
 
   void give_safe_command();
-  /// Gives the safe command if an input is stale or its source has ended and it has not been given for that
-  /// reason.
-  void guard_effectors(Time now);
+  /// Gives the safe command if an input is stale or its source has ended or stalls, and it has not been given
+  /// for that reason. place: where the token is.
+  void guard_effectors(Time now, std::string_view place);
+  /// The safe command from another thread, while the subsystem's own is in user code; false: the devices are
+  /// in use. Threads: any, one at a time.
+  [[nodiscard]] bool give_safe_command_from_outside();
   /// When guard_effectors must be called next if nothing else happens; Time::max(): never.
   [[nodiscard]] Time guard_deadline() const;
 
   void log(LogLevel level, std::string_view text) override;
   void stop(std::string_view reason) override;
+  void broken(std::string_view assertion) override;
+  /// Something has gone wrong in a place of this subsystem: to the terminal and the record.
+  void report(Fault fault, std::string_view place, std::string_view what) {
+    report(fault, place, what, lane_);
+  }
+  /// The same from another thread, into that one's lane.
+  void report(Fault fault, std::string_view place, std::string_view what, RecordingLane* lane) const;
+  /// The transition function of `behaviour` has run longer than the watchdog allows, and has not returned.
+  /// Threads: any, with a lane of its own.
+  void report_stall(std::uint16_t behaviour, RecordingLane* lane) const;
 
   [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
-    return parts_.instance->net->behaviours[behaviour].takes;
+    const Duration declared = parts_.instance->net->behaviours[behaviour].takes;
+    return parts_.faulty == nullptr ? declared : declared + parts_.faulty->take_delay();
   }
-  [[nodiscard]] bool has_inputs() const {
-    return !inputs_.empty() || !parts_.bindings.real_inputs.empty();
-  }
+  [[nodiscard]] bool has_inputs() const { return !inputs_.empty() || !parts_.bindings.real_inputs.empty(); }
   [[nodiscard]] bool commands_devices() const { return !parts_.effectors.empty(); }
   [[nodiscard]] bool ended_by_error() const { return erroneous_; }
   [[nodiscard]] std::uint64_t iterations() const { return calls_; }
@@ -97,12 +114,22 @@ class Operations final : public ContextServices {
  private:
   void read_receptors(Time now);
   void write_effectors(Time now);
-  [[nodiscard]] bool outputs_are_finite() const;
+  void check_watchdog(Time now);
+  void check_outputs();
+  void fail_not_finite(const Bindings::Outgoing& output);
   void refresh_ages(Time now);
-  void fail(std::string_view what);
-  [[nodiscard]] bool must_be_safe(Time now) const;
+  void fail(Fault fault, std::uint16_t behaviour, std::string_view what);
+  [[nodiscard]] std::string_view place_of_call(std::uint16_t behaviour) const;
+  /// Why the outputs must not go to the devices.
+  struct Hold {
+    enum class Kind : std::uint8_t { none, stale, stalled, ended } kind = Kind::none;
+    std::size_t input = 0;
+  };
+  [[nodiscard]] Hold why_hold(Time now) const;
+  void hold(const Hold& why, std::string_view place);
+  [[nodiscard]] bool write_safe_command();
   template <class Code>
-  [[nodiscard]] bool survives(std::uint16_t behaviour, std::string_view activity, Code&& code);
+  [[nodiscard]] bool survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code);
 
   SubsystemParts parts_;
   Context& context_;
@@ -117,11 +144,15 @@ class Operations final : public ContextServices {
     std::uint32_t source = UINT32_MAX;
     bool used = false;  // some behaviour receives it
   };
-  std::vector<InputState> inputs_;  // as Bindings::inputs
-  std::uint64_t iteration_ = 0;     // i of the paper
+  std::vector<InputState> inputs_;                  // as Bindings::inputs
+  std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
+  std::atomic_flag devices_in_use_{};               // by a thread that writes to effectors
+  Time called_at_{};
+  std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
   std::uint16_t behaviour_ = 0;  // the last called
   bool failed_ = false;          // the last transition function
+  bool refused_ = false;         // a command of the last transition function
   bool erroneous_ = false;       // the last outcome was error
   bool held_safe_ = false;       // the safe command stands because of an input
 };

@@ -8,8 +8,9 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <numeric>
 #include <string_view>
+
+#include "nearest.hpp"
 
 namespace tessera {
 namespace {
@@ -30,35 +31,15 @@ using Parameter = Bindings::Parameter;
   }
 }
 
-[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
-[[nodiscard]] std::string nearest(std::span<const ParameterOwner> owners, std::string_view wanted) {
-  std::string best;
-  std::size_t best_distance = 2 + wanted.size() / 3;
-  const auto consider = [&](std::string candidate) {
-    const std::size_t distance = edit_distance(wanted, candidate);
-    if (distance >= best_distance) return;
-    best_distance = distance;
-    best = std::move(candidate);
-  };
+/// Every way to name a parameter.
+[[nodiscard]] std::vector<std::string> names_of(std::span<const ParameterOwner> owners) {
+  std::vector<std::string> names;
   for (const ParameterOwner& owner : owners)
     for (const Parameter& parameter : owner.parameters) {
-      consider(std::string(parameter.name));
-      consider(fmt::format("{}.{}", owner.path, parameter.name));
+      names.emplace_back(parameter.name);
+      names.push_back(fmt::format("{}.{}", owner.path, parameter.name));
     }
-  return best;
+  return names;
 }
 
 // Each `store` returns what is wrong with the text; empty: nothing.
@@ -146,9 +127,7 @@ template <class Number>
     }
   }
   if (found) return "";
-  const std::string near = nearest(owners, path);
-  return fmt::format("unknown parameter '{}'{}", path,
-                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+  return fmt::format("unknown parameter '{}'{}", path, did_you_mean(path, names_of(owners)));
 }
 
 [[nodiscard]] std::string trimmed(std::string_view text) {

@@ -104,6 +104,7 @@ class Compilation {
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
     if (!error_.empty()) return;
     find_latch(transition, entry);
+    entry.tells_of_timeout = entry.guard.kind == Guard::Kind::elapsed;
     if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
     if (entry.outputs - entry.inputs == 1 && entry.end - entry.outputs == 1) {
       entry.from = plan_.arcs[entry.inputs];
@@ -175,8 +176,9 @@ class Compilation {
           std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });
       plan_.places[plan_.first_leaving.size()].timed = first_timed != ways.end();
       if (first_timed != ways.end())
-        std::for_each(ways.begin(), first_timed,
-                      [&](std::uint32_t t) { plan_.transitions[t].answers_in_time = true; });
+        std::for_each(ways.begin(), first_timed, [&](std::uint32_t t) {
+          plan_.transitions[t].tells_of_timeout = plan_.transitions[t].port != Plan::none;
+        });
       plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
     }

@@ -21,7 +21,7 @@ struct Plan {
     std::uint16_t slot = 0;     ///< that is written or read, from 0
     std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
     std::uint32_t first_departure = 0, end_of_departures = 0;  ///< into departures
-    bool timed = false;         ///< a timeout counts from the arrival of its token
+    bool timed = false;  ///< a timeout counts from the arrival of its token
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;
@@ -31,14 +31,14 @@ struct Plan {
   struct TransitionEntry {
     std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
-    std::uint32_t from = none, to = none;  ///< of one with a single input and a single output here
-    std::uint32_t port = none;             ///< the channel it touches
-    std::uint32_t latch = none;            ///< the input place whose arrival decides the guard ...
-    std::int32_t decided = 0;              ///< ... if it says this
+    std::uint32_t from = none, to = none;            ///< of one with a single input and a single output here
+    std::uint32_t port = none;                       ///< the channel it touches
+    std::uint32_t latch = none;                      ///< the input place whose arrival decides the guard ...
+    std::int32_t decided = 0;                        ///< ... if it says this
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
-    bool answers_in_time = false;           ///< the untimed way out of a place that also has a timed one
+    bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits

@@ -95,6 +95,14 @@ void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t ve
   publish();
 }
 
+void RecordingLane::overrun(Time time, std::uint32_t missed) {
+  Event late = event(Event::Kind::overrun, time);
+  if (!has_room(1)) return;
+  late.subject = missed;
+  push(late);
+  publish();
+}
+
 void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text) {
   Event head = event(kind, time);
   if (!has_room(1 + (text.size() + sizeof(Event) - 1) / sizeof(Event))) return;
@@ -142,10 +150,11 @@ std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_vi
                                          std::uint32_t instances, Mode mode, std::string& error) {
   std::unique_ptr<Recorder> recorder(new Recorder);
   if (!recorder->file_.open(path, header, error)) return nullptr;
-  // About 24 MB of rings at most, half a second of a fast subsystem at least.
+  // About 24 MB of rings, up to a quarter of a second at a million events a second for each.
   const std::size_t capacity =
-      mode == Mode::direct ? 0
-                           : std::clamp<std::size_t>((std::size_t{1} << 20) / (instances + 1), 512, 16384);
+      mode == Mode::direct
+          ? 0
+          : std::clamp<std::size_t>((std::size_t{1} << 20) / (instances + 1), 512, std::size_t{1} << 18);
   for (std::uint32_t instance = 0; instance < instances; ++instance)
     recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));

@@ -55,6 +55,7 @@ class RecordingLane {
   RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity);
 
   void firing(Time time, std::uint32_t transition, std::uint32_t version);
+  void overrun(Time time, std::uint32_t missed);
   void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   void drain();

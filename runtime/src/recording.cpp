@@ -40,7 +40,10 @@ constexpr std::string_view magic = "TESSREC1";
       return event.subject < recording.transitions.size();
     case Event::Kind::log:
     case Event::Kind::stop:
+    case Event::Kind::overrun:
       return true;
+    case Event::Kind::fault:
+      return !name_of(static_cast<Fault>(event.version)).empty();
   }
   return false;
 }
@@ -96,7 +99,7 @@ std::size_t RecordingReader::take_events(std::string_view bytes) {
       break;
     }
     std::size_t padded = 0;
-    if (entry.event.kind() != Event::Kind::firing) {
+    if (entry.event.has_text()) {
       const std::size_t length = entry.event.subject;
       padded = (length + sizeof(Event) - 1) / sizeof(Event) * sizeof(Event);
       if (padded > bytes.size() - sizeof(Event)) break;
@@ -106,6 +109,26 @@ std::size_t RecordingReader::take_events(std::string_view bytes) {
     recording_.entries.push_back(std::move(entry));
   }
   return size - bytes.size();
+}
+
+std::string_view name_of(Fault fault) {
+  switch (fault) {
+    case Fault::net:
+      return "net";
+    case Fault::assertion:
+      return "assertion";
+    case Fault::exception:
+      return "exception";
+    case Fault::not_finite:
+      return "not finite";
+    case Fault::device:
+      return "device";
+    case Fault::stale:
+      return "stale";
+    case Fault::stall:
+      return "stall";
+  }
+  return "";
 }
 
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {

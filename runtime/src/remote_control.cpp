@@ -224,7 +224,8 @@ void RemoteControl::keep_values(Time now) {
   const char* separator = "\"";
   const auto add = [&](const std::string& path, const auto& buffers) {
     for (const auto& buffer : buffers) {
-      if (buffer.size > largest_value || values_.size() > most_values) continue;
+      // A value that is more than its bytes is an image or the like: too much to send so often.
+      if (buffer.type != nullptr || buffer.size > largest_value || values_.size() > most_values) continue;
       values_.append(separator).append(path).append(".").append(buffer.name).append("\":\"");
       append_hex(buffer.value, buffer.size, values_);
       separator = "\",\"";

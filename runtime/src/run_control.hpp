@@ -13,7 +13,9 @@ namespace tessera {
 /// Threads: any, unless said otherwise. Never blocks, never allocates after construction.
 class RunControl {
  public:
-  explicit RunControl(std::uint32_t instances) : ended_(std::make_unique<std::atomic<bool>[]>(instances)) {}
+  explicit RunControl(std::uint32_t instances)
+      : ended_(std::make_unique<std::atomic<bool>[]>(instances)),
+        stalled_(std::make_unique<std::atomic<bool>[]>(instances)) {}
 
   /// The first reason counts; longer than 512 bytes is cut. fault: the run failed.
   void request_stop(std::string_view reason, bool fault);
@@ -27,12 +29,20 @@ class RunControl {
     return ended_[instance].load(std::memory_order_acquire);
   }
 
+  /// Its transition function has run longer than its watchdog allows, and has not returned.
+  void mark_stalled(std::uint32_t instance, bool stalled) {
+    stalled_[instance].store(stalled, std::memory_order_seq_cst);
+  }
+  [[nodiscard]] bool is_stalled(std::uint32_t instance) const {
+    return stalled_[instance].load(std::memory_order_seq_cst);
+  }
+
  private:
   std::atomic<std::uint32_t> state_{0};
   std::atomic<bool> failed_{false};
   std::array<char, 512> reason_{};
   std::size_t length_ = 0;
-  std::unique_ptr<std::atomic<bool>[]> ended_;
+  std::unique_ptr<std::atomic<bool>[]> ended_, stalled_;
 };
 
 }  // namespace tessera

@@ -19,10 +19,19 @@ void pause() {
 
 }  // namespace
 
-SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots)
-    : word_(marking), slots_(slots) {
+SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots,
+                             const ValueType* type)
+    : word_(marking), slots_(slots), type_(type) {
   assert(marking <= Word::field);
-  for (Memory& memory : slots_) memory.bytes.resize(value_bytes);
+  for (Memory& memory : slots_) {
+    memory.bytes.resize(value_bytes);
+    if (type_ != nullptr) type_->construct(memory.bytes.data());
+  }
+}
+
+SharedChannel::~SharedChannel() {
+  if (type_ == nullptr) return;
+  for (Memory& memory : slots_) type_->destroy(memory.bytes.data());
 }
 
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,

@@ -29,14 +29,15 @@ namespace tessera {
 /// release the other side, see below). Nothing else can make a need takeable.
 ///
 /// *Fairness.* A side that has been passed over - it registered, was woken, and found the other side at it
-/// again - says so when it registers once more. From then on the side that fired last does not take again while
-/// the other is registered for a need that is met; it registers itself instead. This cannot block: the two
-/// sides cannot both be the last to fire, so the registered side may take; it has been woken by the change that
-/// met its need (above); it either takes, after which it is the one that fired last and the first side is
-/// woken, or it takes another way and withdraws the registration (before it runs any user code), which wakes
-/// the first side too. Transitions that only give are never held back. A registration names needs exactly, not
-/// their union, because a side must not be held back for a need that is met in part. The first registration
-/// holds nobody back: were it to, two busy sides would sleep and wake each other at every single turn.
+/// again - says so when it registers once more. From then on the side that fired last does not take again
+/// while the other is registered for a need that is met; it registers itself instead. This cannot block: the
+/// two sides cannot both be the last to fire, so the registered side may take; it has been woken by the
+/// change that met its need (above); it either takes, after which it is the one that fired last and the first
+/// side is woken, or it takes another way and withdraws the registration (before it runs any user code),
+/// which wakes the first side too. Transitions that only give are never held back. A registration names needs
+/// exactly, not their union, because a side must not be held back for a need that is met in part. The first
+/// registration holds nobody back: were it to, two busy sides would sleep and wake each other at every single
+/// turn.
 ///
 /// The memory has one or more slots; each belongs to whoever has taken the token the net protects it with.
 /// That token passes through the word, whose compare-and-swaps acquire and release, so the bytes need no
@@ -48,7 +49,12 @@ class alignas(64) SharedChannel {
   static constexpr std::size_t max_places = 10;
   static constexpr std::size_t max_needs = 10;  ///< different ones, per side
 
-  SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1);
+  /// type: of the values, if they are more than their bytes.
+  SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1,
+                const ValueType* type = nullptr);
+  ~SharedChannel();
+  SharedChannel(const SharedChannel&) = delete;
+  SharedChannel& operator=(const SharedChannel&) = delete;
 
   /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
@@ -61,8 +67,8 @@ class alignas(64) SharedChannel {
   /// its turn. false: one of them may be taken now; nothing changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
 
-  /// Nothing can be taken before somebody gives: with the usual blocks, the other side is at the memory, which
-  /// runs no user code and is soon over.
+  /// Nothing can be taken before somebody gives: with the usual blocks, the other side is at the memory,
+  /// which runs no user code and is soon over.
   [[nodiscard]] bool held() const { return marking() == 0; }
   /// Waits, awake, for that to be over; false: it takes too long.
   [[nodiscard]] bool outwait() const;
@@ -127,6 +133,7 @@ class alignas(64) SharedChannel {
   std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
   std::array<Party, 2> parties_;
   std::vector<Memory> slots_;
+  const ValueType* type_;
   alignas(64) std::uint64_t writes_ = 0;  // the sender's own
 };
 
@@ -135,7 +142,7 @@ inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint1
 }
 
 inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uint16_t taken,
-                                                            std::uint16_t given) const {
+                                                             std::uint16_t given) const {
   std::uint32_t next = version() + 1;
   if (next == 0) next = 1;  // 0 means "no channel" in a recording
   const auto marked = static_cast<std::uint64_t>((marking() & ~taken) | given);
@@ -145,8 +152,8 @@ inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uin
   return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
 }
 
-/// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once to
-/// change.
+/// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once
+/// to change.
 inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
   std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
   if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);

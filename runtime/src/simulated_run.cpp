@@ -94,11 +94,15 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
   const bool one = remote_ != nullptr && remote_->one_by_one();
   if (one) remote_->about_to_fire();
   const std::uint64_t before = executor.firings();
-  const SubsystemExecutor::Progress progress = one ? executor.step(1) : executor.step();
+  const SubsystemExecutor::Progress progress =
+      executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
   if (one && executor.firings() != before) remote_->fired(instance);
-  if (progress.state == SubsystemExecutor::State::busy) {
-    unfinished_ = instance;
-    return;
+  if (progress.state == SubsystemExecutor::State::ready) {
+    if (!assembly.options.interleave) {
+      unfinished_ = instance;
+      return;
+    }
+    wake(instance);
   }
   deadlines_.set(instance,
                  progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
@@ -222,7 +226,8 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (assembly.control.stopping())
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
     if (upper.ended()) return ending("net ended", false);
-    const Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
     if (remote_ != nullptr) remote_->show_values(clock_.now());
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
@@ -231,6 +236,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
       return ending("duration", assembly.control.failed());
     }
     move_to(assembly, next);
+    assembly.signals.raise_due(next);
     progress.update(next);
     while (!deadlines_.empty() && deadlines_.first_time() <= next) {
       const std::uint32_t due = deadlines_.first();

@@ -23,7 +23,8 @@ struct Ending {
 };
 
 /// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something
-/// to do take turns in an order drawn from the seed; when none has, time jumps to the next deadline, and the
+/// to do take turns in an order drawn from the seed, each until it has to wait, or firing by firing
+/// (RunOptions::interleave); when none has, time jumps to the next deadline, and the
 /// world with it. A scenario comes first: its subsystems take turns as it says, and time waits for them
 /// alone. Everything but the wall clock's speed follows from tables, seed and user code.
 class SimulatedRun final : public Waker {

@@ -28,19 +28,28 @@ class SteadyRun final : public Waker {
 
  private:
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
+  void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(World& world, RunControl& control);
   void tell_supervisor() const;
+  void deny(const std::string& what);
   void supervise(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
-  void await_news(const StopSignals& signals, Time until) const;
+  void await_news(int signals, Time until) const;
+  /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.
+  void await_threads(const Assembly& assembly);
+  void say_waiting(const Assembly& assembly, Duration since) const;
+  void secure_devices(const Assembly& assembly) const;
   void wake_all(std::uint32_t instances);
 
   SteadyClock clock_;
   std::unique_ptr<WakeWord[]> wake_words_;
+  std::unique_ptr<std::atomic<bool>[]> gone_;  // per instance: its thread has ended
   WakeWord world_wakes_;
   std::vector<bool> collected_;
-  int news_ = -1;  // eventfd: a subsystem has ended or the run is to stop
+  int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
+  std::uint32_t started_ = 0;  // threads of the first so many instances
   bool duration_over_ = false;
+  std::atomic<bool> denied_{false};  // that real time was not permitted has been said
 };
 
 }  // namespace tessera

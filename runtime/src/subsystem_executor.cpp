@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
+
+#include "console.hpp"
 
 namespace tessera {
 
@@ -19,7 +22,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       clock_(shared.clock),
       waker_(shared.waker),
       lane_(lane),
-      watched_(shared.watched),
+      watched_(shared.watched || operations_.parts().instance->policies.watchdog > Duration::zero()),
       simulated_(shared.clock.simulated()),
       ports_(operations_.parts().ports.data()),
       tokens_(plan_->places.size()),
@@ -30,7 +33,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
 
 void SubsystemExecutor::enter() { put(plan_->in); }
 
-SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most_firings) {
+SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
   renew_time();
   if (blocked_since_ != Time::max()) waited_ += now_ - std::exchange(blocked_since_, Time::max());
   bool up_to_date = true;  // nothing has happened since the clock was read
@@ -40,10 +43,11 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most_firings) 
       end();
       return {State::ended};
     }
+    if (most-- == 0) return {State::ready};
     if (fire_one()) {
       up_to_date = false;
-      if (simulated_ && time_stands_still()) fault("time stands still: it fires for ever at one instant");
-      if (--most_firings == 0) return {State::busy};
+      if (simulated_ && time_stands_still())
+        fault(marked_.front(), "time stands still: it fires for ever at one instant");
       continue;
     }
     if (advance_operations()) {
@@ -55,7 +59,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most_firings) 
       renew_time();
       continue;
     }
-    operations_.guard_effectors(now_);
+    operations_.guard_effectors(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
     if (registrations_ > 0) blocked_since_ = now_;
     return {State::waiting, next_deadline()};
@@ -92,8 +96,9 @@ bool SubsystemExecutor::walk() {
     const Plan::TransitionEntry* const fired = fire_from(place);
     if (fired == nullptr) return walked;
     walked = true;
-    if (simulated_ || marked_.size() != 1 || at_end_ || control_.stopping()) break;
-    place = marked_.front() == fired->to ? fired->to : marked_.front();
+    // Now and then it looks up: at the clock, and whether the run is to stop.
+    if (fired->to == Plan::none || simulated_ || marked_.size() != 1 || firings_ % look_up == 0) break;
+    place = fired->to;
   }
   return walked;
 }
@@ -158,20 +163,19 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
 }
 
 inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
-  ++firings_;
-  if (firings_ % 64 == 0) renew_time();  // however long it goes on without code of the user's
-  if (lane_ != nullptr) {
-    renew_time();
-    lane_->firing(now_, first_transition_ + transition.index, version);
+  if (++firings_ % look_up == 0 || lane_ != nullptr) renew_time();
+  if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
+  if (transition.tells_of_timeout) {
+    if (transition.guard.kind == Guard::Kind::elapsed)
+      operations_.note_timeout(transition.port);
+    else
+      operations_.note_answer(transition.port);
   }
-  if (transition.guard.kind == Guard::Kind::elapsed)
-    operations_.note_timeout(transition.port);
-  else if (transition.answers_in_time && transition.port != Plan::none)
-    operations_.note_answer(transition.port);
-  if (transition.from != Plan::none) {
-    take(transition.from);
-    put(transition.to);
-    return;
+  if (transition.to != Plan::none && marked_.size() == 1) {
+    tokens_[transition.from].position = Plan::none;
+    tokens_[transition.to].position = 0;
+    marked_.front() = transition.to;
+    return arrive(transition.to);
   }
   for (const std::uint32_t place : plan_->inputs(transition)) take(place);
   for (const std::uint32_t place : plan_->outputs(transition)) put(place);
@@ -180,7 +184,7 @@ inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transit
 // -------------------------------------------------------------------------------------------- tokens,
 // operations
 
-inline void SubsystemExecutor::take(std::uint32_t place) {
+void SubsystemExecutor::take(std::uint32_t place) {
   const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
   marked_[hole] = marked_.back();
   tokens_[marked_[hole]].position = hole;
@@ -188,22 +192,23 @@ inline void SubsystemExecutor::take(std::uint32_t place) {
   marked_.pop_back();
 }
 
-inline void SubsystemExecutor::put(std::uint32_t place) {
+void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
-  if (token.position != Plan::none) return fault("a place got a second token: the net is not safe");
+  if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
-  token.phase = Phase::finished;
   marked_.push_back(place);
-  if (plan_->places[place].timed) {
+  arrive(place);
+}
+
+/// Starts the operation.
+inline void SubsystemExecutor::arrive(std::uint32_t place) {
+  const Plan::PlaceEntry& entry = plan_->places[place];
+  Token& token = tokens_[place];
+  token.phase = Phase::finished;
+  if (entry.timed) {
     renew_time();
     token.arrival = now_;
   }
-  start_operation(place);
-}
-
-inline void SubsystemExecutor::start_operation(std::uint32_t place) {
-  const Plan::PlaceEntry& entry = plan_->places[place];
-  Token& token = tokens_[place];
   switch (entry.does) {
     case Does::Kind::nothing:
       if (place == plan_->out) arrive_at_end();
@@ -251,8 +256,8 @@ void SubsystemExecutor::route(std::uint32_t place) {
   token.latched = Operations::no_entry;
   if (script_ends_without_choice()) return;
   token.latched = operations_.route(plan_->places[place].subject, time_of_conditions());
-  if (token.latched == Operations::no_entry) fault("no condition of `next` holds");
-  if (token.latched == Operations::unknown_entry) fault("a condition of `next` has thrown");
+  if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
+  if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
   if (token.latched >= 0) check_way_out(place);
 }
 
@@ -263,16 +268,18 @@ void SubsystemExecutor::check_way_out(std::uint32_t place) {
   const auto leaving = plan_->leaving_of(place);
   const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
-    fault("what was decided has no transition: the generated code does not fit its net");
+    fault(place, "what was decided has no transition: the generated code does not fit its net");
 }
 
 void SubsystemExecutor::arrive_at_end() {
   at_end_ = true;
-  if (operations_.ended_by_error()) fault("ended by an error that no `next` leads to another behaviour");
+  if (operations_.ended_by_error())
+    fault(plan_->out, "ended by an error that no `next` leads to another behaviour");
 }
 
 Time SubsystemExecutor::release() {
-  const Duration period = operations_.parts().instance->period;
+  const Instance& instance = *operations_.parts().instance;
+  const Duration period = instance.period;
   const Duration waited = std::exchange(waited_, Duration::zero());
   if (period == Duration::zero()) return Time::min();
   renew_time();
@@ -283,11 +290,25 @@ Time SubsystemExecutor::release() {
   if (next_release_ < 0) {
     next_release_ = arrival.time_since_epoch() / period;  // the first call starts at once
   } else {
-    const std::int64_t missed_by_work = first_not_before(arrival - waited) - next_release_;
-    if (missed_by_work > 0) overruns_ += static_cast<std::uint64_t>(missed_by_work);
-    next_release_ = std::max(next_release_, first_not_before(arrival));
+    const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
+    count_overruns(without_waiting);
+    if (instance.policies.overrun == Overrun::skip)
+      next_release_ = std::max(next_release_, now);
+    else
+      next_release_ =
+          std::max(next_release_, now - std::max<std::int64_t>(0, without_waiting - next_release_));
   }
   return Time(period * next_release_++);
+}
+
+/// Instants before `end` that no call has been made for.
+void SubsystemExecutor::count_overruns(std::int64_t end) {
+  const std::int64_t missed = end - std::max(next_release_, counted_to_);
+  if (missed <= 0) return;
+  counted_to_ = end;
+  overruns_ += static_cast<std::uint64_t>(missed);
+  if (lane_ != nullptr)
+    lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
 }
 
 bool SubsystemExecutor::advance_operations() {
@@ -299,6 +320,7 @@ bool SubsystemExecutor::advance_operations() {
 /// Begins or ends a transition function; false when that has to wait.
 bool SubsystemExecutor::advance(std::uint32_t place) {
   Token& token = tokens_[place];
+  const Duration watchdog = operations_.parts().instance->policies.watchdog;
   if (token.phase == Phase::released_later) {
     // User code may take long: nobody must be held back meanwhile by a wait that is over.
     if (registrations_ > 0 && !register_waits()) return true;
@@ -310,14 +332,48 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     token.phase = Phase::running;
     token.due = Time::min();
     if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (watchdog > Duration::zero() && token.due > begin + watchdog)
+      returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
     if (token.due > begin) return true;
+  }
+  if (returns_ != Time{}) {
+    token.due = std::exchange(returns_, Time{});
+    raise_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed), lane_);
+    return true;
   }
   if (watched_ || operations_.commands_devices()) renew_time();
   operations_.finish_call(now_);
   gauges_.end_call(now_);
+  if (watchdog > Duration::zero()) end_alarm();
   show();
   token.phase = Phase::finished;
   return true;
+}
+
+void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) {
+  control_.mark_stalled(index_, true);
+  // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
+  // the call and both looks are sequentially consistent.
+  if (!gauges_.calling.load(std::memory_order_seq_cst) ||
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns)
+    return control_.mark_stalled(index_, false);
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
+  if (!operations_.give_safe_command_from_outside())
+    console::print(LogLevel::error, clock_.now(), path(),
+                   "its devices are in use, or refuse the safe command");
+  wake_receivers();
+}
+
+void SubsystemExecutor::end_alarm() {
+  gauges_.calling.store(false, std::memory_order_seq_cst);
+  if (!control_.is_stalled(index_)) return;
+  control_.mark_stalled(index_, false);
+  wake_receivers();
+}
+
+void SubsystemExecutor::wake_receivers() {
+  for (const PortLink& port : operations_.parts().ports)
+    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
 }
 
 /// Once an iteration, for those who watch.
@@ -354,12 +410,12 @@ std::string_view forced_by(Guard::Kind guard) {
 SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
   const std::uint32_t transition = script_[followed_++];
   if (transition == Plan::none) {
-    fault("no condition of `next` holds");
+    fault(marked_.front(), "no condition of `next` holds");
     return {Followed::fired, Time::max(), "no initial condition"};
   }
   renew_time();
   while (advance_operations()) continue;
-  operations_.guard_effectors(now_);
+  operations_.guard_effectors(now_, name_of(marked_.front()));
   if (!try_fire(transition)) {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};
@@ -450,8 +506,8 @@ bool SubsystemExecutor::time_stands_still() {
 
 // -------------------------------------------------------------------------------------------- ends
 
-void SubsystemExecutor::fault(std::string_view text) {
-  operations_.log(LogLevel::error, text);
+void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
+  operations_.report(Fault::net, name_of(place), text);
   std::array<char, 512> reason;
   const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
   control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
@@ -461,8 +517,7 @@ void SubsystemExecutor::end() {
   static_cast<void>(register_waits());  // withdraws: nobody must yield to a subsystem that has ended
   leave();
   control_.mark_ended(index_);
-  for (const PortLink& port : operations_.parts().ports)
-    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
+  wake_receivers();
 }
 
 std::string SubsystemExecutor::whereabouts(const System& system) const {

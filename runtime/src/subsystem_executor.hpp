@@ -24,7 +24,7 @@ namespace tessera {
 /// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
 /// not before the token's arrival and later than that of the call before; the grid is one for all behaviours.
 /// The first call starts at once. Instants passed over are overruns, unless the time went by waiting for
-/// other subsystems.
+/// other subsystems; Overrun::catch_up makes up for them, one call after the other.
 ///
 /// *Ends.* The token in `out`: the subsystem has ended. It is a fault, which stops the system, when that
 /// happens after an error (nobody routed it to another behaviour), and when no condition of `next` holds or
@@ -46,14 +46,14 @@ class SubsystemExecutor {
   /// Puts the token into `in`: t_in of the agent has fired.
   void enter();
 
-  enum class State : std::uint8_t { waiting, ended, stopped, busy };
+  enum class State : std::uint8_t { waiting, ended, stopped, ready };
   struct Progress {
     State state = State::waiting;
     Time deadline = Time::max();  ///< of waiting: step again then, or when woken
   };
-  /// Fires until nothing may fire now, or so many times (busy). Wakes subsystems that receive from this one
-  /// when it ends.
-  [[nodiscard]] Progress step(std::uint64_t most_firings = UINT64_MAX);
+  /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
+  /// most: how many firings and operations at most; ready: it could have gone on.
+  [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
   /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
   /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
@@ -69,6 +69,13 @@ class SubsystemExecutor {
   [[nodiscard]] FollowProgress follow();
   /// A line on the console and in the recording.
   void note(std::string_view text) { operations_.log(LogLevel::info, text); }
+
+  /// The transition function of call `since` has run longer than the watchdog allows: to `lane`, the devices
+  /// get their safe command, and those who receive from here look at theirs. Threads: any, with a lane of its
+  /// own.
+  void raise_alarm(std::int64_t since_ns, RecordingLane* lane);
+  /// The safe command from another thread; false: the devices are in use.
+  [[nodiscard]] bool leave_from_outside() { return operations_.give_safe_command_from_outside(); }
 
   /// The safe command, on every way out of the run.
   void leave() { operations_.give_safe_command(); }
@@ -88,11 +95,15 @@ class SubsystemExecutor {
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
+  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock and at
+  /// RunControl.
+  static constexpr std::uint32_t look_up = 64;
+
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
   struct Token {
     Time arrival{};  // in places from which a timeout counts
-    Time due{};  // of released_later and running
+    Time due{};      // of released_later and running
     Phase phase = Phase::finished;
     std::int32_t latched = 0;             // the outcome or the entry of `next`
     std::uint32_t position = Plan::none;  // in marked_
@@ -115,12 +126,18 @@ class SubsystemExecutor {
 
   void take(std::uint32_t place);
   void put(std::uint32_t place);
-  void start_operation(std::uint32_t place);
+  void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();
   [[nodiscard]] bool advance(std::uint32_t place);
   [[nodiscard]] Time release();
+  void count_overruns(std::int64_t end);
+  void end_alarm();
+  void wake_receivers();
+  [[nodiscard]] std::string_view name_of(std::uint32_t place) const {
+    return operations_.parts().instance->net->places[place].name;
+  }
   void show();
 
   // Scripts.
@@ -133,7 +150,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool register_waits();
   [[nodiscard]] Time next_deadline() const;
   [[nodiscard]] bool time_stands_still();
-  void fault(std::string_view text);
+  void fault(std::uint32_t place, std::string_view text);
   void end();
 
   std::uint32_t index_;
@@ -148,8 +165,8 @@ class SubsystemExecutor {
   Time now_{};                  // of the last look at the clock
   bool time_is_known_ = false;  // no code of the user's has run since
   bool watched_, simulated_;
-  bool at_end_ = false;    // the token is in `out`
-  const PortLink* ports_;  // of operations_
+  bool at_end_ = false;                  // the token is in `out`
+  const PortLink* ports_;                // of operations_
   const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
 
   std::vector<Token> tokens_;              // per place
@@ -162,6 +179,8 @@ class SubsystemExecutor {
   std::size_t followed_ = 0;           // of the script
 
   std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
+  std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
+  Time returns_{};                  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   std::uint64_t firings_ = 0, overruns_ = 0;

@@ -22,7 +22,7 @@ class Waker {
 class alignas(64) WakeWord {
  public:
   /// Forgets earlier wake-ups. Threads: the sleeper's.
-  [[nodiscard]] std::uint32_t ticket() { 
+  [[nodiscard]] std::uint32_t ticket() {
     state_.exchange(awake, std::memory_order_acq_rel);
     return awake;
   }

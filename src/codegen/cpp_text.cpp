@@ -30,6 +30,18 @@ std::string element_name(const spec::Model& model, const spec::Type& type,
   return hidden.contains(name) ? fmt::format("::{}::{}", model.system, name) : name;
 }
 
+/// Whether copies of it had better share their elements: those of 4 KB and more, structures counted as 16
+/// bytes.
+bool is_large(const spec::Type& type) {
+  constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
+  static_assert(scalar_bytes.size() == scalar_names.size());
+  const std::uint64_t element = type.kind == spec::Type::Kind::scalar
+                                    ? scalar_bytes[static_cast<std::size_t>(type.scalar)]
+                                : type.kind == spec::Type::Kind::string ? type.capacity
+                                                                        : 16;
+  return element * type.extent >= 4096;
+}
+
 /// The end of the run of commented lines that starts at `begin`.
 std::size_t end_of_run(const std::vector<Declaration>& lines, std::size_t begin) {
   std::size_t end = begin;
@@ -58,11 +70,13 @@ void add_run(std::span<const Declaration> lines, const std::string& indent, std:
 std::string type_name(const spec::Model& model, const spec::Type& type,
                       const std::set<std::string_view>& hidden) {
   const std::string element = element_name(model, type, hidden);
-  return type.extent == 0 ? element : fmt::format("std::array<{}, {}>", element, type.extent);
+  if (type.extent == 0) return element;
+  return fmt::format("{}<{}, {}>", is_large(type) ? "tessera::LargeArray" : "std::array", element,
+                     type.extent);
 }
 
 void add_headers(const spec::Type& type, std::set<std::string>& headers) {
-  if (type.extent != 0) headers.insert("<array>");
+  if (type.extent != 0) headers.insert(is_large(type) ? "<tessera/large_array.hpp>" : "<array>");
   if (type.kind == spec::Type::Kind::string) headers.insert("<tessera/bounded_string.hpp>");
   if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 &&
       type.scalar <= spec::Scalar::uint64)

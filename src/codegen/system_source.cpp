@@ -21,14 +21,33 @@ std::string table(std::string_view type, std::string_view name, const std::strin
   return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
 }
 
+/// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
+std::string policies(const spec::Subsystem& subsystem) {
+  std::vector<std::string> members;
+  if (subsystem.overrun == spec::Overrun::catch_up)
+    members.emplace_back(".overrun = tessera::Overrun::catch_up");
+  if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
+  if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");
+  if (subsystem.realtime) {
+    const spec::RealTime& real = *subsystem.realtime;
+    const std::string cpu = real.cpu ? fmt::format(", .cpu = {}", *real.cpu) : "";
+    members.push_back(fmt::format(".realtime = {{.policy = tessera::RealTime::Policy::{}, .priority = {}{}}}",
+                                  real.policy == spec::RealTime::Policy::fifo ? "fifo" : "round_robin",
+                                  real.priority, cpu));
+  }
+  return members.empty() ? "" : fmt::format(", {{{}}}", fmt::join(members, ", "));
+}
+
 std::string instance_row(const Project& project, const Unit& unit, spec::Index instance,
                          std::uint32_t variant) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   const std::string part = fmt::format("{}::{}::Part", unit.definition->name, subsystem.name);
+  const std::string last = policies(subsystem);
   std::string times;
-  if (subsystem.period || subsystem.stale)
+  if (subsystem.period || subsystem.stale || !last.empty())
     times = ", " + duration(subsystem.period.value_or(spec::Duration{0}));
-  if (subsystem.stale) times += ", " + duration(*subsystem.stale);
+  if (subsystem.stale || !last.empty()) times += ", " + duration(subsystem.stale.value_or(spec::Duration{0}));
+  times += last;
   return fmt::format("    {{\"{}\", \"{}\", tessera::Kind::{}, &{}::net{}, {}::make{}}},\n",
                      project.model.agents[project.model.instances[instance].agent].path, subsystem.name,
                      kinds[static_cast<std::size_t>(subsystem.kind)], part, variant_suffix(variant), part,

@@ -139,7 +139,8 @@ std::vector<PairInvariant> pair_invariants(const CommunicationModel& model) {
         std::ranges::any_of(invariant.shared, [](std::int32_t weight) { return weight != 0; });
     if (speaks) found.push_back(std::move(invariant));
   }
-  std::ranges::stable_partition(found, [](const PairInvariant& invariant) { return invariant.is_unit(); });
+  std::stable_partition(found.begin(), found.end(),
+                        [](const PairInvariant& invariant) { return invariant.is_unit(); });
   return found;
 }
 

@@ -133,6 +133,19 @@ struct Behaviour {
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
+/// What a subsystem with a rate does about instants that its work made it miss.
+enum class Overrun : std::uint8_t {
+  skip,     ///< leaves them out
+  catch_up  ///< runs the iterations late, one after the other
+};
+
+/// How the operating system schedules the thread of a subsystem that runs in real time.
+struct RealTime {
+  enum class Policy : std::uint8_t { fifo, round_robin } policy = Policy::fifo;
+  std::uint32_t priority = 50;  ///< 1 .. 99
+  std::optional<std::uint32_t> cpu;
+};
+
 struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
@@ -143,6 +156,10 @@ struct Subsystem {
   std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
   std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
   std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
+  Overrun overrun = Overrun::skip;
+  std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
+  bool non_finite_allowed = false;   ///< outputs may be infinite or not a number
+  std::optional<RealTime> realtime;
   std::vector<Behaviour> behaviours;
   Span span;
 };

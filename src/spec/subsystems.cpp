@@ -8,6 +8,7 @@
 #include "spec/buffers.hpp"
 #include "spec/flow.hpp"
 #include "spec/literals.hpp"
+#include "spec/policies.hpp"
 #include "spec/quantities.hpp"
 #include "spec/section.hpp"
 
@@ -98,10 +99,10 @@ std::string_view name_of(SubsystemKind kind) {
 
 Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
                          Diagnostics& out) {
-  const Section section(
-      *entry.value, entry.span, "a subsystem",
-      {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real", "safe", "stale"},
-      out);
+  const Section section(*entry.value, entry.span, "a subsystem",
+                        {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real",
+                         "safe", "stale", "overrun", "watchdog", "non_finite", "realtime"},
+                        out);
   check_kind(section, kind, out);
   Subsystem subsystem;
   subsystem.kind = kind;
@@ -122,6 +123,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   subsystem.safe = read_safe(section.find("safe"), subsystem.real, around.types, out);
   if (const Entry* stale = section.find("stale"))
     subsystem.stale = read_duration(*stale->value, stale->span, "stale", out);
+  read_policies(section, subsystem, out);
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
     subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);

@@ -15,8 +15,8 @@ namespace tessera::verify {
 [[nodiscard]] std::vector<net::TransitionId> causes_of_standstill(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 
-/// The run, gone on with until those that the stuck transitions wait for wait too, and so on: then it shows the
-/// circle, or who has ended. As it is if some of them would run for ever.
+/// The run, gone on with until those that the stuck transitions wait for wait too, and so on: then it shows
+/// the circle, or who has ended. As it is if some of them would run for ever.
 [[nodiscard]] std::vector<net::TransitionId> until_all_concerned_wait(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 

@@ -39,11 +39,12 @@ Follower::Follower(const std::filesystem::path& folder, const Analysis& analysis
 
 void Follower::rest() { std::this_thread::sleep_for(between_looks); }
 
-Follower::News Follower::look(const std::optional<json>& snapshot) {
+Follower::News Follower::look(std::optional<json> snapshot) {
   News news;
+  if (snapshot) snapshot_ = std::move(snapshot);
   add_firings(news);
   add_pose(news);
-  if (snapshot) add_snapshot(*snapshot, news);
+  if (snapshot_ && !news.more) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
   return news;
 }
 
@@ -79,6 +80,7 @@ void Follower::add_pose(News& news) {
 void Follower::add_snapshot(const json& snapshot, News& news) {
   news.has_state = snapshot.contains("paused");
   news.paused = snapshot.value("paused", false);
+  news.pauses = snapshot.value("pauses", std::uint64_t{0});
   news.broke_at = snapshot.value("broke_at", "");
   const auto found = snapshot.find("values");
   if (found == snapshot.end() || !found->is_object()) return;

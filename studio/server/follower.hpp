@@ -26,10 +26,13 @@ class Follower {
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     bool has_state = false, paused = false;
+    std::uint64_t pauses = 0;  ///< how often it has come to rest
     std::string broke_at;
     bool more = false;  ///< there is more to read at once
   };
-  [[nodiscard]] News look(const std::optional<nlohmann::json>& snapshot);
+  /// snapshot: of the control socket, if there is a new one. What it says is told when everything that the
+  /// run had recorded by then has been read.
+  [[nodiscard]] News look(std::optional<nlohmann::json> snapshot);
   /// Until it is worth while to look again.
   static void rest();
 
@@ -45,6 +48,7 @@ class Follower {
   ValueReader values_;
   std::chrono::steady_clock::time_point marking_told_{}, pose_told_{};
   nlohmann::json pose_waiting_;
+  std::optional<nlohmann::json> snapshot_;
   std::string values_seen_;
 };
 

@@ -184,6 +184,7 @@ void Run::execute(const project::Controller& controller) {
 void Run::follow(pid_t process, const std::filesystem::path& folder) {
   Follower follower(folder, *analysis_);
   bool connected = false;
+  std::uint64_t pauses = 0;
   for (bool last = false;; last = process_over_) {
     if (request_.simulated && !connected) connected = link_.connect(analysis_->model->system, process);
     Follower::News news = follower.look(connected ? link_.snapshot() : std::nullopt);
@@ -195,7 +196,9 @@ void Run::follow(pid_t process, const std::filesystem::path& folder) {
       if (!news.values.is_null()) values_ = news.values.at("values");
       if (!news.pose.is_null()) pose_ = news.pose;
       const State now = news.paused ? State::paused : State::running;
-      if (news.has_state && now != state_ && !last) changed = now;
+      // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
+      const bool rested_again = news.paused && news.pauses != std::exchange(pauses, news.pauses);
+      if (news.has_state && (now != state_ || rested_again) && !last) changed = now;
     }
     if (!news.firings.is_null()) publish("firings", std::move(news.firings));
     if (!news.values.is_null()) publish("values", std::move(news.values));

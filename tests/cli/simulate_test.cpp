@@ -61,6 +61,60 @@ TEST_F(Simulate, WrongParametersAndTracksAreNamed) {
   EXPECT_NE(nowhere.text.find("nowhere.png"), std::string::npos) << nowhere.text;
 }
 
+TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain) {
+  const fs::path project = example("01_line_follower");
+  const nlohmann::json good = json("simulate 01_line_follower --schedules 20");
+  EXPECT_EQ(good.at("tried"), 20);
+  EXPECT_EQ(good.at("simulated_s"), 20.0);
+  EXPECT_TRUE(good.at("failure").is_null());
+
+  // Whether a reading has come by the end of the first instant is up to the order in it.
+  replace(project / "src/control.cpp", "  out.motion = steer(",
+          "  context.assert_that(in.line.valid, \"blind in iteration {}\", context.iteration);\n"
+          "  out.motion = steer(");
+  const cli::Exit found = tessera("simulate 01_line_follower --schedules 1000 --json out.json");
+  EXPECT_EQ(found.code, 1) << found.text;
+  const nlohmann::json failure = nlohmann::json::parse(content_of(folder_ / "out.json"));
+  EXPECT_NE(found.text.find("broken assertion: blind in iteration 1"), std::string::npos) << found.text;
+  std::string again = failure.at("reproduce");
+  ASSERT_TRUE(again.starts_with("tessera simulate ")) << again;
+  const cli::Exit made = tessera(again.substr(8));
+  EXPECT_EQ(made.code, 1) << made.text;
+  EXPECT_NE(made.text.find("blind in iteration 1"), std::string::npos) << made.text;
+  const cli::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
+  EXPECT_NE(printed.text.find("fault (assertion): robot.control.follow.in: blind in iteration 1"),
+            std::string::npos)
+      << printed.text;
+}
+
+TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
+  example("01_line_follower");
+  const cli::Exit thrown =
+      tessera("simulate 01_line_follower --for 5s --inject robot.control.follow:throw@2.5s");
+  EXPECT_EQ(thrown.code, 1) << thrown.text;
+  const cli::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
+  for (const char* line : {"robot.control: injected: robot.control.follow:throw@2.5s",
+                           "robot.control: fault (exception): robot.control.follow.in: injected",
+                           "ended by an error that no `next` leads to another behaviour"})
+    EXPECT_NE(printed.text.find(line), std::string::npos) << printed.text;
+  const cli::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr");
+  EXPECT_NE(summary.text.find("1 errors, 2 faults"), std::string::npos) << summary.text;
+  const cli::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  EXPECT_NE(checked.text.find("legal: "), std::string::npos) << checked.text;
+
+  // NaN inside a structure.
+  tessera("simulate 01_line_follower --for 5s --inject robot.control:nan@1s");
+  EXPECT_NE(tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --containing finite")
+                .text.find("robot.control.follow.in: output 'motion' is not finite"),
+            std::string::npos);
+
+  const cli::Exit wrong = tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
+  EXPECT_EQ(wrong.code, 1) << wrong.text;
+  EXPECT_NE(wrong.text.find("unknown 'robot.control.folow'; did you mean 'robot.control.follow'?"),
+            std::string::npos)
+      << wrong.text;
+}
+
 TEST_F(Simulate, RunWithoutDriversNamesTheRealBuffer) {
   example("01_line_follower");
   const project::Exit done = tessera("run 01_line_follower --for 1s");

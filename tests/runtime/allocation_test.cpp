@@ -1,4 +1,6 @@
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -7,9 +9,9 @@
 #include "nets.hpp"
 #include "test_system.hpp"
 
-// Counts every allocation of this program, so this test is a program of its own.
+// Counts every allocation and every lock of this program, so this test is a program of its own.
 namespace {
-std::atomic<std::uint64_t> allocations{0};
+std::atomic<std::uint64_t> allocations{0}, locks{0};
 void* counted(std::size_t size, std::size_t alignment) {
   allocations.fetch_add(1, std::memory_order_relaxed);
   void* memory = alignment <= alignof(std::max_align_t)
@@ -29,13 +31,28 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
+extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  using Lock = int (*)(pthread_mutex_t*);
+  static const auto next = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+  locks.fetch_add(1, std::memory_order_relaxed);
+  return next(mutex);
+}
+
 using namespace std::chrono_literals;
 
 namespace tessera::testing {
 namespace {
 
-/// Allocations of a run of that length, with a recording, log lines, timeouts and a device.
-[[nodiscard]] std::uint64_t allocations_of_a_run(RunOptions::Clock clock, Duration duration) {
+struct Cost {
+  std::uint64_t allocations, locks;
+  bool operator==(const Cost&) const = default;
+};
+void PrintTo(const Cost& cost, std::ostream* out) {
+  *out << cost.allocations << " allocations, " << cost.locks << " locks";
+}
+
+/// Of a run of that length, with a recording, log lines, timeouts and a device.
+[[nodiscard]] Cost cost_of_a_run(RunOptions::Clock clock, Duration duration) {
   TestSystem system;
   Script sender, receiver;
   sender.call = [](ScriptState& state) {
@@ -52,19 +69,29 @@ namespace {
   RunOptions options = simulated(duration);
   options.clock = clock;
   options.recording = scratch_file("run");
-  const std::uint64_t before = allocations.load();
+  const Cost before{allocations.load(), locks.load()};
   EXPECT_GT(run(system, options).firings, 10u);
-  return allocations.load() - before;
+  // The device of the test locks whenever it is written to.
+  return {allocations.load() - before.allocations, locks.load() - before.locks - commands.size()};
 }
 
-TEST(FiringPath, AllocatesNothingUnderTheSimulatedClock) {
-  EXPECT_EQ(allocations_of_a_run(RunOptions::Clock::simulated, 10ms),
-            allocations_of_a_run(RunOptions::Clock::simulated, 5s));
+TEST(FiringPath, NeitherAllocatesNorLocksUnderTheSimulatedClock) {
+  EXPECT_EQ(cost_of_a_run(RunOptions::Clock::simulated, 10ms),
+            cost_of_a_run(RunOptions::Clock::simulated, 5s));
 }
 
-TEST(FiringPath, AllocatesNothingUnderTheSteadyClock) {
-  EXPECT_EQ(allocations_of_a_run(RunOptions::Clock::steady, 50ms),
-            allocations_of_a_run(RunOptions::Clock::steady, 200ms));
+TEST(FiringPath, NeitherAllocatesNorLocksUnderTheSteadyClock) {
+  EXPECT_EQ(cost_of_a_run(RunOptions::Clock::steady, 50ms), cost_of_a_run(RunOptions::Clock::steady, 200ms));
+}
+
+TEST(FiringPath, TheCountersCount) {
+  const Cost before{allocations.load(), locks.load()};
+  delete new std::atomic<int>(1);
+  pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  pthread_mutex_lock(&mutex);
+  pthread_mutex_unlock(&mutex);
+  EXPECT_GT(allocations.load(), before.allocations);
+  EXPECT_GT(locks.load(), before.locks);
 }
 
 }  // namespace

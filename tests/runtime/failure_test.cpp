@@ -89,7 +89,9 @@ TEST(Failure, AnErrorMayBeRoutedToAnotherBehaviour) {
   ASSERT_TRUE(recording) << error;
   EXPECT_EQ(complaint_about(*recording, system.system()), "");
   bool logged = false;
-  for (const auto& entry : recording->entries) logged = logged || entry.text == "first: oops";
+  for (const auto& entry : recording->entries)
+    logged = logged || (entry.event.kind() == Event::Kind::fault && entry.text == "robot.a.first.in: oops" &&
+                        entry.event.version == static_cast<std::uint32_t>(Fault::exception));
   EXPECT_TRUE(logged);
 }
 

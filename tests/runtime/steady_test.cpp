@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -31,7 +32,12 @@ TEST(SteadyRun, EndsWhenTheNetEnds) {
   const auto recording = read_recording(options.recording, error);
   ASSERT_TRUE(recording) << error;
   EXPECT_EQ(complaint_about(*recording, system.system()), "");
-  EXPECT_EQ(recording->entries.size(), summary.firings + 1);
+  // On a busy machine it may miss instants of its rate, which is recorded too.
+  const auto firings =
+      std::count_if(recording->entries.begin(), recording->entries.end(),
+                    [](const auto& entry) { return entry.event.kind() == Event::Kind::firing; });
+  EXPECT_EQ(static_cast<std::uint64_t>(firings), summary.firings);
+  EXPECT_EQ(recording->entries.back().text, "net ended");
 }
 
 TEST(SteadyRun, StopWakesThoseWhoWait) {

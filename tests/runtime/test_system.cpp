@@ -89,7 +89,7 @@ TestSystem::~TestSystem() {
 }
 
 std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script script, Duration period,
-                              Duration stale, Kind kind) {
+                              Duration stale, Kind kind, Policies policies) {
   const auto index = static_cast<std::uint32_t>(instances_.size());
   const std::size_t dot = path.find('.');
   const std::string_view name = *names_.emplace_back(std::make_unique<std::string>(std::move(path)));
@@ -105,7 +105,7 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
                         []() -> std::unique_ptr<RealEffector> { return std::make_unique<FakeEffector>(); }});
   scripts.at(index) = std::move(script);
   instances_.push_back(
-      {name.substr(0, dot), name.substr(dot + 1), kind, &net, make_table.at(index), period, stale});
+      {name.substr(0, dot), name.substr(dot + 1), kind, &net, make_table.at(index), period, stale, policies});
   return index;
 }
 

@@ -51,7 +51,7 @@ class TestSystem {
 
   /// Returns its index. Agents in order: "robot", then others.
   std::uint32_t add(std::string path, const SubsystemNet& net, Script script, Duration period = Duration{0},
-                    Duration stale = Duration{0}, Kind kind = Kind::control);
+                    Duration stale = Duration{0}, Kind kind = Kind::control, Policies policies = {});
   void connect(std::uint32_t from, std::string_view out_port, std::uint32_t to, std::string_view in_port,
                std::span<const FusedPlace> places, Duration send_timeout = Duration{0},
                Duration receive_timeout = Duration{0}, std::uint16_t slots = 1);

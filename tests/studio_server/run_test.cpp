@@ -99,6 +99,7 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
 
   ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
   const json ended = await_state(run, "ended");
+  ASSERT_TRUE(ended.at("outcome").is_object()) << ended;
   EXPECT_EQ(ended.at("outcome").at("ended"), "SIGINT");
   EXPECT_EQ(control(run, {{"command", "resume"}}), 409);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +19,17 @@ class ContextServices {
   virtual ~ContextServices() = default;
   virtual void log(LogLevel level, std::string_view text) = 0;
   virtual void stop(std::string_view reason) = 0;
+  /// What the user asserts does not hold.
+  virtual void broken(std::string_view assertion) {
+    log(LogLevel::error, assertion);
+    stop(assertion);
+  }
+};
+
+/// What Context::assert_that throws where there is no run that could fail, as in a plain unit test.
+class BrokenAssertion : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
 };
 
 /// What a transition function may ask besides its buffers. Generated contexts add `parameters`.
@@ -44,11 +56,20 @@ class Context {
     if (services_ != nullptr) services_->stop(reason);
   }
 
+  /// States what must hold here, for `tessera simulate --schedules` to look for a run that breaks it. If it
+  /// does not hold, the run has failed: the text goes to the record, and the system stops safely, after this
+  /// transition function. In a plain unit test it throws BrokenAssertion.
+  template <class... Args>
+  void assert_that(bool holds, fmt::format_string<Args...> format, Args&&... args) {
+    if (!holds) report_broken(format, fmt::make_format_args(args...));
+  }
+
   /// nullptr (as in a plain unit test): log prints to standard error, stop does nothing.
   void attach(ContextServices* services) { services_ = services; }
 
  private:
   void print(LogLevel level, fmt::string_view format, fmt::format_args args);
+  void report_broken(fmt::string_view format, fmt::format_args args);
   ContextServices* services_ = nullptr;
 };
 

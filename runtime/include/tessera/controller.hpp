@@ -21,6 +21,9 @@ struct RunOptions {
   bool realtime = false;             ///< simulated clock: not faster than the wall clock
   std::optional<Duration> duration;  ///< unset: until the net ends or something stops it
   std::uint64_t seed = 1;
+  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, not only where
+  /// they have to wait. Finds more of the interleavings that threads can have.
+  bool interleave = false;
   std::string recording;                                        ///< file; empty: none
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
@@ -34,7 +37,8 @@ struct RunOptions {
   /// File of a run that is followed first (tessera verify --scenario); after it everything runs freely, and
   /// `duration` begins. Simulated clock only.
   std::string scenario;
-  bool progress = false;  ///< a line on standard error that is rewritten
+  std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
+  bool progress = false;            ///< a line on standard error that is rewritten
 };
 
 /// What a run came to.

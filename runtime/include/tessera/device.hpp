@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "tessera/time.hpp"
 
@@ -17,8 +18,8 @@ namespace tessera {
 class RealReceptor {
  public:
   virtual ~RealReceptor() = default;
-  /// Fills `value` (the bytes of the real buffer's type). false: no value now; the buffer keeps the old one,
-  /// not fresh.
+  /// Fills `value` (the bytes of the real buffer's type, or where an object of it is if it is more than
+  /// bytes). false: no value now; the buffer keeps the old one, not fresh.
   [[nodiscard]] virtual bool read(std::span<std::byte> value) = 0;
 };
 
@@ -77,8 +78,12 @@ class Receptor : public RealReceptor {
   virtual std::optional<T> read() = 0;
   [[nodiscard]] bool read(std::span<std::byte> value) final {
     const std::optional<T> now = read();
-    if (now) std::copy_n(reinterpret_cast<const std::byte*>(&*now), sizeof(T), value.data());
-    return now.has_value();
+    if (!now) return false;
+    if constexpr (std::is_trivially_copyable_v<T>)
+      std::copy_n(reinterpret_cast<const std::byte*>(&*now), sizeof(T), value.data());
+    else
+      *reinterpret_cast<T*>(value.data()) = *now;
+    return true;
   }
 };
 template <class T>
@@ -87,9 +92,13 @@ class Effector : public RealEffector {
   /// false: the device refused.
   virtual bool write(const T& value) = 0;
   [[nodiscard]] bool write(std::span<const std::byte> bytes) final {
-    T value;
-    std::copy_n(bytes.data(), sizeof(T), reinterpret_cast<std::byte*>(&value));
-    return write(value);
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      T value;
+      std::copy_n(bytes.data(), sizeof(T), reinterpret_cast<std::byte*>(&value));
+      return write(value);
+    } else {
+      return write(*reinterpret_cast<const T*>(bytes.data()));
+    }
   }
 };
 

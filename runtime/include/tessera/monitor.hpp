@@ -12,7 +12,9 @@
 ///                      "period_s", "called_at_s", "call_s", "longest_call_s"}],
 ///      "channels": [{"name", "marked": ["full"]}]}
 ///
-/// It never waits for a client: who does not keep up is dropped.
+/// It never waits for a client: who has not taken a line goes without the next ones, and who takes nothing
+/// for five seconds is dropped. Of a large system the lines come less often, so that its thread takes at most
+/// a fiftieth of a processor.
 ///
 /// Under the simulated clock only a run that was started with `--controlled` listens. It sends 25 lines a
 /// second, with what follows besides:

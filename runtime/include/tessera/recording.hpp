@@ -10,6 +10,19 @@
 
 namespace tessera {
 
+/// What can go wrong in a run, as the record tells it apart.
+enum class Fault : std::uint8_t {
+  net = 1,  ///< the net cannot go on: no condition of `next` holds, or an error that none leads anywhere
+  assertion = 2,   ///< Context::assert_that
+  exception = 3,   ///< user code or a condition has thrown
+  not_finite = 4,  ///< an output is infinite or not a number
+  device = 5,      ///< a real receptor or effector has thrown or refused
+  stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
+  stall = 7        ///< a transition function takes longer than its watchdog
+};
+/// "not finite"; empty: no fault of this version.
+[[nodiscard]] std::string_view name_of(Fault fault);
+
 /// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///  "transitions": [[name, instance]...]}, padding to a multiple of 8, then events of 24 bytes. A truncated
@@ -19,7 +32,9 @@ struct Event {
   enum class Kind : std::uint8_t {
     firing = 1,  ///< subject: transition; version: of the channel it touched (0: none)
     log = 2,     ///< subject: bytes of text, which follow in whole events' worth of space; version: level
-    stop = 3     ///< like log: why the run ended
+    stop = 3,    ///< like log: why the run ended
+    fault = 4,   ///< like log: "PLACE: what, and what was done about it"; version: the Fault
+    overrun = 5  ///< subject: how many instants of its rate the subsystem's work has made it miss
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
@@ -28,6 +43,7 @@ struct Event {
   std::uint32_t origin = 0;    ///< instance * 256 + kind; instance 0xffffff: the system itself
 
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
+  [[nodiscard]] bool has_text() const { return kind() != Kind::firing && kind() != Kind::overrun; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);
@@ -40,7 +56,7 @@ struct Recording {
   };
   struct Entry {
     Event event;
-    std::string text;  ///< of log and stop
+    std::string text;  ///< of log, stop and fault
   };
   std::string header;  ///< the JSON
   std::string system, net_hash, verification_hash, clock;

@@ -5,8 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <new>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tessera/buffer.hpp"
@@ -14,21 +18,59 @@
 
 namespace tessera {
 
-/// Whether no number in `value` is infinite or NaN. Of structures: what a function `finite(const T&)` beside
-/// them says.
+template <class T>
+concept Sequence = requires(T& value) {
+  value.begin();
+  value.end();
+};
+/// A structure that says what it is made of: a function `fields_of(T&)` beside it gives a std::tuple of
+/// references. Generated types have one.
+template <class T>
+concept WithFields = std::is_class_v<T> && requires(T& value) {
+  fields_of(value);
+};
+
+/// Whether a T holds a floating-point number that is known here.
+template <class T>
+[[nodiscard]] constexpr bool has_floats() {
+  if constexpr (std::is_floating_point_v<T>) {
+    return true;
+  } else if constexpr (Sequence<T>) {
+    return has_floats<std::remove_cvref_t<decltype(*std::declval<T&>().begin())>>();
+  } else if constexpr (WithFields<T>) {
+    return []<class... Members>(std::type_identity<std::tuple<Members T::*...>>) {
+      return (has_floats<Members>() || ...);
+    }(std::type_identity<decltype(fields_of(std::declval<const T&>()))>{});
+  } else {
+    return false;
+  }
+}
+
+/// Whether no number in `value` is infinite or NaN.
 template <class T>
 [[nodiscard]] bool all_finite(const T& value) {
   if constexpr (std::is_floating_point_v<T>) {
     return std::isfinite(value);
-  } else if constexpr (requires {
-                         value.begin();
-                         value.end();
-                       }) {
-    return std::all_of(value.begin(), value.end(), [](const auto& element) { return all_finite(element); });
-  } else if constexpr (requires { finite(value); } && std::is_class_v<T>) {
-    return finite(value);
-  } else {
+  } else if constexpr (!has_floats<T>()) {
     return true;
+  } else if constexpr (Sequence<T>) {
+    return std::all_of(value.begin(), value.end(), [](const auto& element) { return all_finite(element); });
+  } else {
+    return std::apply([&](auto... member) { return (all_finite(value.*member) && ...); }, fields_of(value));
+  }
+}
+
+/// Puts `number` into every floating-point number of `value`: faults that are injected.
+template <class T>
+void fill_floats(T& value, double number) {
+  if constexpr (std::is_floating_point_v<T>) {
+    value = static_cast<T>(number);
+  } else if constexpr (!has_floats<T>()) {
+    return;
+  } else if constexpr (Sequence<T>) {
+    for (auto& element : value) fill_floats(element, number);
+  } else {
+    std::apply([&](auto... member) { (fill_floats(value.*member, number), ...); }, fields_of(value));
   }
 }
 
@@ -67,24 +109,46 @@ template <class T>
   return ValueKind::other;
 }
 
+/// How to keep values of a type that is more than its bytes, such as a LargeArray.
+struct ValueType {
+  void (*construct)(void* where);
+  void (*assign)(void* to, const void* from);
+  void (*destroy)(void* where);
+};
+/// nullptr: the bytes are the value.
+template <class T>
+[[nodiscard]] const ValueType* value_type_of() {
+  if constexpr (std::is_trivially_copyable_v<T>) {
+    return nullptr;
+  } else {
+    static constexpr ValueType type{
+        [](void* where) { ::new (where) T(); },
+        [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); },
+        [](void* where) { static_cast<T*>(where)->~T(); }};
+    return &type;
+  }
+}
+
 /// Where the buffers and parameters of one subsystem live; filled by Subsystem::bind, used by the executor.
-/// Values are trivially copyable, so a channel moves bytes.
 struct Bindings {
   struct Incoming {
     std::string_view name;
     void* value;
     std::size_t size;
     Arrival* arrival;
+    const ValueType* type;  ///< nullptr: bytes
   };
   struct Outgoing {
     std::string_view name;
-    const void* value;
+    void* value;
     std::size_t size;
     Departure* departure;
+    const ValueType* type;                               ///< nullptr: bytes
+    bool (*finite)(const void* value) = nullptr;         ///< nullptr: always
+    void (*fill)(void* value, double number) = nullptr;  ///< fill_floats; nullptr: there are none
   };
   struct RealOutgoing : Outgoing {
-    std::vector<std::byte> safe;                  ///< the safe command
-    bool (*finite)(const void* value) = nullptr;  ///< whether a device may be given it; nullptr: always
+    std::shared_ptr<const void> safe;  ///< the safe command, of the same type
   };
   struct Parameter {
     std::string_view name;
@@ -113,10 +177,7 @@ struct Bindings {
   }
   template <class T>
   void real_output(std::string_view name, Output<T>& buffer, const T& safe) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(&safe);
-    real_outputs.push_back({outgoing(name, buffer), {bytes, bytes + sizeof(T)}, [](const void* at) {
-                              return all_finite(*static_cast<const T*>(at));
-                            }});
+    real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe)});
   }
   template <class T>
   void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),
@@ -131,13 +192,16 @@ struct Bindings {
  private:
   template <class T>
   static Incoming incoming(std::string_view name, Input<T>& buffer) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    return {name, &payload(buffer), sizeof(T), &buffer};
+    return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
   }
   template <class T>
   static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    return {name, &payload(buffer), sizeof(T), &buffer};
+    Outgoing made{name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
+    if constexpr (has_floats<T>()) {
+      made.finite = [](const void* at) { return all_finite(*static_cast<const T*>(at)); };
+      made.fill = [](void* at, double number) { fill_floats(*static_cast<T*>(at), number); };
+    }
+    return made;
   }
 };
 

@@ -83,6 +83,27 @@ struct SubsystemNet {
 
 enum class Kind : std::uint8_t { control, receptor, effector };
 
+/// What a subsystem with a rate does about instants that its work made it miss.
+enum class Overrun : std::uint8_t {
+  skip,     ///< leaves them out
+  catch_up  ///< runs the iterations late, one after the other
+};
+
+/// How the operating system schedules the thread of a subsystem on the steady clock.
+struct RealTime {
+  enum class Policy : std::uint8_t { usual, fifo, round_robin } policy = Policy::usual;
+  int priority = 0;  ///< 1 .. 99, unless usual
+  int cpu = -1;      ///< the processor it stays on; -1: any
+};
+
+/// What a subsystem does about time and faults.
+struct Policies {
+  Overrun overrun = Overrun::skip;
+  Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: none is
+  bool non_finite_allowed = false;  ///< outputs to channels may be infinite or not a number
+  RealTime realtime{};
+};
+
 /// One subsystem of one agent.
 struct Instance {
   std::string_view agent;  ///< "robot[3]"
@@ -92,6 +113,7 @@ struct Instance {
   std::unique_ptr<Subsystem> (*make)();
   Duration period{0};  ///< zero: no rate
   Duration stale{0};   ///< zero: inputs never get stale
+  Policies policies{};
 };
 
 struct FusedPlace {

@@ -33,6 +33,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     const idle = layer === "system";
     group.classList.toggle("occupied", playing && !idle && occupied[page] === 1);
   });
+  if (root instanceof SVGElement) root.classList.toggle("runs", playing && occupied[Number(root.dataset.of)] === 1);
   const running = playing ? runningBehaviours(net, marking) : new Map<number, string>();
   root.querySelectorAll<SVGTextElement>("[data-running]").forEach((text) => {
     const page = net.page(Number(text.dataset.running));

@@ -44,6 +44,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
       height={sheet.height}
       style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
       data-sheet={drawn.path || "system"}
+      data-of={page}
     >
       <Arcs net={net} page={page} sheet={sheet} far={far} />
       {drawn.nodes.map((node, index) => {

@@ -68,6 +68,7 @@ export class Recordings {
       this.track = new Track(net);
       for (const [time, transition] of recording.firings) this.track.timeline.add(time, transition);
       this.track.firings = recording.firings.length;
+      this.track.knownUntil(recording.firings.at(-1)?.[0] ?? 0);
       for (const [path, samples] of Object.entries(recording.values ?? {}))
         for (const [time, value] of samples) this.track.series.add(time, path, value);
       this.prepare(net);

@@ -40,7 +40,15 @@ export class Track {
   readonly path: { t: number; x: number; y: number; heading: number }[] = [];
   firings = 0;
   dropped = 0;
+  /** The moment that is shown, and up to when it is known what happened: the same while it happens. */
   now = 0;
+  private known = 0;
+  get end(): number {
+    return Math.max(this.now, this.known);
+  }
+  knownUntil(time: number): void {
+    this.known = time;
+  }
 
   /** The floor, when there is a picture of it. */
   floor: { image: ImageBitmap; metresPerPixel: number } | null = null;

@@ -225,6 +225,7 @@ function elkGraph(net: NetModel, page: Page, folded: Folded, direction: "down" |
     ...page.transitions.map((t, at) => elkNode(`t${at}`, barSymbol(t, direction), direction)),
   ];
   children[page.input]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "FIRST";
+  children[page.output]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "LAST";
   // A channel's memory stands beside the flow: its arcs do not count as steps of it, whichever way they point.
   const memory = (node: number, at: number): ElkEdge => ({
     id: memoryEdge(node, at),
@@ -257,6 +258,7 @@ function elkGraph(net: NetModel, page: Page, folded: Folded, direction: "down" |
       "elk.spacing.edgeNode": "14",
       "elk.spacing.edgeEdge": "9",
       "elk.layered.feedbackEdges": "true",
+      "elk.separateConnectedComponents": "false",
       "elk.padding": `[top=${margin},left=${margin},bottom=${margin},right=${margin}]`,
     },
   };

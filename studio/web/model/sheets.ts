@@ -87,15 +87,16 @@ export class Sheets {
     const found: Placed[] = [];
     const visit = (at: Placed) => {
       found.push(at);
-      this.net.page(at.page).nodes.forEach((node, index) => {
-        if (node.page === null || this.folded(node.page)) return;
+      const inside = this.net.page(at.page).nodes.flatMap((node, index) => {
+        if (node.page === null || this.folded(node.page)) return [];
         const box = boxWithin(at, at.sheet.nodes[index]!);
-        if (!intersects(box, window) || box.width * window.zoom < 60) return;
+        if (!intersects(box, window) || box.width * window.zoom < 60) return [];
         const sheet = this.get(node.page);
-        if (!sheet) return;
-        const inner = this.within(at, node.page, index, sheet);
-        if (inner.scale * window.zoom >= legible) visit(inner);
+        return sheet ? [this.within(at, node.page, index, sheet)] : [];
       });
+      // Where one can be read, its neighbours are shown too if they nearly can.
+      const enough = inside.some((one) => one.scale * window.zoom >= legible) ? 0.8 * legible : legible;
+      for (const one of inside) if (one.scale * window.zoom >= enough) visit(one);
     };
     const root = this.placed(0);
     if (root) visit(root);

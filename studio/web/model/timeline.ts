@@ -6,11 +6,20 @@ export interface Segment {
   behaviour: string;
 }
 
+export interface Lane {
+  path: string;
+  subsystem: number;
+  segments: Segment[];
+  firings: number[];
+  /** Those that ran, in the order in which they first did. */
+  behaviours: string[];
+}
+
 const most = 20_000;
 
 /** Which behaviour of each subsystem ran when, and when its transitions fired. Times in nanoseconds. */
 export class Timeline {
-  readonly lanes: { path: string; subsystem: number; segments: Segment[]; firings: number[] }[];
+  readonly lanes: Lane[];
   first = Infinity;
   last = -Infinity;
   private readonly laneOf = new Map<number, number>();
@@ -21,7 +30,7 @@ export class Timeline {
     this.lanes = net.subsystemPages().map((page, lane) => {
       const { path, subsystem } = net.page(page);
       if (subsystem !== null) this.laneOf.set(subsystem, lane);
-      return { path, subsystem: subsystem ?? -1, segments: [], firings: [] };
+      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours: [] };
     });
     this.entered = net.transitions.map((transition) => {
       for (const arc of transition.outputs) {
@@ -43,7 +52,9 @@ export class Timeline {
     if (!lane) return;
     bounded(lane.firings).push(time);
     const behaviour = this.entered[transition] ?? "";
-    if (lane.segments.at(-1)?.behaviour !== behaviour) bounded(lane.segments).push({ start: time, behaviour });
+    if (lane.segments.at(-1)?.behaviour === behaviour) return;
+    bounded(lane.segments).push({ start: time, behaviour });
+    if (behaviour && !lane.behaviours.includes(behaviour)) lane.behaviours.push(behaviour);
   }
 
   /** Index of the first entry at or after a time. */

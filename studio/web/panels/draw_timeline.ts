@@ -4,8 +4,22 @@ import type { Colours, Size } from "./watch";
 
 const axis = 18;
 const names = 108;
+const last = 4;
 
-/** A lane per subsystem: which behaviour ran, as bands with their names, and its firings as ticks. The right edge is now. */
+/** The time that is shown: what was lately; of a recording what is around the moment shown. */
+function shownTime(track: Track, seconds: number): { start: number; end: number } {
+  const length = seconds * 1e9;
+  const end = track.end > track.now ? Math.min(track.end, track.now + length / 2) : track.now;
+  return { start: Math.max(end, length) - length, end: Math.max(end, length) };
+}
+
+/** The time at a distance from the left, as the timeline is drawn. */
+export function timeAt(track: Track, seconds: number, x: number, width: number): number {
+  const { start, end } = shownTime(track, seconds);
+  return start + Math.min(1, Math.max(0, (x - names) / (width - names - last))) * (end - start);
+}
+
+/** A lane per subsystem: which behaviour ran, as bands with their names, and its firings as ticks. */
 export function drawTimeline(
   context: CanvasRenderingContext2D,
   size: Size,
@@ -14,9 +28,8 @@ export function drawTimeline(
   seconds: number,
 ): void {
   const { timeline } = track;
-  const end = Math.max(track.now, seconds * 1e9);
-  const start = end - seconds * 1e9;
-  const x = (time: number) => names + ((time - start) / (end - start)) * (size.width - names - 4);
+  const { start, end } = shownTime(track, seconds);
+  const x = (time: number) => names + ((time - start) / (end - start)) * (size.width - names - last);
   const height = Math.min(34, Math.max(14, (size.height - axis) / Math.max(1, timeline.lanes.length)));
   context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   context.textBaseline = "middle";
@@ -26,9 +39,12 @@ export function drawTimeline(
     if (y > size.height - axis) return;
     context.fillStyle = colours.text;
     context.fillText(clip(lane.path, 17), 6, y + height / 2, names - 10);
-    drawBands(context, colours, lane.segments, Math.min(end, track.now), start, x, y, height);
+    drawBands(context, colours, lane, Math.min(end, track.end), start, x, y, height);
     drawTicks(context, colours, lane.firings, start, x, y + height - 5, size.width);
   });
+  if (track.end <= track.now) return;
+  context.fillStyle = colours.text;
+  context.fillRect(x(track.now) - 0.75, 0, 1.5, size.height - axis);
 }
 
 const clip = (text: string, length: number) => (text.length > length ? `…${text.slice(1 - length)}` : text);
@@ -62,10 +78,13 @@ export function niceStep(rough: number): number {
   return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
+/** How dark the bands of a lane's first, second, … behaviour are. */
+const shades = [0.14, 0.4, 0.26, 0.52];
+
 function drawBands(
   context: CanvasRenderingContext2D,
   colours: Colours,
-  segments: Timeline["lanes"][number]["segments"],
+  { segments, behaviours }: Timeline["lanes"][number],
   end: number,
   start: number,
   x: (time: number) => number,
@@ -74,16 +93,18 @@ function drawBands(
 ): void {
   for (let at = segments.length - 1; at >= 0; at -= 1) {
     const { start: from, behaviour } = segments[at]!;
-    const to = segments[at + 1]?.start ?? end;
+    const to = Math.min(segments[at + 1]?.start ?? end, end);
     if (to < start) break;
-    if (!behaviour) continue;
+    if (!behaviour || from > end) continue;
     const left = x(Math.max(from, start));
     const width = Math.max(1, x(to) - left);
-    context.fillStyle = colours.soft;
-    context.fillRect(left, y + 3, width, height - 9);
     context.fillStyle = colours.accent;
+    context.globalAlpha = shades[behaviours.indexOf(behaviour) % shades.length]!;
+    context.fillRect(left, y + 3, width, height - 9);
+    context.globalAlpha = 1;
     context.fillRect(left, y + 3, 1.5, height - 9);
-    if (width > 26) context.fillText(behaviour, left + 5, y + height / 2 - 1.5, width - 8);
+    context.fillStyle = colours.text;
+    if (width > 7 * behaviour.length + 8) context.fillText(behaviour, left + 5, y + height / 2 - 1.5, width - 8);
   }
 }
 

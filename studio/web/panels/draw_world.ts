@@ -3,12 +3,12 @@ import { niceStep } from "./draw_timeline";
 import type { Colours, Size } from "./watch";
 
 /** The path of the robot over the floor, x to the right and y up, with a scale in metres. */
-export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track): void {
+export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, none: string): void {
   const { path } = track;
   context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   if (path.length === 0) {
     context.fillStyle = colours.faint;
-    context.fillText("No path yet", 10, 20);
+    context.fillText(none, 10, 20);
     return;
   }
   const box = boundsOf(path, track.floor);

@@ -1,4 +1,4 @@
-import { defaultKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap } from "@codemirror/commands";
 import { yaml } from "@codemirror/lang-yaml";
 import { bracketMatching, HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -51,7 +51,7 @@ export default function TextPane() {
       yaml(),
       syntaxHighlighting(colours),
       undo,
-      keymap.of([...searchKeymap, ...defaultKeymap, indentWithTab]),
+      keymap.of([...searchKeymap, ...defaultKeymap]),
       EditorView.contentAttributes.of({ "aria-label": "Text of the specification" }),
       edited,
     ];

@@ -4,7 +4,7 @@ import { shown, type Samples } from "../model/series";
 import { Painted, type Colours, type Size } from "./watch";
 
 /** Every value by its path, with what it was lately; a click plots it large. */
-export function ValueList({ track, seconds }: { track: Track; seconds: number }) {
+export function ValueList({ track, seconds, none }: { track: Track; seconds: number; none: string }) {
   const [, look] = useState(0);
   const [plotted, setPlotted] = useState<string | null>(null);
   useEffect(() => {
@@ -13,7 +13,7 @@ export function ValueList({ track, seconds }: { track: Track; seconds: number })
   }, []);
   const paths = [...track.series.latest.keys()].sort();
   const large = plotted === null ? undefined : track.series.samples.get(plotted);
-  if (paths.length === 0) return <p className="faint pad">No values yet</p>;
+  if (paths.length === 0) return <p className="faint pad">{none}</p>;
   return (
     <div className="value-list">
       {large && (

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import { useStore, useStudio } from "../app/use";
 import type { Track } from "../live/runner";
-import { drawTimeline } from "./draw_timeline";
+import { drawTimeline, timeAt } from "./draw_timeline";
 import { drawWorld } from "./draw_world";
 import { ValueList } from "./value_list";
 
@@ -32,14 +32,14 @@ export function Watch() {
         <Painted
           label="Behaviours and firings of each subsystem over time"
           draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
-          onPick={open === null ? undefined : (part) => studio.recordings.seek(track.now - seconds * 1e9 * (1 - part))}
+          onPick={open === null ? undefined : (x, width) => studio.recordings.seek(timeAt(track, seconds, x, width))}
         />
       </div>
       <div className="watch-pane values">
         <div className="watch-title">
           <h2>Values</h2>
         </div>
-        <ValueList track={track} seconds={seconds} />
+        <ValueList track={track} seconds={seconds} none={open === null ? "No values yet" : "This recording holds no values"} />
       </div>
       <div className="watch-pane world">
         <div className="watch-title">
@@ -48,7 +48,9 @@ export function Watch() {
         </div>
         <Painted
           label="The robot's path from above"
-          draw={(context, size, colours) => drawWorld(context, size, colours, track)}
+          draw={(context, size, colours) =>
+            drawWorld(context, size, colours, track, open === null ? "No path yet" : "This recording holds no path")
+          }
         />
       </div>
     </section>
@@ -108,7 +110,7 @@ export function Painted({
   /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
   every?: number;
   draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
-  onPick?: ((part: number) => void) | undefined;
+  onPick?: ((x: number, width: number) => void) | undefined;
 }) {
   const ref = useRef<HTMLCanvasElement>(null);
   const pause = useRef(every);
@@ -143,7 +145,7 @@ export function Painted({
       role="img"
       aria-label={label}
       onClick={(event) =>
-        onPick?.((event.clientX - event.currentTarget.getBoundingClientRect().left) / event.currentTarget.clientWidth)
+        onPick?.(event.clientX - event.currentTarget.getBoundingClientRect().left, event.currentTarget.clientWidth)
       }
     />
   );

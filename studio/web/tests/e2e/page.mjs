@@ -1,9 +1,10 @@
 // What the end-to-end tests share: a server for a copy of an example, a page on it, and what may never happen.
 import assert from "node:assert/strict";
 import { fileURLToPath } from "node:url";
-const { serve } = await import(process.env.STUDIO_FIXTURE ? "../fixture-server.mjs" : "../studio-server.mjs");
-export { serve };
 import { launch } from "./browser.mjs";
+import { serve } from "./server.mjs";
+
+export { serve };
 
 export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
 export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, import.meta.url));
@@ -12,7 +13,10 @@ export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, impo
 export async function onPage(project, test, options = {}) {
   const server = await serve(project, options.server);
   const browser = await launch();
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    reducedMotion: "reduce",
+  });
   const problems = [];
   const open = async () => {
     const page = await context.newPage();

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
+import { gzipSync } from "node:zlib";
 import { button, changes, draftText, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
@@ -115,7 +116,10 @@ test("a broken file says where, keeps its drawing, and is repaired", () =>
     await editor.focus();
     await page.keyboard.press("End");
     await page.keyboard.type(" ]");
-    await page.getByTestId("problem-count").getByText(/\d+ error/).waitFor();
+    await page
+      .getByTestId("problem-count")
+      .getByText(/\d+ error/)
+      .waitFor();
     await page.getByText("this is the drawing of the last version without").waitFor();
     assert.ok((await page.locator(".sheet").count()) > 0);
     assert.ok((await page.locator(".problem-list .problem").count()) > 0);
@@ -326,4 +330,67 @@ test("axe finds nothing to object to, light and dark, in every view and panel", 
       await button(page, "Dark colours").click();
     }
     assert.deepEqual(found, []);
+  }));
+
+test("without a mouse: a behaviour is added, the text verified, undone and saved", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    const press = async (...keys) => {
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    /** Goes on with the tabulator key to what has that name. */
+    const tabTo = async (role, name) => {
+      for (let turn = 0; turn < 120; turn += 1) {
+        const there = await page
+          .getByRole(role, { name, exact: true })
+          .evaluateAll((all) => all.includes(document.activeElement));
+        if (there) return;
+        await press("Tab");
+      }
+      assert.fail(`the tabulator key never came to the ${role} ${name}`);
+    };
+    await tabTo("tab", "Structure");
+    await press("Enter");
+    await page.locator('[data-path="robot.control"]').waitFor();
+    await page.locator('.subsystem-head[data-path="robot.control"]').focus();
+    await press("Enter");
+    await button(page, "Add behaviour").waitFor();
+    await tabTo("button", "Add behaviour");
+    await press("Enter");
+    await page.locator('.chip[data-path="robot.control.act"]').waitFor();
+    await tabTo("textbox", "Name");
+    await press("Control+a");
+    await page.keyboard.type("wait");
+    await press("Enter");
+    await page.locator('.chip[data-path="robot.control.wait"]').waitFor();
+    await tabTo("tab", "Verify");
+    await press("Enter");
+    await tabTo("button", "Verify");
+    await press("Enter");
+    await page.locator(".verdict").first().waitFor();
+    await press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.deepEqual(changes(before, server.text()), ["+        wait: {}"]);
+    // Its name, and itself.
+    await press("Control+z", "Control+z");
+    await press("Control+s");
+    await until(page, async () => server.text() === before, "the text of before on disk");
+  }));
+
+test("all that is loaded packs into less than a megabyte, and nothing moves for those who asked for stillness", () =>
+  onPage(lineFollower, async (page) => {
+    const asked = new Set();
+    page.on("request", (request) => asked.add(request.url()));
+    await page.reload();
+    await page.locator(".sheet").first().waitFor();
+    await page.getByTestId("editor").getByText("tessera").first().waitFor();
+    const files = [...asked].filter((address) => address.startsWith("http") && !address.includes("/api/"));
+    assert.ok(files.some((address) => address.includes("elk-worker")) && files.length > 4, files.join());
+    let bytes = 0;
+    for (const file of files) bytes += gzipSync(Buffer.from(await (await fetch(file)).arrayBuffer())).length;
+    assert.ok(bytes < 1_000_000, `${bytes} bytes`);
+    await find(page, "robot.control.follow.snd");
+    await page.locator('[data-sheet="robot.control.follow.snd"]').waitFor();
+    const moving = await page.evaluate(() => document.getAnimations().filter((one) => one.playState === "running").length);
+    assert.equal(moving, 0);
   }));

@@ -37,7 +37,15 @@ SharedChannel::~SharedChannel() {
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,
                             std::vector<std::uint16_t> needs) {
   assert(needs.size() <= max_needs);
-  parties_[static_cast<std::size_t>(side)] = {word_.load(), waker, instance, std::move(needs)};
+  Party& party = parties_[static_cast<std::size_t>(side)];
+  party.seen = word_.load();
+  party.waker = waker;
+  party.instance = instance;
+  party.needs = std::move(needs);
+}
+
+void SharedChannel::set_single_threaded() {
+  for (Party& party : parties_) party.single_threaded = true;
 }
 
 bool SharedChannel::wait(Side side, std::uint16_t wants) {

@@ -185,11 +185,14 @@ class Compilation {
     plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
     for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
     for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
-      plan_.places[place].first_departure = plan_.departures.data() + plan_.first_leaving[place];
-      plan_.places[place].end_of_departures = plan_.departures.data() + plan_.first_leaving[place + 1];
-      plan_.places[place].idle =
-          plan_.places[place].does == Does::Kind::nothing && !plan_.places[place].timed && place != plan_.out;
+      Plan::PlaceEntry& entry = plan_.places[place];
+      entry.idle = entry.does == Does::Kind::nothing && !entry.timed && place != plan_.out;
+      if (plan_.leaving_of(place).empty()) continue;
+      entry.departure = plan_.departures.data() + plan_.first_leaving[place];
+      plan_.departures[plan_.first_leaving[place + 1] - 1].last = true;
     }
+    for (Plan::TransitionEntry& transition : plan_.departures)
+      if (transition.to != Plan::none) transition.onward = plan_.places[transition.to].departure;
   }
 
   const SubsystemNet& net_;

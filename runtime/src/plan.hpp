@@ -17,8 +17,7 @@ struct Plan {
 
   struct TransitionEntry;
   struct PlaceEntry {
-    const TransitionEntry* first_departure = nullptr;  ///< in departures, up to:
-    const TransitionEntry* end_of_departures = nullptr;
+    const TransitionEntry* departure = nullptr;  ///< the first of those that take from it; nullptr: none
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< that is written or read, from 0
@@ -32,6 +31,7 @@ struct Plan {
   };
   static constexpr std::uint8_t no_need = 0xff;
   struct TransitionEntry {
+    const TransitionEntry* onward = nullptr;         ///< in departures: the first that takes from `to`
     std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
     std::uint32_t from = none;                       ///< of one with a single input here
@@ -42,6 +42,7 @@ struct Plan {
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
+    bool last = false;                      ///< in departures: of its place
     bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
   };
   struct PortEntry {

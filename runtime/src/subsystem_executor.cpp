@@ -93,7 +93,7 @@ bool SubsystemExecutor::fire_one() {
   if (marked_.size() == 1) return walk();
   for (const std::uint32_t place : marked_) {
     if (tokens_[place].phase != Phase::finished) continue;
-    if (const Plan::TransitionEntry* const fired = fire_from(places_[place]); fired != nullptr) {
+    if (const Plan::TransitionEntry* const fired = fire_one_of(places_[place].departure); fired != nullptr) {
       if (firings_ % look_up == 0) renew_time();
       move_tokens(*fired);
       return true;
@@ -106,7 +106,7 @@ bool SubsystemExecutor::fire_one() {
 /// way no token has a position: no transition that takes several tokens is enabled.
 bool SubsystemExecutor::walk() {
   std::uint32_t place = marked_.front();
-  const Plan::PlaceEntry* entry = places_ + place;
+  const Plan::TransitionEntry* departure = places_[place].departure;
   tokens_[place].position = Plan::none;
   bool walked = false;
   for (std::uint32_t left = simulated_ ? 1 : look_up; tokens_[place].phase == Phase::finished; --left) {
@@ -114,7 +114,7 @@ bool SubsystemExecutor::walk() {
       renew_time();
       break;
     }
-    const Plan::TransitionEntry* const fired = fire_from(*entry);
+    const Plan::TransitionEntry* const fired = fire_one_of(departure);
     if (fired == nullptr) break;
     walked = true;
     if (fired->to == Plan::none) {
@@ -122,21 +122,22 @@ bool SubsystemExecutor::walk() {
       move_tokens(*fired);
       return true;
     }
+    departure = fired->onward;
     place = marked_.front() = fired->to;
-    entry = places_ + place;
-    arrive(place, *entry);
+    arrive(place);
   }
   tokens_[place].position = 0;
   return walked;
 }
 
-/// The tokens still lie where they were.
-inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(const Plan::PlaceEntry& place) {
-  for (const Plan::TransitionEntry* way = place.first_departure; way != place.end_of_departures; ++way) {
-    if (way->from == Plan::none && !locally_enabled(*way)) continue;
-    if (fire_enabled(*way)) return way;
+/// Of the departures of a place. The tokens still lie where they were.
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_one_of(const Plan::TransitionEntry* departure) {
+  if (departure == nullptr) return nullptr;
+  for (;; ++departure) {
+    if ((departure->from != Plan::none || locally_enabled(*departure)) && fire_enabled(*departure))
+      return departure;
+    if (departure->last) return nullptr;
   }
-  return nullptr;
 }
 
 bool SubsystemExecutor::try_fire(std::uint32_t index) {
@@ -226,11 +227,12 @@ void SubsystemExecutor::put(std::uint32_t place) {
   if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
   token.position = static_cast<std::uint32_t>(marked_.size());
   marked_.push_back(place);
-  arrive(place, places_[place]);
+  arrive(place);
 }
 
 /// Starts the operation.
-inline void SubsystemExecutor::arrive(std::uint32_t place, const Plan::PlaceEntry& entry) {
+inline void SubsystemExecutor::arrive(std::uint32_t place) {
+  const Plan::PlaceEntry& entry = places_[place];
   Token& token = tokens_[place];
   token.phase = Phase::finished;
   if (entry.idle) return;

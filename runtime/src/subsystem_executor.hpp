@@ -114,7 +114,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool fire_one();
   [[nodiscard]] bool try_fire(std::uint32_t transition);
   [[nodiscard]] bool walk();
-  [[nodiscard]] const Plan::TransitionEntry* fire_from(const Plan::PlaceEntry& place);
+  [[nodiscard]] const Plan::TransitionEntry* fire_one_of(const Plan::TransitionEntry* departure);
   [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
   [[nodiscard]] bool outwait_peer();
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
@@ -125,7 +125,7 @@ class SubsystemExecutor {
   void move_tokens(const Plan::TransitionEntry& transition);
   void take(std::uint32_t place);
   void put(std::uint32_t place);
-  void arrive(std::uint32_t place, const Plan::PlaceEntry& entry);
+  void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
   void look_for_way_out(std::uint32_t place);
   void arrive_at_end();

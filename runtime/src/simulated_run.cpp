@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "console.hpp"
+#include "stillness.hpp"
 
 namespace tessera {
 namespace {
@@ -33,20 +34,6 @@ class Pace {
   const StopSignals& signals_;
   std::int64_t start_ns_ = monotonic_ns();
 };
-
-[[nodiscard]] std::string why_nothing_happens(const Assembly& assembly) {
-  constexpr int shown = 8;
-  std::string text = "stopped: nothing can ever happen again";
-  int named = 0, waiting = 0;
-  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
-    if (assembly.control.has_ended(instance)) continue;
-    ++waiting;
-    if (named++ < shown)
-      text += (named == 1 ? ": " : "; ") + assembly.executors[instance]->whereabouts(assembly.system);
-  }
-  if (waiting > shown) text += fmt::format("; and {} more", waiting - shown);
-  return text;
-}
 
 }  // namespace
 
@@ -176,7 +163,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (upper.ended()) return ending("net ended", false);
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
-    if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
+    if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
     pace.wait_for(std::min(next, end), assembly.recorder.get());
     if (next >= end) {
       move_to(assembly, end);

@@ -4,11 +4,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
-#include "cli/walk.hpp"
 #include "diagnostics/source.hpp"
+#include "project/walk.hpp"
 #include "spec/parser.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -32,9 +34,9 @@ int check_json(const Options& options) {
 
 int check_command(const Options& options) {
   if (!options.json.empty()) return check_json(options);
-  std::optional<Specification> specification = read(options.spec);
-  if (!specification || !models_are_sound(*specification)) return failed;
-  const std::optional<Nets> nets = build(*specification);
+  std::optional<Specification> specification = read(options.spec, terminal());
+  if (!specification || !models_are_sound(*specification, terminal())) return failed;
+  const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;
   fmt::print("{}: {}, {}, {}; {}, {}\n", model.system, count_of(model.agents, "agent"),

@@ -16,6 +16,7 @@ void add_test(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_studio(CLI::App& app, int& exit_code);
 void add_top(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 

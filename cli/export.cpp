@@ -2,11 +2,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
-#include "cli/walk.hpp"
 #include "net/pnml.hpp"
+#include "project/walk.hpp"
 #include "verify/abstraction.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -16,9 +18,9 @@ struct Options {
 };
 
 int export_command(const Options& options) {
-  std::optional<Specification> specification = read(options.spec);
+  std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return failed;
-  const std::optional<Nets> nets = build(*specification);
+  const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::Net net =
       options.abstract ? verify::possible_part(verify::abstract_net(nets->flat)) : nets->flat;

@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/project.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
-#include "cli/verdicts.hpp"
+#include "project/controller.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -19,9 +21,9 @@ struct Options {
 };
 
 int generate_command(const Options& options) {
-  const std::optional<Verified> verified = walk(options.spec, options.gate);
+  const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
   if (!verified) return failed;
-  const Step step("generating");
+  const Step step(terminal(), "generating");
   const Generated generated = generate(*verified, {options.stubs, options.output});
   if (!options.json.empty()) {
     nlohmann::json verdicts = nlohmann::json::object();
@@ -40,7 +42,7 @@ int generate_command(const Options& options) {
     fmt::print("{} files, {} lines in {} ({} changed)\n", generated.files, generated.lines,
                generated.folder.string(), generated.written);
   }
-  return report_missing(generated) ? ok : failed;
+  return report_missing(generated, terminal()) ? ok : failed;
 }
 
 }  // namespace

@@ -1,21 +1,18 @@
 #include "cli/launch.hpp"
 
-#include <fmt/core.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
-
-#include <numbers>
-#include <stdexcept>
-
-#include "cli/paths.hpp"
-#include "cli/verdicts.hpp"
-#include "sim/track.hpp"
 
 namespace tessera::cli {
 
-namespace fs = std::filesystem;
+void declare_gate(CLI::App& app, project::Gate& gate) {
+  app.add_option("--verify-timeout", gate.timeout, "How long verification may take, such as 10s or 2min")
+      ->capture_default_str();
+  app.add_flag("--accept-violations", gate.accept_violations,
+               "Make the controller although a property is violated (it carries the verdicts)");
+}
 
-void declare(CLI::App& command, LaunchOptions& options) {
+void declare(CLI::App& command, project::LaunchOptions& options) {
+  options.progress = isatty(STDERR_FILENO) != 0;
   command.add_option("spec", options.spec, "Specification, or the folder of its spec.yaml")
       ->capture_default_str();
   command.add_option("--for", options.duration, "How long to run: 60s, 500ms, 2min");
@@ -35,7 +32,7 @@ void declare(CLI::App& command, LaunchOptions& options) {
   command.add_flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }
 
-void declare_world(CLI::App& command, LaunchOptions& options) {
+void declare_world(CLI::App& command, project::LaunchOptions& options) {
   command.add_option("--seed", options.seed, "Seed of sensor noise and of ties between subsystems")
       ->capture_default_str();
   command.add_option("--track", options.track, "PNG of the floor, dark is line");
@@ -43,143 +40,6 @@ void declare_world(CLI::App& command, LaunchOptions& options) {
       ->check(CLI::PositiveNumber);
   command.add_option("--start", options.start,
                      "Start pose X,Y,DEGREES: metres from the lower left corner (default: on the line)");
-}
-
-RunFiles run_files(const Specification& specification, const LaunchOptions& options) {
-  const fs::path folder = specification.project / ".tessera/last";
-  fs::create_directories(folder);
-  return {options.record.empty() ? folder / "recording.tsr" : fs::absolute(options.record),
-          folder / "path.csv", folder / "summary.json"};
-}
-
-namespace {
-
-fs::path asset(const std::string& name, const fs::path& project, const std::string& folder) {
-  std::optional<fs::path> found = find_asset(name, project, folder);
-  if (!found)
-    throw std::runtime_error(
-        fmt::format("there is no {} in {} nor among the shipped {}", name, project.string(), folder));
-  return *found;
-}
-
-void flatten_parameters(const YAML::Node& node, const std::string& path, std::vector<std::string>& out) {
-  if (node.IsMap()) {
-    for (const auto& entry : node)
-      flatten_parameters(entry.second,
-                         path.empty() ? entry.first.Scalar() : path + "." + entry.first.Scalar(), out);
-  } else if (node.IsScalar()) {
-    out.push_back(path + "=" + node.Scalar());
-  } else if (!node.IsNull()) {
-    throw std::runtime_error(path + " is not a value");
-  }
-}
-
-// PATH=VALUE of every entry; nested maps and dotted paths mean the same.
-std::vector<std::string> parameters_of(const Specification& specification, const LaunchOptions& options) {
-  const fs::path file =
-      options.parameters.empty() ? specification.project / "params.yaml" : fs::path(options.parameters);
-  if (options.parameters.empty() && !fs::exists(file)) return {};
-  std::vector<std::string> values;
-  try {
-    flatten_parameters(YAML::LoadFile(file.string()), "", values);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
-  return values;
-}
-
-void append(Command& command, std::initializer_list<std::string> words) {
-  command.insert(command.end(), words);
-}
-
-void add_drivers(Command& command, const spec::Model& model) {
-  for (const spec::Driver& driver : model.simulation->drivers) {
-    if (driver.kind == "cpp") continue;
-    std::string value =
-        fmt::format("{}.{}={}:{}", model.instance_path(driver.instance),
-                    model.subsystem(driver.instance).real[driver.real].name, driver.kind, driver.target);
-    for (const auto& [option, number] : driver.options) value += fmt::format(",{}={}", option, number);
-    append(command, {"--driver", value});
-  }
-}
-
-std::string pose_text(double x_m, double y_m, double heading_rad) {
-  return fmt::format("{},{},{}", x_m, y_m, heading_rad * 180 / std::numbers::pi);
-}
-
-std::string start_on_line(const Floor& floor) {
-  std::string error;
-  const std::optional<sim::Track> track =
-      sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  if (!track) throw std::runtime_error(error);
-  const std::optional<sim::Pose> start = sim::start_on(sim::skeleton(*track));
-  if (!start)
-    throw std::runtime_error("there is no line to start on in " + floor.image.string() + "; name --start");
-  return pose_text(start->at.x_m, start->at.y_m, start->heading_rad);
-}
-
-// The start pose of the specification belongs to its own track. On another one, the robot starts on the line.
-std::string start_pose(const spec::Simulation& simulation, const Floor& floor, const LaunchOptions& options) {
-  if (!options.start.empty()) return options.start;
-  if (!options.track.empty() || !simulation.track->start_x_m) return start_on_line(floor);
-  return pose_text(*simulation.track->start_x_m, *simulation.track->start_y_m,
-                   simulation.track->start_heading_rad.value_or(0));
-}
-
-void add_floor(Command& command, const spec::Simulation& simulation, const Floor& floor,
-               const LaunchOptions& options) {
-  append(command,
-         {"--track", floor.image.string(), "--metres-per-pixel", fmt::format("{}", floor.metres_per_pixel),
-          "--start=" + start_pose(simulation, floor, options)});
-  if (simulation.track) append(command, {"--footprint", fmt::format("{}", simulation.track->footprint_m)});
-}
-
-void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
-  const spec::Simulation& simulation = *specification.model.simulation;
-  append(command, {"--world", asset(simulation.world, specification.project, "worlds").string(),
-                   "--world-library", Installation::find().world_library.string()});
-  if (const std::optional<Floor> floor = floor_of(specification, options))
-    add_floor(command, simulation, *floor, options);
-  append(command, {"--trace", run_files(specification, options).trace.string()});
-  add_drivers(command, specification.model);
-}
-
-}  // namespace
-
-std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options) {
-  const std::optional<spec::Simulation>& simulation = specification.model.simulation;
-  const spec::Track* track = simulation && simulation->track ? &*simulation->track : nullptr;
-  Floor floor;
-  if (track != nullptr) floor.metres_per_pixel = track->metres_per_pixel;
-  if (options.metres_per_pixel > 0) floor.metres_per_pixel = options.metres_per_pixel;
-  if (!options.track.empty())
-    floor.image = asset(options.track, fs::current_path(), "tracks");
-  else if (track != nullptr)
-    floor.image = asset(track->image, specification.project, "tracks");
-  else
-    return std::nullopt;
-  return floor;
-}
-
-Command controller_command(const Controller& controller, const LaunchOptions& options,
-                           const std::string& mode, bool with_world) {
-  const Specification& specification = controller.specification;
-  const RunFiles files = run_files(specification, options);
-  Command command{controller.program.string(),
-                  mode,
-                  "--record",
-                  files.recording.string(),
-                  "--summary",
-                  files.summary.string(),
-                  "--seed",
-                  std::to_string(options.seed)};
-  if (isatty(STDERR_FILENO) != 0) command.push_back("--progress");
-  if (!options.duration.empty()) append(command, {"--for", options.duration});
-  for (const std::string& value : parameters_of(specification, options)) append(command, {"--set", value});
-  for (const std::string& value : options.set) append(command, {"--set", value});
-  for (const std::string& fault : options.inject) append(command, {"--inject", fault});
-  if (with_world) add_world(command, specification, options);
-  return command;
 }
 
 }  // namespace tessera::cli

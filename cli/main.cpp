@@ -18,9 +18,9 @@ int main(int argc, char** argv) {
       "  tessera simulate --for 60s      build it and watch it drive\n"
       "`tessera COMMAND --help` shows the options of a command, with examples.");
   int exit_code = cli::ok;
-  for (auto* add :
-       {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export, cli::add_generate,
-        cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay, cli::add_top, cli::add_completion})
+  for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export,
+                    cli::add_generate, cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay,
+                    cli::add_top, cli::add_studio, cli::add_completion})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

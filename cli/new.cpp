@@ -8,10 +8,12 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
-#include "cli/paths.hpp"
 #include "cli/terminal.hpp"
+#include "project/installation.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace fs = std::filesystem;
 

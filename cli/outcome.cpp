@@ -11,6 +11,8 @@
 
 namespace tessera::cli {
 
+using namespace project;
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/launch.hpp"
+#include "project/launch.hpp"
 #include "report/report.hpp"
 
 namespace tessera::cli {
@@ -18,7 +18,8 @@ struct RunOutcome {
 };
 
 /// Reads what the run left. Throws std::runtime_error when something cannot be read.
-[[nodiscard]] RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options);
+[[nodiscard]] RunOutcome read_outcome(const project::Controller& controller,
+                                      const project::LaunchOptions& options);
 
 /// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}; on
 /// a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}.

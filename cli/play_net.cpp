@@ -44,7 +44,7 @@ std::optional<net::Net> read_net(const std::string& file) {
   diagnostics::Diagnostics source = diagnostics::load(file);
   std::optional<net::Net> net;
   if (!source.has_errors()) net = net::read_pnml(source);
-  print(source);
+  terminal().say(source);
   return net;
 }
 

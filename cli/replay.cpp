@@ -10,8 +10,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
-#include "cli/walk.hpp"
 #include "diagnostics/diagnostics.hpp"
+#include "project/walk.hpp"
 #include "replay/legality.hpp"
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
@@ -19,6 +19,8 @@
 #include "verify/hashes.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -250,9 +252,9 @@ const char* name_of(Legal verdict) {
 /// nullopt after the reason has been printed: there is no net to check against.
 std::optional<replay::Legality> check(const Recording& recording, const Options& options) {
   const std::string file = specification_of(options);
-  std::optional<Specification> specification = read(file);
+  std::optional<Specification> specification = read(file, terminal());
   if (!specification) return std::nullopt;
-  const std::optional<Nets> nets = build(*specification);
+  const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return std::nullopt;
   const std::string hash = verify::hash_of(nets->flat);
   if (hash != recording.net_hash) {

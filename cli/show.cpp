@@ -5,11 +5,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
-#include "cli/walk.hpp"
 #include "drawing/drawing.hpp"
 #include "net/counts.hpp"
+#include "project/walk.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -64,9 +66,9 @@ bool draw(const Options& options, const Specification& specification, const Nets
 }
 
 int show_command(const Options& options) {
-  std::optional<Specification> specification = read(options.spec);
+  std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return failed;
-  const std::optional<Nets> nets = build(*specification);
+  const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::PageId page = nets->pages.find(options.page);
   if (!page.valid()) {

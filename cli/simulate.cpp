@@ -13,6 +13,8 @@
 
 namespace tessera::cli {
 
+using namespace project;
+
 namespace {
 
 struct SimulateOptions : LaunchOptions {
@@ -92,7 +94,7 @@ int simulate_command(SimulateOptions options) {
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =
-      make_controller(options.spec, {options.debug, "controller", options.gate});
+      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return failed;
   const bool with_world = controller->specification.model.simulation.has_value();
   if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
@@ -133,7 +135,7 @@ int complain_of_drivers(const std::vector<std::string>& missing) {
 
 int run_command(const RunCommandOptions& options) {
   const std::optional<Controller> controller =
-      make_controller(options.spec, {options.debug, "controller", options.gate});
+      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return failed;
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is no world to drive");

@@ -14,8 +14,26 @@ namespace tessera::cli {
 
 bool colour() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
 
-void print(const diagnostics::Diagnostics& diagnostics) {
-  std::fputs(diagnostics::render(diagnostics, colour()).c_str(), stderr);
+namespace {
+
+class StandardError final : public project::Listener {
+ public:
+  void say(std::string_view text) override { fmt::print(stderr, "{}", text); }
+  void say(const diagnostics::Diagnostics& diagnostics) override {
+    say(diagnostics::render(diagnostics, colour()));
+  }
+  void progress(std::string_view what) override {
+    if (isatty(STDERR_FILENO) == 0) return;
+    fmt::print(stderr, "\r\033[K{}", what);
+    std::fflush(stderr);
+  }
+};
+
+}  // namespace
+
+project::Listener& terminal() {
+  static StandardError standard_error;
+  return standard_error;
 }
 
 int complain(const std::string& text) {
@@ -31,23 +49,6 @@ void write_output(const std::string& file, std::string_view text) {
   const bool closed = stream == stdout ? std::fflush(stream) == 0 : std::fclose(stream) == 0;
   if (!written || !closed)
     throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
-}
-
-Step::Step(std::string what) : what_(std::move(what)), start_(std::chrono::steady_clock::now()) {}
-
-Step::~Step() {
-  if (shown_) std::fputs("\r\033[K", stderr);
-}
-
-void Step::progress(std::string_view detail) {
-  if (isatty(STDERR_FILENO) == 0 || seconds() < 1) return;
-  shown_ = true;
-  fmt::print(stderr, "\r\033[K{} {} ({:.0f} s)", what_, detail, seconds());
-  std::fflush(stderr);
-}
-
-double Step::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 }  // namespace tessera::cli

@@ -3,12 +3,14 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "cli/process.hpp"
-#include "cli/project.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
-#include "cli/verdicts.hpp"
+#include "project/controller.hpp"
+#include "project/process.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -26,7 +28,7 @@ int test_command(const Options& options) {
     return complain(fmt::format("{} has no test/ folder: put GoogleTest files there",
                                 std::filesystem::absolute(project).string()));
   const std::optional<Controller> tests =
-      make_controller(options.spec, {options.debug, "tests", options.gate});
+      make_controller(options.spec, {options.debug, "tests", options.gate}, terminal());
   if (!tests) return failed;
   Command command{tests->program.string()};
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);

@@ -7,18 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/run_files.hpp"
 #include "cli/terminal.hpp"
-#include "cli/verdicts.hpp"
-#include "cli/violation.hpp"
-#include "cli/walk.hpp"
 #include "diagnostics/source.hpp"
 #include "explore/explore.hpp"
 #include "layers/layers.hpp"
 #include "net/pnml_reader.hpp"
+#include "project/run_files.hpp"
+#include "project/verdicts.hpp"
+#include "project/violation.hpp"
+#include "project/walk.hpp"
 #include "verify/abstraction.hpp"
 
 namespace tessera::cli {
+
+using namespace project;
 
 namespace {
 
@@ -71,13 +73,13 @@ std::optional<Judged> load(const std::string& given) {
   if (given.ends_with(".pnml")) {
     diagnostics::Diagnostics source = diagnostics::load(given);
     if (!source.has_errors()) judged.drawn = net::read_pnml(source);
-    print(source);
+    terminal().say(source);
     judged.file = given;
     return judged.drawn ? std::optional(std::move(judged)) : std::nullopt;
   }
-  std::optional<Specification> specification = read(given);
-  if (!specification || !models_are_sound(*specification)) return std::nullopt;
-  judged.nets = build(*specification);
+  std::optional<Specification> specification = read(given, terminal());
+  if (!specification || !models_are_sound(*specification, terminal())) return std::nullopt;
+  judged.nets = build(*specification, terminal());
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();
   judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
@@ -132,31 +134,6 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Opt
   return ok;
 }
 
-json to_json(const Judged& judged, const verify::Report& report) {
-  json properties = json::array();
-  for (const verify::PropertyResult& property : report.properties) {
-    json one{{"name", property.name},
-             {"asks", property.asks},
-             {"verdict", name_of(property.verdict)},
-             {"method", property.method},
-             {"why", property.why},
-             {"meaning", property.meaning},
-             {"explanation", property.explanation},
-             {"seconds", property.seconds},
-             {"states", property.states},
-             {"warning", property.warning},
-             {"waits", property.waits},
-             {"trace", nullptr}};
-    if (property.has_trace)
-      one["trace"] = firings_json(net_of_run(judged.net(), property),
-                                  judged.nets ? &judged.nets->pages : nullptr, property.trace);
-    properties.push_back(std::move(one));
-  }
-  return {{"properties", properties},
-          {"net_hash", report.net_hash},
-          {"verification_hash", report.verification_hash}};
-}
-
 json count_states(const Judged& judged, const Options& options, Step& step) {
   explore::Limits limits;
   limits.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
@@ -200,9 +177,9 @@ int verify_command(const Options& options) {
   json result;
   verify::Report report;
   {
-    Step step("verifying");
+    Step step(terminal(), "verifying");
     report = judge(*judged, options, step);
-    result = to_json(*judged, report);
+    result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
     if (options.states) result["state_space"] = count_states(*judged, options, step);
   }
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <fstream>
 #include <string>
 
@@ -7,8 +8,8 @@
 
 namespace tessera::sim {
 
-/// Writes a trace file point by point. The same points give the same bytes: numbers have a fixed number of
-/// decimals.
+/// Writes a trace file point by point; what is older than a twentieth of a second of wall time can be read.
+/// The same points give the same bytes: numbers have a fixed number of decimals.
 class TraceWriter {
  public:
   /// An empty path: writes nothing. Whether the file can be written, finish() says.
@@ -22,6 +23,7 @@ class TraceWriter {
   std::string path_;
   std::string reason_;  ///< why it could not be opened
   std::ofstream file_;
+  std::chrono::steady_clock::time_point flushed_{};
 };
 
 }  // namespace tessera::sim

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "tessera/time.hpp"
 #include "waker.hpp"
 
@@ -18,12 +20,12 @@ class Clock {
 /// Moved by the simulation only.
 class SimulatedClock final : public Clock {
  public:
-  [[nodiscard]] Time now() const override { return now_; }
+  [[nodiscard]] Time now() const override { return now_.load(std::memory_order_relaxed); }
   [[nodiscard]] bool simulated() const override { return true; }
-  void set(Time now) { now_ = now; }
+  void set(Time now) { now_.store(now, std::memory_order_relaxed); }
 
  private:
-  Time now_{};
+  std::atomic<Time> now_{};  // those who watch read it too
 };
 
 /// CLOCK_MONOTONIC from the moment it was made.

@@ -31,7 +31,7 @@ struct Words {
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   WorldOptions world;
-  bool unwatched = false;
+  bool unwatched = false, controlled = false;
 };
 
 void describe_common(CLI::App& command, CommandLine& line, Words& words) {
@@ -189,13 +189,21 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_option("--schedules", line.schedules,
                        "Try so many seeds from --seed on, interleaved; report the first whose run fails");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
+  simulate->add_flag("--controlled", words.controlled,
+                     "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");
+  simulate->add_flag("--paused", line.options.paused, "With --controlled: begin paused");
+  simulate
+      ->add_option("--speed", line.options.speed,
+                   "With --controlled: simulated seconds a second; 0: as fast as possible")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool unreadable = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
     return app.exit(error) == 0 ? 0 : unreadable ? 1 : 2;
   }
-  line.options.monitor = run->parsed() && !words.unwatched;
+  line.options.monitor = run->parsed() ? !words.unwatched : words.controlled;
   line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;
   std::string wrong;
   if (!words.parameter_file.empty() &&

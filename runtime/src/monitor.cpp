@@ -8,6 +8,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -15,13 +16,18 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "console.hpp"
 #include "tessera/monitor.hpp"
 
 namespace tessera {
 namespace {
 
-constexpr int send_period_ms = 200;
-constexpr std::size_t most_clients = 8;
+constexpr int send_period_ms = 200, controlled_period_ms = 40;
+constexpr std::size_t most_clients = 8, longest_command = std::size_t{1} << 20U,
+                      most_waiting = std::size_t{16} << 20U;
+constexpr std::int64_t patience_ns = 5'000'000'000;
+/// Of a large system a line takes long to write; the thread may take this part of a processor.
+constexpr std::int64_t rest_per_work = 50;
 
 [[nodiscard]] double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -52,7 +58,8 @@ std::string monitor_folder() {
   return fmt::format("/tmp/tessera-{}", geteuid());
 }
 
-Monitor::Monitor(const Assembly& assembly, const Clock& clock) : assembly_(assembly), clock_(clock) {
+Monitor::Monitor(const Assembly& assembly, const Clock& clock, RemoteControl* remote)
+    : assembly_(assembly), clock_(clock), remote_(remote) {
   if (!listen_in(monitor_folder())) return;
   ending_ = eventfd(0, EFD_CLOEXEC);
   try {
@@ -68,7 +75,7 @@ Monitor::~Monitor() {
     [[maybe_unused]] const ssize_t written = write(ending_, &one, sizeof one);
     thread_.join();
   }
-  for (const int client : clients_) close(client);
+  for (const Client& client : clients_) close(client.socket);
   if (ending_ >= 0) close(ending_);
   if (listening_ < 0) return;
   close(listening_);
@@ -99,15 +106,39 @@ bool Monitor::listen_in(const std::string& folder) {
   return true;
 }
 
+void Monitor::complain_of_failure(Time now) const {
+  if (!failure_.empty())
+    console::print(LogLevel::warning, now, "tessera",
+                   fmt::format("`tessera top` cannot look at this run: {}", failure_));
+}
+
 void Monitor::serve() {
+  std::int64_t due_ns = 0;
   for (;;) {
-    std::array<pollfd, 2> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
-                                  pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
+    std::vector<pollfd> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
+    for (const Client& client : clients_) {
+      const int wanted = (remote_ == nullptr ? 0 : POLLIN) | (client.waiting.empty() ? 0 : POLLOUT);
+      sources.push_back({.fd = client.socket, .events = static_cast<short>(wanted), .revents = 0});
+    }
+    const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
     // Nobody watches: no work at all.
-    const int ready = poll(sources.data(), sources.size(), clients_.empty() ? -1 : send_period_ms);
+    poll(sources.data(), sources.size(),
+         clients_.empty() ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
     if ((sources[0].revents & POLLIN) != 0) return;
+    for (std::size_t client = 0; client + 2 < sources.size(); ++client) {
+      const int ready = sources[client + 2].revents;
+      if ((ready & POLLOUT) != 0) deliver(clients_[client]);
+      if ((ready & ~POLLOUT) != 0) hear(clients_[client]);
+    }
+    drop_the_gone();
     if ((sources[1].revents & POLLIN) != 0) admit();
-    if (ready == 0) send_to_all();
+    const std::int64_t begin_ns = monotonic_ns();
+    if (begin_ns < due_ns) continue;
+    send_to_all();
+    const std::int64_t end_ns = monotonic_ns(),
+                       period_ms = remote_ == nullptr ? send_period_ms : controlled_period_ms;
+    due_ns = end_ns + std::max(period_ms * 1'000'000, (end_ns - begin_ns) * rest_per_work);
   }
 }
 
@@ -118,19 +149,73 @@ void Monitor::admit() {
     close(client);
     return;
   }
-  clients_.push_back(client);
+  clients_.push_back({.socket = client, .said = {}, .waiting = {}});
   send_to_all();
 }
 
-void Monitor::send_to_all() {
-  const std::string line = snapshot() + '\n';
-  std::erase_if(clients_, [&](int client) {
-    // A part of a line would be worth nothing, so a client with a full buffer is dropped.
-    const bool sent = send(client, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
-                      static_cast<ssize_t>(line.size());
-    if (!sent) close(client);
-    return !sent;
+void Monitor::hear(Client& client) {
+  std::array<char, 4096> bytes{};
+  const ssize_t count = recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  client.gone = count <= 0;
+  if (client.gone || remote_ == nullptr) return;
+  client.said.append(bytes.data(), static_cast<std::size_t>(count));
+  for (std::size_t end; (end = client.said.find('\n')) != std::string::npos; client.said.erase(0, end + 1))
+    obey(client, client.said.substr(0, end));
+  client.gone = client.gone || client.said.size() > longest_command || client.waiting.size() > most_waiting;
+}
+
+void Monitor::obey(Client& client, const std::string& line) {
+  const nlohmann::json command = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (command.is_object() && command.contains("command") && command["command"] == "own") {
+    client.owner = true;
+    return;
+  }
+  std::string wrong = "this is no command";
+  std::int64_t id = 0;
+  try {
+    id = command.value("id", id);
+    wrong = remote_->command(command);
+  } catch (const nlohmann::json::exception&) {  // members of another type
+  }
+  if (client.waiting.empty()) client.took_ns = monotonic_ns();
+  client.waiting += nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
+  deliver(client);
+}
+
+void Monitor::drop_the_gone() {
+  std::erase_if(clients_, [&](const Client& client) {
+    if (!client.gone) return false;
+    if (client.owner && remote_ != nullptr) remote_->abandon();
+    close(client.socket);
+    return true;
   });
+}
+
+/// As much as there is room for.
+void Monitor::deliver(Client& client) {
+  const ssize_t count =
+      send(client.socket, client.waiting.data(), client.waiting.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  client.gone = client.gone || (count < 0 && errno != EAGAIN && errno != EINTR);
+  if (count <= 0) return;
+  client.waiting.erase(0, static_cast<std::size_t>(count));
+  client.took_ns = monotonic_ns();
+}
+
+/// Who has not taken the last line yet goes without this one, and who takes nothing at all is dropped.
+void Monitor::send_to_all() {
+  std::string line;
+  for (Client& client : clients_) {
+    if (!client.waiting.empty()) {
+      client.gone = client.gone || monotonic_ns() - client.took_ns > patience_ns;
+      continue;
+    }
+    if (line.empty()) line = snapshot() + '\n';
+    client.waiting = line;
+    client.took_ns = monotonic_ns();
+    deliver(client);
+  }
+  drop_the_gone();
 }
 
 std::string Monitor::snapshot() const {
@@ -165,11 +250,19 @@ std::string Monitor::snapshot() const {
       if ((marking >> place & 1U) != 0) marked.push_back(channel.places[place].name);
     channels.push_back({{"name", channel.name}, {"marked", std::move(marked)}});
   }
-  return json{
+  json all{
       {"system", assembly_.system.name},       {"pid", getpid()},
       {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
-      {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}}
-      .dump();
+      {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}};
+  if (remote_ == nullptr) return all.dump();
+  const RemoteControl::Shown shown = remote_->shown();
+  all["paused"] = shown.paused;
+  all["pauses"] = shown.pauses;
+  all["speed"] = shown.speed;
+  all["broke_at"] = shown.broke_at;
+  std::string text = all.dump();
+  if (!shown.values.empty()) text.replace(text.size() - 1, 1, ",\"values\":" + shown.values + "}");
+  return text;
 }
 
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "remote_control.hpp"
 
 namespace tessera {
 
@@ -15,25 +16,40 @@ namespace tessera {
 /// Threads: made and destroyed by one; the assembly must outlive it.
 class Monitor {
  public:
-  Monitor(const Assembly& assembly, const Clock& clock);
+  /// remote: takes commands; nullptr: there are none.
+  Monitor(const Assembly& assembly, const Clock& clock, RemoteControl* remote = nullptr);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: it listens
+  /// A warning on the console unless it listens.
+  void complain_of_failure(Time now) const;
 
  private:
   [[nodiscard]] bool listen_in(const std::string& folder);
   void serve();
   void admit();
+  struct Client {
+    int socket;
+    std::string said;          ///< the beginning of a command
+    std::string waiting;       ///< what its socket had no room for
+    std::int64_t took_ns = 0;  ///< when it last took some of that
+    bool owner = false;
+    bool gone = false;
+  };
   void send_to_all();
+  static void deliver(Client& client);
+  void hear(Client& client);
+  void obey(Client& client, const std::string& line);
+  void drop_the_gone();
   [[nodiscard]] std::string snapshot() const;
 
   const Assembly& assembly_;
   const Clock& clock_;
   std::string socket_file_, failure_;
   int listening_ = -1, ending_ = -1;
-  std::vector<int> clients_;
+  RemoteControl* remote_;
+  std::vector<Client> clients_;
   std::thread thread_;
 };
 

@@ -10,28 +10,47 @@
 #include <utility>
 
 #include "console.hpp"
+#include "monitor.hpp"
 #include "stillness.hpp"
 
 namespace tessera {
 namespace {
 
-/// Keeps simulated time from running ahead of the wall clock; a signal ends the wait.
+/// Keeps simulated time from running ahead of the wall clock; a signal or a command ends the wait.
 class Pace {
  public:
-  Pace(bool realtime, const StopSignals& signals) : realtime_(realtime), signals_(signals) {}
-  void wait_for(Time time, Recorder* recorder) const {
-    if (!realtime_) return;
-    const std::int64_t left_ns = start_ns_ + time.time_since_epoch().count() - monotonic_ns();
-    if (left_ns <= 0) return;
+  Pace(bool realtime, RemoteControl* remote, const StopSignals& signals)
+      : speed_(realtime ? 1 : 0), remote_(remote), signals_(signals) {}
+
+  /// From here time counts anew: it has stood still, or goes faster or slower now.
+  void restart(Time now) {
+    start_ = now;
+    start_ns_ = monotonic_ns();
+  }
+
+  /// false: it is not time yet.
+  [[nodiscard]] bool wait_for(Time time, Time now, Recorder* recorder) {
+    if (remote_ != nullptr && remote_->speed() != speed_) {
+      speed_ = remote_->speed();
+      restart(now);
+    }
+    if (speed_ <= 0) return true;
+    const auto after_ns = static_cast<std::int64_t>(static_cast<double>((time - start_).count()) / speed_);
+    const std::int64_t left_ns = start_ns_ + after_ns - monotonic_ns();
+    if (left_ns <= 0) return true;
     if (recorder != nullptr) recorder->flush();  // there is time, and whoever watches sees what has happened
+    if (remote_ != nullptr) return remote_->wait_for(Duration(left_ns), signals_);
     timespec left{.tv_sec = left_ns / 1'000'000'000, .tv_nsec = left_ns % 1'000'000'000};
     pollfd signal{.fd = signals_.descriptor(), .events = POLLIN, .revents = 0};
     ppoll(&signal, 1, &left, nullptr);
+    return true;
   }
 
  private:
-  bool realtime_;
+  double speed_;
+  RemoteControl* remote_;
   const StopSignals& signals_;
+  Time start_{};
   std::int64_t start_ns_ = monotonic_ns();
 };
 
@@ -58,9 +77,20 @@ std::uint32_t SimulatedRun::draw_ready() {
 }
 
 void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
-  const std::uint64_t most = assembly.options.interleave ? 1 : UINT64_MAX;
-  const SubsystemExecutor::Progress progress = assembly.executors[instance]->step(most);
-  if (progress.state == SubsystemExecutor::State::ready) wake(instance);
+  SubsystemExecutor& executor = *assembly.executors[instance];
+  const bool one = remote_ != nullptr && remote_->one_by_one();
+  if (one) remote_->about_to_fire();
+  const std::uint64_t before = executor.firings();
+  const SubsystemExecutor::Progress progress =
+      executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
+  if (one && executor.firings() != before) remote_->fired(instance);
+  if (progress.state == SubsystemExecutor::State::ready) {
+    if (!assembly.options.interleave) {
+      unfinished_ = instance;
+      return;
+    }
+    wake(instance);
+  }
   deadlines_.set(instance,
                  progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
   if (progress.state != SubsystemExecutor::State::ended) return;
@@ -78,7 +108,30 @@ void SimulatedRun::move_to(Assembly& assembly, Time time) {
   }
 }
 
+/// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.
+/// true: it was paused meanwhile.
+bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  bool waited = false;
+  while ((unfinished_ || !ready_.empty()) && !assembly.control.stopping()) {
+    if (remote_ != nullptr) {
+      waited = remote_->wait_while_paused(signals, clock_.now()) || waited;
+      if (StopSignals::pending() != 0) break;
+    }
+    const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready();
+    unfinished_.reset();
+    if (!has_ended_[instance]) step(assembly, upper, instance);
+  }
+  if (remote_ != nullptr) waited = remote_->wait_while_paused(signals, clock_.now()) || waited;
+  return waited;
+}
+
 Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  std::optional<Monitor> monitor;
+  if (assembly.options.monitor) {
+    remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused, assembly.options.speed);
+    monitor.emplace(assembly, clock_, remote_.get());
+    monitor->complain_of_failure(clock_.now());
+  }
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
@@ -139,7 +192,7 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
 
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   const std::optional<Duration> duration = assembly.options.duration;
-  const Pace pace(assembly.options.realtime, signals);
+  Pace pace(assembly.options.realtime, remote_.get(), signals);
   ProgressLine progress(assembly.options.progress, duration);
   const auto ending = [&](std::string text, bool failed) {
     return Ending{std::move(text), failed, clock_.now()};
@@ -154,8 +207,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   if (std::optional<Ending> ended = follow_scenario(assembly, upper)) return *ended;
   const Time end = duration ? clock_.now() + *duration : Time::max();
   for (;;) {
-    while (!ready_.empty() && !assembly.control.stopping())
-      if (const std::uint32_t drawn = draw_ready(); !has_ended_[drawn]) step(assembly, upper, drawn);
+    if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());
     if (const int signal = StopSignals::pending(); signal != 0)
       return ending(StopSignals::name(signal), false);
     if (assembly.control.stopping())
@@ -164,7 +216,8 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
-    pace.wait_for(std::min(next, end), assembly.recorder.get());
+    if (remote_ != nullptr) remote_->show_values(clock_.now());
+    if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {
       move_to(assembly, end);
       return ending("duration", assembly.control.failed());

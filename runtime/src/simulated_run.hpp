@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "assembly.hpp"
 #include "deadline_queue.hpp"
+#include "remote_control.hpp"
 #include "stop_signals.hpp"
 #include "upper_layers.hpp"
 
@@ -40,6 +42,7 @@ class SimulatedRun final : public Waker {
   /// Says who has done nothing since the scenario: that is what it was for.
   [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
   [[nodiscard]] std::uint32_t draw_ready();
+  [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
   void move_to(Assembly& assembly, Time time);
 
@@ -47,6 +50,8 @@ class SimulatedRun final : public Waker {
   std::mt19937_64 random_;
   std::vector<std::uint32_t> ready_;
   std::vector<bool> is_ready_, has_ended_;
+  std::optional<std::uint32_t> unfinished_;  // has fired, and its turn is not over
+  std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
   DeadlineQueue deadlines_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
 };

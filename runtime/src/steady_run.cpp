@@ -110,9 +110,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   std::optional<Monitor> monitor;
   if (assembly.options.monitor) {
     monitor.emplace(assembly, clock_);
-    if (!monitor->failure().empty())
-      console::print(LogLevel::warning, clock_.now(), "tessera",
-                     fmt::format("`tessera top` cannot look at this run: {}", monitor->failure()));
+    monitor->complain_of_failure(clock_.now());
   }
   supervise(assembly, upper, signals);
   await_threads(assembly);

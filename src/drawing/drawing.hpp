@@ -54,6 +54,8 @@ struct LayoutError : std::runtime_error {
 
 /// The whole net for machines: pages with their nodes and transitions, fusion sets, the flat net with the
 /// origin of every element, and the counts. Indices refer to the arrays of the same object.
-[[nodiscard]] std::string to_json(const net::HierarchicalNet& pages, const net::Net& net);
+///
+/// indent: of nested lines, in spaces; -1: all on one line.
+[[nodiscard]] std::string to_json(const net::HierarchicalNet& pages, const net::Net& net, int indent = 1);
 
 }  // namespace tessera::drawing

@@ -95,7 +95,7 @@ Json flat_json(const net::Net& net) {
 
 }  // namespace
 
-std::string to_json(const net::HierarchicalNet& pages, const net::Net& net) {
+std::string to_json(const net::HierarchicalNet& pages, const net::Net& net, int indent) {
   Json json{{"pages", Json::array()}, {"fusions", Json::array()}};
   for (std::uint32_t page = 0; page < pages.pages.size(); ++page)
     json["pages"].push_back(page_json(pages, net::PageId{page}));
@@ -106,7 +106,7 @@ std::string to_json(const net::HierarchicalNet& pages, const net::Net& net) {
                                {"span", span_json(set.span)}});
   json["flat"] = flat_json(net);
   json["counts"] = Json::parse(net::to_json(net::count(pages, net)));
-  return json.dump(1) + "\n";
+  return json.dump(indent) + "\n";
 }
 
 }  // namespace tessera::drawing

@@ -16,4 +16,9 @@ namespace tessera::spec {
 /// Threads: pure.
 [[nodiscard]] std::optional<Model> parse(diagnostics::Diagnostics& out);
 
+/// The same for a text that may have errors: what could be understood of it, for those who show a file while
+/// it is written. Of a model with errors, an index may be `none` or out of range, and things may be missing.
+/// nullopt: it is not YAML that we read.
+[[nodiscard]] std::optional<Model> parse_what_is_known(diagnostics::Diagnostics& out);
+
 }  // namespace tessera::spec

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/process.hpp"
+#include "project/process.hpp"
 
 namespace tessera::cli_test {
 
@@ -41,15 +41,15 @@ class Command : public testing::Test {
   ~Command() override { fs::remove_all(folder_); }
 
   /// What it printed, on both streams, and its exit code.
-  cli::Exit tessera(const std::string& arguments) const {
+  project::Exit tessera(const std::string& arguments) const {
     return shell(std::string(TESSERA_BINARY_DIR) + "/tessera " + arguments);
   }
-  cli::Exit shell(const std::string& line) const {
-    return cli::capture({"sh", "-c", "cd '" + folder_.string() + "' && " + line});
+  project::Exit shell(const std::string& line) const {
+    return project::capture({"sh", "-c", "cd '" + folder_.string() + "' && " + line});
   }
   /// Runs it with `--json FILE`, expects success and gives the JSON.
   nlohmann::json json(const std::string& arguments) const {
-    const cli::Exit done = tessera(arguments + " --json out.json");
+    const project::Exit done = tessera(arguments + " --json out.json");
     EXPECT_EQ(done.code, 0) << arguments << "\n" << done.text;
     return nlohmann::json::parse(content_of(folder_ / "out.json"), nullptr, false);
   }

@@ -32,7 +32,7 @@ TEST_F(Gate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
   write(folder_ / "p/spec.yaml", stuck);
   for (const char* command : {"generate p", "simulate p", "run p"}) {
     SCOPED_TRACE(command);
-    const cli::Exit done = tessera(command);
+    const project::Exit done = tessera(command);
     EXPECT_EQ(done.code, 1);
     for (const char* part :
          {"deadlock_free: violated", "a.control waits for the acknowledgement of a.control.y->b.control.x",
@@ -46,7 +46,7 @@ TEST_F(Gate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
 
 TEST_F(Gate, AnAcceptedViolationIsWrittenIntoTheController) {
   write(folder_ / "p/spec.yaml", stuck);
-  const cli::Exit done = tessera("generate p --accept-violations --json out.json");
+  const project::Exit done = tessera("generate p --accept-violations --json out.json");
   EXPECT_EQ(done.code, 0) << done.text;
   EXPECT_NE(done.text.find("warning: deadlock_free, goes_on"), std::string::npos) << done.text;
   const auto result = nlohmann::json::parse(content_of(folder_ / "out.json"));
@@ -117,12 +117,13 @@ TEST_F(Gate, ATraceIsCompleteForAViewerThatSteps) {
 
 TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
   write(folder_ / "p/spec.yaml", leaves);
-  const cli::Exit verified = tessera("verify p --property goes_on --trace run.json --scenario stuck.json");
+  const project::Exit verified =
+      tessera("verify p --property goes_on --trace run.json --scenario stuck.json");
   EXPECT_EQ(verified.code, 1);
   EXPECT_NE(verified.text.find("tessera simulate p --scenario stuck.json"), std::string::npos)
       << verified.text;
   const auto traces = nlohmann::json::parse(content_of(folder_ / "run.json"));
-  const cli::Exit done = tessera("simulate p --scenario stuck.json --for 2s --record run.tsr");
+  const project::Exit done = tessera("simulate p --scenario stuck.json --for 2s --record run.tsr");
   EXPECT_EQ(done.code, 1) << done.text;
   EXPECT_NE(done.text.find("(forced: terminal)"), std::string::npos) << done.text;
   EXPECT_NE(done.text.find("stuck since the scenario: a.control at go.snd.y.wait waits for b.control"),
@@ -150,7 +151,7 @@ TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
 
 TEST_F(Gate, WithoutAViolationThereIsNoScenario) {
   const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
-  const cli::Exit done = tessera("verify " + spec + " --scenario none.json");
+  const project::Exit done = tessera("verify " + spec + " --scenario none.json");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("no property is violated by a run"), std::string::npos) << done.text;
   EXPECT_FALSE(fs::exists(folder_ / "none.json"));

@@ -7,13 +7,13 @@ namespace tessera::cli_test {
 using Install = Command;
 
 TEST_F(Install, PrefixWorksWhereverItIsMoved) {
-  const cli::Exit installed =
+  const project::Exit installed =
       shell("cmake --install '" TESSERA_BINARY_DIR "' --prefix '" + folder_.string() + "/here'");
   ASSERT_EQ(installed.code, 0) << installed.text;
   fs::rename(folder_ / "here", folder_ / "there");
-  const cli::Exit made = shell("there/bin/tessera new rover");
+  const project::Exit made = shell("there/bin/tessera new rover");
   ASSERT_EQ(made.code, 0) << made.text;
-  const cli::Exit run = shell("there/bin/tessera simulate rover --for 5s --json run.json");
+  const project::Exit run = shell("there/bin/tessera simulate rover --for 5s --json run.json");
   ASSERT_EQ(run.code, 0) << run.text;
   EXPECT_GT(nlohmann::json::parse(content_of(folder_ / "run.json")).at("laps"), 0.02);
   const std::string cache = content_of(folder_ / "rover/.tessera/build/release/CMakeCache.txt");

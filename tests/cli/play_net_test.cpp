@@ -49,7 +49,7 @@ TEST_F(PlayNet, EndsWhereTheNetIsDeadAndRepeatsFromTheSeed) {
 TEST_F(PlayNet, SaysWhatFiredAndRefusesWhatIsNoNet) {
   write(folder_ / "ring.pnml",
         net_with("<transition id='never'/><arc id='a5' source='end' target='never'/>"));
-  const cli::Exit played = tessera("simulate ring.pnml --steps 10");
+  const project::Exit played = tessera("simulate ring.pnml --steps 10");
   EXPECT_EQ(played.code, 0);
   EXPECT_NE(played.text.find("10 firings in "), std::string::npos) << played.text;
   EXPECT_NE(played.text.find("5 go\n"), std::string::npos) << played.text;

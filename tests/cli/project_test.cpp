@@ -15,7 +15,7 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
   EXPECT_TRUE(fs::exists(run.at("recording").get<std::string>()));
   EXPECT_TRUE(fs::exists(folder_ / "rover/report/index.html"));
   EXPECT_TRUE(fs::exists(folder_ / "rover/compile_commands.json"));
-  const cli::Exit tests = tessera("test rover");
+  const project::Exit tests = tessera("test rover");
   EXPECT_EQ(tests.code, 0) << tests.text;
   EXPECT_NE(tests.text.find("[  PASSED  ]"), std::string::npos) << tests.text;
 }
@@ -48,7 +48,7 @@ TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
   replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: {}\n        rest: {}");
   // Nothing goes on to the new behaviour yet, which the proof would say.
   const std::string generate = "generate rover --accept-violations";
-  const cli::Exit missing = tessera(generate);
+  const project::Exit missing = tessera(generate);
   EXPECT_EQ(missing.code, 1);
   EXPECT_NE(missing.text.find("no function 'rest'"), std::string::npos) << missing.text;
   EXPECT_NE(missing.text.find("void rest(Context&"), std::string::npos) << missing.text;
@@ -64,7 +64,7 @@ TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
   const auto line =
       1 +
       std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft")), '\n');
-  const cli::Exit done = tessera("simulate rover --for 1s");
+  const project::Exit done = tessera("simulate rover --for 1s");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("spec.yaml:" + std::to_string(line) + ":"), std::string::npos) << done.text;
   EXPECT_NE(done.text.find("lft"), std::string::npos) << done.text;
@@ -72,11 +72,11 @@ TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
 
 TEST_F(Project, DebugPrintsTheCommandThatDebugsTheRun) {
   ASSERT_EQ(tessera("new rover").code, 0);
-  const cli::Exit done = tessera("simulate rover --for 1s --debug");
+  const project::Exit done = tessera("simulate rover --for 1s --debug");
   EXPECT_EQ(done.code, 0) << done.text;
   EXPECT_NE(done.text.find("gdb --args "), std::string::npos) << done.text;
   const std::string line = done.text.substr(done.text.find("gdb --args "));
-  const cli::Exit debugged = shell(
+  const project::Exit debugged = shell(
       "gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run -ex bt " +
       line.substr(4));
   EXPECT_NE(debugged.text.find("control.cpp"), std::string::npos) << debugged.text;

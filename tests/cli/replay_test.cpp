@@ -7,14 +7,14 @@ using Replay = Command;
 TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   const fs::path project = example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 10s").code, 0);
-  const cli::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  const project::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
 
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
-  const cli::Exit threads = tessera("replay threads.tsr --check --spec 01_line_follower");
+  const project::Exit threads = tessera("replay threads.tsr --check --spec 01_line_follower");
   EXPECT_EQ(threads.code, 0) << threads.text;
-  const cli::Exit lost = tessera("replay threads.tsr --check");
+  const project::Exit lost = tessera("replay threads.tsr --check");
   EXPECT_EQ(lost.code, 1);
   EXPECT_NE(lost.text.find("--spec"), std::string::npos) << lost.text;
 
@@ -24,7 +24,7 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
 
   replace(project / "spec.yaml", "init:", "start:");
   write(project / "src/control.cpp", "");
-  const cli::Exit other = tessera("replay threads.tsr --check --spec 01_line_follower");
+  const project::Exit other = tessera("replay threads.tsr --check --spec 01_line_follower");
   EXPECT_EQ(other.code, 1);
   EXPECT_NE(other.text.find("the recording is of the net "), std::string::npos) << other.text;
 }
@@ -39,10 +39,10 @@ TEST_F(Replay, ShowsWhatWasAskedFor) {
     const double period = subsystem.at("path") == "robot.control" ? 0.05 : 0.02;
     EXPECT_NEAR(subsystem.at("period").at("median_s").get<double>(), period, 1e-9) << subsystem;
   }
-  const cli::Exit printed = tessera("replay run.tsr --print --subsystem robot.motor --from 1 --to 1.02");
+  const project::Exit printed = tessera("replay run.tsr --print --subsystem robot.motor --from 1 --to 1.02");
   EXPECT_NE(printed.text.find("robot.motor.drive.t1"), std::string::npos) << printed.text;
   EXPECT_EQ(printed.text.find("robot.control"), std::string::npos) << printed.text;
-  const cli::Exit unknown = tessera("replay run.tsr --print --subsystem robot.moter");
+  const project::Exit unknown = tessera("replay run.tsr --print --subsystem robot.moter");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.text.find("did you mean 'robot.motor'"), std::string::npos) << unknown.text;
   EXPECT_EQ(tessera("replay run.tsr --csv events.csv --to-perfetto trace.json").code, 0);

@@ -52,11 +52,11 @@ TEST_F(Simulate, ParametersChangeTheRunWithoutCompiling) {
 
 TEST_F(Simulate, WrongParametersAndTracksAreNamed) {
   example("01_line_follower");
-  const cli::Exit unknown = tessera("simulate 01_line_follower --for 1s --set vv=1");
+  const project::Exit unknown = tessera("simulate 01_line_follower --for 1s --set vv=1");
   EXPECT_EQ(unknown.code, 1) << unknown.text;
   EXPECT_NE(unknown.text.find("did you mean"), std::string::npos) << unknown.text;
   EXPECT_EQ(tessera("simulate 01_line_follower --for 1s --set v=fast").code, 1);
-  const cli::Exit nowhere = tessera("simulate 01_line_follower --for 1s --track nowhere.png");
+  const project::Exit nowhere = tessera("simulate 01_line_follower --for 1s --track nowhere.png");
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_NE(nowhere.text.find("nowhere.png"), std::string::npos) << nowhere.text;
 }
@@ -117,7 +117,7 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
 
 TEST_F(Simulate, RunWithoutDriversNamesTheRealBuffer) {
   example("01_line_follower");
-  const cli::Exit done = tessera("run 01_line_follower --for 1s");
+  const project::Exit done = tessera("run 01_line_follower --for 1s");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("robot.sensor.left"), std::string::npos) << done.text;
 }
@@ -132,8 +132,8 @@ TEST_F(Simulate, RunInTheWorldTakesRealTime) {
 TEST_F(Simulate, InterruptEndsARunSafelyWithItsOwnExitCode) {
   example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
-  const cli::Exit done = shell("timeout --preserve-status -s INT 3 " TESSERA_BINARY_DIR
-                               "/tessera run 01_line_follower --world --for 600s");
+  const project::Exit done = shell("timeout --preserve-status -s INT 3 " TESSERA_BINARY_DIR
+                                   "/tessera run 01_line_follower --world --for 600s");
   EXPECT_EQ(done.code, 130) << done.text;
   EXPECT_NE(done.text.find("SIGINT"), std::string::npos) << done.text;
 }

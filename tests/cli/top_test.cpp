@@ -12,7 +12,7 @@ TEST_F(Top, ShowsWhatEverySubsystemOfARunningControllerDoes) {
       "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);  // builds it
   // Until it listens, `top` says that nothing is running.
-  const cli::Exit done =
+  const project::Exit done =
       shell(watch +
             "$T top; $T run 01_line_follower --world --for 60s >run.txt 2>&1 & "
             "until $T top --once --json >line.json 2>none.txt; do :; done; "

@@ -8,7 +8,7 @@ using Usage = Command;
 
 TEST_F(Usage, ExitCodesTellMistakesInTheFileFromMistakesInTheCall) {
   write(folder_ / "wrong.yaml", "tessera: 1\nsystem: x\nagents: { a: { kontrol: {} } }\n");
-  const cli::Exit wrong = tessera("check wrong.yaml");
+  const project::Exit wrong = tessera("check wrong.yaml");
   EXPECT_EQ(wrong.code, 1);
   EXPECT_NE(wrong.text.find("wrong.yaml:3:"), std::string::npos) << wrong.text;
   EXPECT_NE(wrong.text.find("did you mean 'control'?"), std::string::npos) << wrong.text;
@@ -23,7 +23,7 @@ TEST_F(Usage, ExitCodesTellMistakesInTheFileFromMistakesInTheCall) {
 TEST_F(Usage, EveryCommandShowsAnExample) {
   for (const char* command :
        {"new", "check", "show", "verify", "export", "generate", "test", "simulate", "run", "completion"}) {
-    const cli::Exit help = tessera(std::string(command) + " --help");
+    const project::Exit help = tessera(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.text.find("tessera " + std::string(command)), std::string::npos) << help.text;
   }
@@ -35,16 +35,16 @@ TEST_F(Usage, CompletionOffersCommandsAndOptions) {
         "/tessera completion)\"\n"
         "COMP_WORDS=(tessera simu); COMP_CWORD=1; _tessera; echo \"${COMPREPLY[@]}\"\n"
         "COMP_WORDS=(tessera simulate --se); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[@]}\"\n");
-  const cli::Exit done = shell("bash complete.sh");
+  const project::Exit done = shell("bash complete.sh");
   EXPECT_EQ(done.text, "simulate\n--set --seed\n");
 }
 
 TEST_F(Usage, ShowDrawsCountsAndExportsTheExample) {
   const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
-  const cli::Exit tree = tessera("show " + spec);
+  const project::Exit tree = tessera("show " + spec);
   EXPECT_EQ(tree.code, 0) << tree.text;
   EXPECT_NE(tree.text.find("follow"), std::string::npos) << tree.text;
-  const cli::Exit counts = tessera("show " + spec + " --counts --json -");
+  const project::Exit counts = tessera("show " + spec + " --counts --json -");
   EXPECT_EQ(nlohmann::json::parse(counts.text).at("layers").at("system").at("pages"), 1) << counts.text;
   EXPECT_EQ(tessera("show " + spec + " --page robot.control.follow --svg follow.svg").code, 0);
   EXPECT_NE(content_of(folder_ / "follow.svg").find("<svg"), std::string::npos);
@@ -53,7 +53,7 @@ TEST_F(Usage, ShowDrawsCountsAndExportsTheExample) {
   EXPECT_EQ(tessera("export " + spec + " --pnml net.pnml").code, 0);
   EXPECT_NE(content_of(folder_ / "net.pnml").find("http://www.pnml.org/version-2009/grammar/ptnet"),
             std::string::npos);
-  const cli::Exit nowhere = tessera("show " + spec + " --page robot.control.folow --svg x.svg");
+  const project::Exit nowhere = tessera("show " + spec + " --page robot.control.folow --svg x.svg");
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_NE(nowhere.text.find("did you mean 'robot.control.follow'?"), std::string::npos) << nowhere.text;
 }

@@ -26,14 +26,14 @@ TEST_F(Verify, TheExampleHoldsInEveryRespect) {
   for (const auto& property : result.at("properties")) EXPECT_EQ(property.at("verdict"), "holds") << property;
   EXPECT_EQ(result.at("properties").back().at("name"), "motors can always run");
   EXPECT_EQ(result.at("properties").back().at("asks"), "always_reachable robot.motor.drive");
-  const cli::Exit explained = tessera("verify " + spec + " --property goes_on --explain");
+  const project::Exit explained = tessera("verify " + spec + " --property goes_on --explain");
   EXPECT_NE(explained.text.find("if every branch that is offered is taken eventually"), std::string::npos)
       << explained.text;
 }
 
 TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
   write(folder_ / "stuck.yaml", stuck);
-  const cli::Exit done = tessera("verify stuck.yaml --trace run.json");
+  const project::Exit done = tessera("verify stuck.yaml --trace run.json");
   EXPECT_EQ(done.code, 1) << done.text;
   for (const char* part :
        {"deadlock_free: violated",
@@ -50,7 +50,7 @@ TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
 
 TEST_F(Verify, APnmlNetHasTwoPropertiesAndEveryDeadMarkingCounts) {
   write(folder_ / "net.pnml", net_that_stops);
-  const cli::Exit done = tessera("verify net.pnml --states --json -");
+  const project::Exit done = tessera("verify net.pnml --states --json -");
   EXPECT_EQ(done.code, 1) << done.text;
   const nlohmann::json result = nlohmann::json::parse(done.text);
   ASSERT_EQ(result.at("properties").size(), 2U);
@@ -64,17 +64,17 @@ TEST_F(Verify, APnmlNetHasTwoPropertiesAndEveryDeadMarkingCounts) {
 
 TEST_F(Verify, WhatCannotBeDecidedIsUnknown) {
   const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
-  const cli::Exit done = tessera("verify " + spec + " --property goes_on --method invariants");
+  const project::Exit done = tessera("verify " + spec + " --property goes_on --method invariants");
   EXPECT_EQ(done.code, 3) << done.text;
   EXPECT_NE(done.text.find("goes_on: unknown"), std::string::npos) << done.text;
 }
 
 TEST_F(Verify, WrongNamesAreDiagnosed) {
   write(folder_ / "stuck.yaml", stuck);
-  const cli::Exit done = tessera("verify stuck.yaml --property goes_onn");
+  const project::Exit done = tessera("verify stuck.yaml --property goes_onn");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.text.find("did you mean 'goes_on'?"), std::string::npos) << done.text;
-  const cli::Exit time = tessera("verify stuck.yaml --timeout soon");
+  const project::Exit time = tessera("verify stuck.yaml --timeout soon");
   EXPECT_EQ(time.code, 1);
   EXPECT_NE(time.text.find("'soon' is no time"), std::string::npos) << time.text;
 }

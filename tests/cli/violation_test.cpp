@@ -1,4 +1,4 @@
-#include "cli/violation.hpp"
+#include "project/violation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(Violation, ReadsAsReviewed) {
     SCOPED_TRACE(name);
     const verify::Fault& fault = verify::fault(name);
     const verify::Proved faulty = verify::proved(fault.faulty);
-    const std::string text = cli::text_of(faulty.net, faulty[fault.property]);
+    const std::string text = project::text_of(faulty.net, faulty[fault.property]);
     if (std::getenv("TESSERA_UPDATE_GOLDEN") != nullptr)
       std::ofstream(golden / file, std::ios::binary) << text;
     EXPECT_EQ(text, content_of(golden / file));

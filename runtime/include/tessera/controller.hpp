@@ -29,7 +29,11 @@ struct RunOptions {
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens it
-  bool monitor = false;       ///< steady clock: can be watched while it runs (tessera/monitor.hpp)
+  bool monitor = false;       ///< can be watched while it runs (tessera/monitor.hpp)
+  /// Simulated clock, with `monitor`: begins paused; so many simulated seconds a second (0: as fast as
+  /// possible).
+  bool paused = false;
+  double speed = 1;
   /// File of a run that is followed first (tessera verify --scenario); after it everything runs freely, and
   /// `duration` begins. Simulated clock only.
   std::string scenario;

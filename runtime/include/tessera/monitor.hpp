@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// A controller that runs on the steady clock can be looked at while it runs: it listens on a Unix socket
+/// A controller can be looked at while it runs: on the steady clock it listens on a Unix socket
 /// `<monitor_folder()>/<system>.<pid>.sock`, and sends to whoever connects a line of JSON at once and then
 /// five times a second:
 ///
@@ -12,7 +12,26 @@
 ///                      "period_s", "called_at_s", "call_s", "longest_call_s"}],
 ///      "channels": [{"name", "marked": ["full"]}]}
 ///
-/// It reads nothing from its clients and never waits for one: who does not keep up is dropped.
+/// It never waits for a client: who has not taken a line goes without the next ones, and who takes nothing
+/// for five seconds is dropped. Of a large system the lines come less often, so that its thread takes at most
+/// a fiftieth of a processor.
+///
+/// Under the simulated clock only a run that was started with `--controlled` listens. It sends 25 lines a
+/// second, with what follows besides:
+///
+///     {"paused", "pauses", "speed", "broke_at",
+///      "values": {"time_s", "buffers": {"robot.sensor.line": bytes of the buffer in hexadecimal}}}
+///
+/// and takes commands, one JSON object a line; each is answered by a line {"answer": its id, "error": ""}:
+///
+///     {"id": 1, "command": "pause" | "resume" | "step_firing"}
+///     {"command": "step_iteration", "subsystem": path}   until its transition function is called again;
+///     without
+///                                                        a subsystem: that of any
+///     {"command": "speed", "value": 0.1}                 simulated seconds a second; 0: as fast as possible
+///     {"command": "breakpoints", "places": [name...]}    pause when one of these places gets a token
+///     {"command": "own"}                                 without an answer: the run ends with this
+///     connection
 namespace tessera {
 
 /// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID. Only its owner may enter it.

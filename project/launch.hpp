@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/controller.hpp"
+#include "project/process.hpp"
+
+/// Running a built controller.
+namespace tessera::project {
+
+/// How a controller shall be run.
+struct LaunchOptions {
+  std::string spec = ".";
+  std::string duration;  ///< "60s"; empty: until stopped
+  std::vector<std::string> set, inject;
+  std::string parameters;  ///< file; empty: params.yaml of the project if there is one
+  std::string record;
+  std::string folder;                                            ///< of the run's files; empty: .tessera/last
+  std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
+  bool debug = false;
+  bool progress = false;  ///< the controller shows its progress on standard error
+  Gate gate;
+  // Of the simulated world.
+  std::string world, track, start;                ///< empty: as in the specification
+  double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification
+  std::uint64_t seed = 1;
+};
+
+/// The files a run leaves.
+struct RunFiles {
+  std::filesystem::path recording, trace, summary;
+};
+[[nodiscard]] RunFiles run_files(const Specification& specification, const LaunchOptions& options);
+
+/// The floor picture a run uses: of the command line, else of the specification.
+struct Floor {
+  std::filesystem::path image;
+  double metres_per_pixel = 0.005;
+};
+/// nullopt: no track. Throws std::runtime_error when it names a file that is nowhere.
+[[nodiscard]] std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options);
+
+/// The controller's command line. mode: "simulate" or "run"; with_world: in the simulated world.
+[[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
+                                         const std::string& mode, bool with_world);
+
+}  // namespace tessera::project

@@ -1,0 +1,198 @@
+#include "project/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace tessera::project {
+
+namespace {
+
+volatile std::sig_atomic_t child_pid = 0;
+
+extern "C" void pass_on(int signal) {
+  if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
+}
+
+/// While it lives, SIGINT and SIGTERM go to the child.
+class SignalsToChild {
+ public:
+  explicit SignalsToChild(pid_t child) {
+    child_pid = static_cast<std::sig_atomic_t>(child);
+    struct sigaction action {};
+    action.sa_handler = pass_on;
+    sigaction(SIGINT, &action, &interrupt_);
+    sigaction(SIGTERM, &action, &terminate_);
+  }
+  ~SignalsToChild() {
+    sigaction(SIGINT, &interrupt_, nullptr);
+    sigaction(SIGTERM, &terminate_, nullptr);
+    child_pid = 0;
+  }
+  SignalsToChild(const SignalsToChild&) = delete;
+  SignalsToChild& operator=(const SignalsToChild&) = delete;
+
+ private:
+  struct sigaction interrupt_ {
+  }, terminate_{};
+};
+
+pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool own_group = false) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  // Whoever waits for SIGINT and SIGTERM blocks them; a program that was started must hear them all the same.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(
+      &attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | (own_group ? POSIX_SPAWN_SETPGROUP : 0)));
+  pid_t child = 0;
+  const int problem = posix_spawnp(&child, arguments[0], actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (problem != 0)
+    throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(problem)));
+  return child;
+}
+
+/// The reading end of what a child prints.
+class Output {
+ public:
+  Output(const Command& command, bool own_group) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+    descriptor_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    if (own_group) posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    try {
+      child_ = start(command, &actions, own_group);
+    } catch (...) {
+      posix_spawn_file_actions_destroy(&actions);
+      close(ends[0]);
+      close(ends[1]);
+      throw;
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+  }
+  ~Output() { close(descriptor_); }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  [[nodiscard]] pid_t child() const { return child_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] std::string& text() { return text_; }
+
+  /// false: there is no more.
+  [[nodiscard]] bool read_on(const std::function<void(std::string_view)>& each_line) {
+    std::array<char, 4096> buffer{};
+    const ssize_t count = read(descriptor_, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) return true;
+    if (count <= 0) return false;
+    text_.append(buffer.data(), static_cast<std::size_t>(count));
+    for (std::size_t end; each_line && (end = text_.find('\n', line_start_)) != std::string::npos;
+         line_start_ = end + 1)
+      each_line(std::string_view(text_).substr(line_start_, end - line_start_));
+    return true;
+  }
+  void forget_all_but(std::size_t kept) {
+    if (text_.size() < 2 * kept) return;
+    const std::size_t gone = text_.size() - kept;
+    text_.erase(0, gone);
+    line_start_ -= std::min(line_start_, gone);
+  }
+
+ private:
+  pid_t child_ = 0;
+  int descriptor_ = -1;
+  std::string text_;
+  std::size_t line_start_ = 0;
+};
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+Exit run(const Command& command) {
+  const pid_t child = start(command, nullptr);
+  const SignalsToChild passing(child);
+  return {wait_for(child), {}};
+}
+
+Exit capture(const Command& command, const std::function<void(std::string_view)>& each_line) {
+  Output output(command, /*own_group=*/false);
+  const SignalsToChild passing(output.child());
+  while (output.read_on(each_line)) {
+  }
+  return {wait_for(output.child()), std::move(output.text())};
+}
+
+Exit capture_apart(const Command& command, const std::atomic<bool>& stop,
+                   const std::function<void(std::string_view)>& each_line,
+                   const std::function<void(pid_t)>& started) {
+  constexpr std::size_t kept = std::size_t{64} << 10U;
+  constexpr auto patience = std::chrono::seconds(5);
+  using Clock = std::chrono::steady_clock;
+  Output output(command, /*own_group=*/true);
+  if (started) started(output.child());
+  std::optional<Clock::time_point> asked;
+  bool killed = false;
+  for (;;) {
+    pollfd source{.fd = output.descriptor(), .events = POLLIN, .revents = 0};
+    if (poll(&source, 1, 100) > 0 && !output.read_on(each_line)) break;
+    output.forget_all_but(kept);
+    if (!asked && stop.load(std::memory_order_relaxed)) {
+      asked = Clock::now();
+      kill(-output.child(), SIGINT);
+    }
+    if (asked && !killed && Clock::now() - *asked > patience) {
+      killed = true;
+      kill(-output.child(), SIGKILL);
+    }
+  }
+  return {wait_for(output.child()), std::move(output.text())};
+}
+
+std::string shell_line(const Command& command) {
+  std::string line;
+  for (const std::string& word : command) {
+    if (!line.empty()) line += ' ';
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[](){}<>|&;#~!") == std::string::npos;
+    if (plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char character : word)
+      line += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace tessera::project

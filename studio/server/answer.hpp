@@ -1,0 +1,45 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/json_text.hpp"
+
+/// Requests and answers in JSON.
+namespace tessera::server {
+
+void answer(httplib::Response& response, const std::string& text, int status = 200);
+/// {"error", "hint"}
+void answer_error(httplib::Response& response, int status, std::string_view error,
+                  std::string_view hint = {});
+
+/// The body of a request: an object with members of known types. What is wrong with it goes into the
+/// response.
+class Body {
+ public:
+  Body(const httplib::Request& request, httplib::Response& response);
+  /// false: it is no object, or a member asked for was missing or of another type; the response says so.
+  [[nodiscard]] bool good() const { return good_; }
+
+  [[nodiscard]] std::string text(const char* name);
+  [[nodiscard]] std::string text_or(const char* name, std::string otherwise);
+  [[nodiscard]] std::optional<double> number(const char* name);
+  [[nodiscard]] bool flag(const char* name);
+  /// The member of that name of each object of a list of at most 10,000: numbers from 0 up.
+  [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
+  [[nodiscard]] std::vector<std::string> texts(const char* name);
+
+ private:
+  void complain(const std::string& what);
+  [[nodiscard]] const nlohmann::json* find(const char* name) const;
+  httplib::Response& response_;
+  nlohmann::json json_;
+  bool good_ = true;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,279 @@
+#include "server/api.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "project/verdicts.hpp"
+#include "server/answer.hpp"
+#include "server/guard.hpp"
+
+namespace tessera::server {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// The worlds or tracks that a run may name: those that are shipped, and those beside the specification.
+std::map<std::string, fs::path> assets_named(const fs::path& shipped, const fs::path& project,
+                                             const char* ending) {
+  std::map<std::string, fs::path> found;
+  for (const fs::path& folder : {project, shipped}) {
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+         entry.increment(ignored))
+      if (entry->path().extension() == ending && entry->is_regular_file(ignored) &&
+          (folder == shipped || !entry->is_symlink(ignored)))
+        found.emplace(entry->path().filename().string(), entry->path());
+  }
+  return found;
+}
+
+json names_of(const std::map<std::string, fs::path>& assets) {
+  json names = json::array();
+  for (const auto& [name, path] : assets) names.push_back(name);
+  return names;
+}
+
+/// The number that an address ends with.
+std::uint64_t number_in(const httplib::Request& request) {
+  const std::string digits = request.matches[1];
+  return digits.size() > 18 ? 0 : std::stoull(digits);
+}
+
+}  // namespace
+
+Api::Api(const StudioOptions& options, Parts parts)
+    : options_(options), parts_(parts), server_start_(random_token()) {}
+
+void Api::serve_on(HttpServer& server) {
+  serve_files(server);
+  serve_work(server);
+  server.Get("/api/events",
+             [this, &server](const Request&, Response& response) { stream_events(server, response); });
+}
+
+void Api::serve_files(HttpServer& server) {
+  server.Get("/api/project", [this](const Request&, Response& response) { get_project(response); });
+  server.Get("/api/spec", [this](const Request&, Response& response) { get_spec(response); });
+  server.Put("/api/spec",
+             [this](const Request& request, Response& response) { put_spec(request, response); });
+  server.Post("/api/check", [this](const Request& request, Response& response) { check(request, response); });
+  server.Get("/api/recordings",
+             [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
+  server.Get("/api/recordings/([^/]+)",
+             [this](const Request& request, Response& response) { get_recording(request, response); });
+  server.Get("/api/tracks/([^/]+)",
+             [this](const Request& request, Response& response) { get_track(request, response); });
+}
+
+void Api::serve_work(HttpServer& server) {
+  server.Post("/api/verify",
+              [this](const Request& request, Response& response) { start_verify(request, response); });
+  server.Get("/api/verify/(\\d+)",
+             [this](const Request& request, Response& response) { get_verify(request, response); });
+  server.Delete("/api/verify/(\\d+)",
+                [this](const Request& request, Response& response) { stop_verify(request, response); });
+  server.Post("/api/runs",
+              [this](const Request& request, Response& response) { start_run(request, response); });
+  server.Get("/api/runs",
+             [this](const Request&, Response& response) { answer(response, text_of(parts_.runs.list())); });
+  server.Get("/api/runs/(\\d+)",
+             [this](const Request& request, Response& response) { get_run(request, response); });
+  server.Post("/api/runs/(\\d+)/control",
+              [this](const Request& request, Response& response) { control_run(request, response); });
+}
+
+void Api::get_project(Response& response) {
+  const fs::path folder = parts_.file.folder();
+  json worlds = json::array();
+  const json tracks = names_of(assets_named(options_.share / "tracks", folder, ".png"));
+  for (const auto& [name, path] : assets_named(options_.share / "worlds", folder, ".xml"))
+    worlds.push_back({{"name", name}, {"tracks", tracks}});
+  json project{{"name", folder.filename().string()},
+               {"folder", folder.string()},
+               {"file", parts_.file.path().filename().string()},
+               {"version", options_.version},
+               {"worlds", worlds},
+               {"simulation", nullptr},
+               {"server_start", server_start_},
+               {"examples_hint", (options_.share / "examples").string()}};
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
+  if (analysis->model) project["name"] = analysis->model->system;
+  if (analysis->model && analysis->model->simulation) {
+    const spec::Simulation& simulation = *analysis->model->simulation;
+    project["simulation"] = {{"world", simulation.world}, {"track", nullptr}};
+    if (simulation.track)
+      project["simulation"]["track"] = {{"image", simulation.track->image},
+                                        {"metres_per_pixel", simulation.track->metres_per_pixel}};
+  }
+  answer(response, text_of(project));
+}
+
+void Api::get_spec(Response& response) {
+  const SpecFile::Content content = parts_.file.read();
+  answer(response,
+         fmt::format(R"({{"text":{},"revision":"{}","error":{},"analysis":{}}})", text_of(json(content.text)),
+                     content.revision, content.error.empty() ? "null" : text_of(json(content.error)),
+                     parts_.analyses.of(content.text)->json));
+}
+
+void Api::put_spec(const Request& request, Response& response) {
+  Body body(request, response);
+  const std::string text = body.text("text"), revision = body.text("revision");
+  if (!body.good()) return;
+  const SpecFile::Outcome outcome = parts_.file.write(text, revision);
+  switch (outcome.written) {
+    case SpecFile::Written::yes:
+      return answer(response, fmt::format(R"({{"revision":"{}","analysis":{}}})", outcome.now.revision,
+                                          parts_.analyses.of(text)->json));
+    case SpecFile::Written::conflict:
+      return answer(
+          response,
+          text_of(json{{"text", outcome.now.text},
+                       {"revision", outcome.now.revision},
+                       {"error", "the file on disk was changed by somebody else"},
+                       {"hint", "look at both, then save again with the revision that is there now"}}),
+          409);
+    case SpecFile::Written::failed:
+      return answer_error(response, 500, "the file cannot be written: " + outcome.now.error);
+  }
+}
+
+void Api::check(const Request& request, Response& response) {
+  Body body(request, response);
+  const std::string text = body.text("text");
+  if (body.good()) answer(response, parts_.analyses.of(text)->json);
+}
+
+void Api::start_verify(const Request& request, Response& response) {
+  Body body(request, response);
+  VerifyJobs::Request wanted{body.text("text"), body.texts("properties")};
+  const std::string timeout = body.text_or("timeout", "60s");
+  if (!body.good()) return;
+  try {
+    wanted.seconds = std::min(project::seconds_of(timeout, "timeout"), 24 * 3600.0);
+  } catch (const std::exception& error) {
+    return answer_error(response, 400, error.what());
+  }
+  const VerifyJobs::Started started = parts_.jobs.start(std::move(wanted));
+  if (started.status != 202) return answer_error(response, started.status, started.error, started.hint);
+  answer(response, text_of(json{{"job", std::to_string(started.job)}}), 202);
+}
+
+void Api::get_verify(const Request& request, Response& response) {
+  const std::optional<std::string> state = parts_.jobs.state(number_in(request));
+  if (!state) return answer_error(response, 404, "there is no such job");
+  answer(response, *state);
+}
+
+void Api::stop_verify(const Request& request, Response& response) {
+  if (!parts_.jobs.stop(number_in(request))) return answer_error(response, 404, "there is no such job");
+  answer(response, "{}");
+}
+
+std::optional<RunRequest> Api::run_request(const Request& request, Response& response) const {
+  const auto refuse = [&](const std::string& what, const std::string& hint = {}) {
+    answer_error(response, 400, what, hint);
+    return std::nullopt;
+  };
+  Body body(request, response);
+  RunRequest wanted;
+  const std::string kind = body.text_or("kind", "simulate");
+  wanted.simulated = kind != "run";
+  wanted.world = body.text_or("world", "");
+  wanted.track = body.text_or("track", "");
+  wanted.duration = body.text_or("for", wanted.simulated ? "600s" : "");
+  wanted.seed = static_cast<std::uint64_t>(std::clamp(body.number("seed").value_or(1), 0.0, 9e15));
+  wanted.speed = body.number("speed").value_or(1);
+  wanted.paused = body.flag("paused");
+  if (!body.good()) return std::nullopt;
+  if (kind != "simulate" && kind != "run") return refuse("a run is of kind simulate or run");
+  if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
+  try {
+    if (!wanted.duration.empty())
+      wanted.duration = fmt::format("{}s", project::seconds_of(wanted.duration, "for"));
+  } catch (const std::exception& error) {
+    return refuse(error.what());
+  }
+  const fs::path folder = parts_.file.folder();
+  if (!wanted.world.empty() &&
+      !assets_named(options_.share / "worlds", folder, ".xml").contains(wanted.world))
+    return refuse("there is no world " + wanted.world, "/api/project names them");
+  if (!wanted.track.empty() &&
+      !assets_named(options_.share / "tracks", folder, ".png").contains(wanted.track))
+    return refuse("there is no track " + wanted.track, "/api/project names them");
+  return wanted;
+}
+
+void Api::start_run(const Request& request, Response& response) {
+  std::optional<RunRequest> wanted = run_request(request, response);
+  if (!wanted) return;
+  const Runs::Started started = parts_.runs.start(std::move(*wanted));
+  if (started.status != 202) return answer_error(response, started.status, started.error, started.hint);
+  answer(response, text_of(json{{"run", started.run}}), 202);
+}
+
+void Api::get_run(const Request& request, Response& response) {
+  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
+  if (run == nullptr) return answer_error(response, 404, "there is no such run");
+  answer(response, text_of(run->info(/*all=*/true)));
+}
+
+void Api::control_run(const Request& request, Response& response) {
+  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
+  if (run == nullptr) return answer_error(response, 404, "there is no such run");
+  Body body(request, response);
+  json command{{"command", body.text("command")}, {"subsystem", body.text_or("subsystem", "")}};
+  if (const std::optional<double> value = body.number("value")) command["value"] = *value;
+  command["places"] = body.indices("breakpoints", "place");
+  if (!body.good()) return;
+  const std::string wrong = run->control(std::move(command));
+  if (!wrong.empty()) return answer_error(response, 409, wrong);
+  answer(response, "{}");
+}
+
+void Api::get_recording(const Request& request, Response& response) {
+  Recordings::Span span;
+  for (const auto& [name, end] : {std::pair{"from", &span.from_ns}, std::pair{"to", &span.to_ns}}) {
+    if (!request.has_param(name)) continue;
+    const std::string text = request.get_param_value(name);
+    if (std::from_chars(text.data(), text.data() + text.size(), *end).ptr != text.data() + text.size())
+      return answer_error(response, 400, std::string(name) + " is a time in nanoseconds");
+  }
+  const std::optional<std::string> content = parts_.recordings.content(request.matches[1], span);
+  if (!content) return answer_error(response, 404, "there is no such recording");
+  answer(response, *content);
+}
+
+void Api::get_track(const Request& request, Response& response) {
+  const auto tracks = assets_named(options_.share / "tracks", parts_.file.folder(), ".png");
+  const auto found = tracks.find(request.matches[1]);
+  if (found == tracks.end()) return answer_error(response, 404, "there is no such track");
+  std::ifstream stream(found->second, std::ios::binary);
+  response.set_content({std::istreambuf_iterator<char>(stream), {}}, "image/png");
+}
+
+void Api::stream_events(HttpServer& server, Response& response) {
+  const std::shared_ptr<Events::Subscription> subscription =
+      parts_.events.subscribe("hello", text_of(json{{"server_start", server_start_}}));
+  if (subscription == nullptr)
+    return answer_error(response, 503, "too many pages are open", "close one of them");
+  response.status = 200;
+  response.set_header("Cache-Control", "no-store");
+  response.set_chunked_content_provider("text/event-stream",
+                                        [subscription, &server](std::size_t, httplib::DataSink& sink) {
+                                          if (server.shutting_down() || !sink.is_writable()) return false;
+                                          const std::string text = subscription->next();
+                                          return !text.empty() && sink.write(text.data(), text.size());
+                                        });
+}
+
+}  // namespace tessera::server

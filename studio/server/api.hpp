@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include "server/analysis.hpp"
+#include "server/events.hpp"
+#include "server/folder.hpp"
+#include "server/http.hpp"
+#include "server/recordings.hpp"
+#include "server/runs.hpp"
+#include "server/studio.hpp"
+#include "server/verify_jobs.hpp"
+
+namespace tessera::server {
+
+/// What the addresses under /api/ mean: docs/studio.md.
+class Api {
+ public:
+  struct Parts {
+    SpecFile& file;
+    Analyses& analyses;
+    Events& events;
+    VerifyJobs& jobs;
+    Runs& runs;
+    Recordings& recordings;
+  };
+  Api(const StudioOptions& options, Parts parts);
+  /// Declares the handlers. The server must not outlive this.
+  void serve_on(HttpServer& server);
+
+ private:
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+  void get_project(Response& response);
+  void get_spec(Response& response);
+  void put_spec(const Request& request, Response& response);
+  void check(const Request& request, Response& response);
+  void start_verify(const Request& request, Response& response);
+  void get_verify(const Request& request, Response& response);
+  void stop_verify(const Request& request, Response& response);
+  void start_run(const Request& request, Response& response);
+  void get_run(const Request& request, Response& response);
+  void control_run(const Request& request, Response& response);
+  void get_recording(const Request& request, Response& response);
+  void get_track(const Request& request, Response& response);
+  /// nullopt: the response says what is wrong.
+  [[nodiscard]] std::optional<RunRequest> run_request(const Request& request, Response& response) const;
+  void serve_files(HttpServer& server);
+  void serve_work(HttpServer& server);
+  void stream_events(HttpServer& server, Response& response);
+
+  const StudioOptions& options_;
+  Parts parts_;
+  std::string server_start_;
+};
+
+}  // namespace tessera::server

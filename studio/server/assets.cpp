@@ -1,0 +1,65 @@
+#include "server/assets.hpp"
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace tessera::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view not_built = R"(<!doctype html>
+<html lang="en"><meta charset="utf-8"><title>Tessera Studio</title>
+<body style="font-family: sans-serif; max-width: 40em; margin: 4em auto; line-height: 1.5">
+<h1>The studio's page was not built</h1>
+<p>The server runs, but this build of Tessera has no page for it. Build it with npm in the source tree:</p>
+<pre>cd studio/web &amp;&amp; npm ci &amp;&amp; npm run build</pre>
+<p>and start <code>tessera studio</code> again.</p>
+</body></html>
+)";
+
+std::string type_of(const fs::path& file) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> types{
+      {{".html", "text/html; charset=utf-8"},
+       {".js", "text/javascript; charset=utf-8"},
+       {".mjs", "text/javascript; charset=utf-8"},
+       {".css", "text/css; charset=utf-8"},
+       {".json", "application/json"},
+       {".map", "application/json"},
+       {".svg", "image/svg+xml"},
+       {".png", "image/png"},
+       {".ico", "image/x-icon"},
+       {".woff2", "font/woff2"},
+       {".wasm", "application/wasm"},
+       {".txt", "text/plain; charset=utf-8"}}};
+  for (const auto& [ending, type] : types)
+    if (file.extension() == ending) return std::string(type);
+  return "application/octet-stream";
+}
+
+}  // namespace
+
+Assets::Assets(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (entry->is_symlink() || !entry->is_regular_file()) continue;
+    std::ifstream stream(entry->path(), std::ios::binary);
+    files_["/" + fs::relative(entry->path(), folder).generic_string()] = {
+        {std::istreambuf_iterator<char>(stream), {}}, type_of(entry->path())};
+  }
+  const auto index = files_.find("/index.html");
+  files_["/"] = index == files_.end() ? Asset{std::string(not_built), "text/html; charset=utf-8"}
+                                      : Asset(index->second);
+}
+
+const Assets::Asset* Assets::find(const std::string& path) const {
+  const auto found = files_.find(path);
+  return found == files_.end() ? nullptr : &found->second;
+}
+
+}  // namespace tessera::server

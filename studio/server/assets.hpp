@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace tessera::server {
+
+/// The files of the page, read once: what is not among them cannot be asked for.
+///
+/// Threads: any, once made.
+class Assets {
+ public:
+  struct Asset {
+    std::string bytes, type;
+  };
+  /// folder: as Vite builds it, with an index.html; it need not exist.
+  explicit Assets(const std::filesystem::path& folder);
+  /// path: "/" or "/assets/index.js". nullptr: there is none.
+  [[nodiscard]] const Asset* find(const std::string& path) const;
+
+ private:
+  std::map<std::string, Asset> files_;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <condition_variable>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace tessera::server {
+
+/// The control socket of a running controller (tessera/monitor.hpp).
+///
+/// Threads: `command` any; the rest one.
+class ControllerLink {
+ public:
+  ControllerLink() = default;
+  ~ControllerLink();
+  ControllerLink(const ControllerLink&) = delete;
+  ControllerLink& operator=(const ControllerLink&) = delete;
+
+  /// Connects to that process of that system, if it listens by now, and makes the run end with this
+  /// connection. true: connected.
+  bool connect(const std::string& system, pid_t process);
+  /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
+  [[nodiscard]] std::optional<nlohmann::json> snapshot();
+  /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
+  /// seconds each. Meanwhile somebody has to call connect and snapshot.
+  [[nodiscard]] std::string command(nlohmann::json command);
+  /// No answers come any more.
+  void close();
+
+ private:
+  [[nodiscard]] bool say(const std::string& line);
+  int socket_ = -1;
+  std::string heard_;
+  std::mutex mutex_;  ///< of what follows, and of writing and closing the socket
+  std::condition_variable answered_;
+  std::map<int, std::string> answers_;
+  int last_ = 0;
+  bool open_ = false, over_ = false;
+};
+
+}  // namespace tessera::server

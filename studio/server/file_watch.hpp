@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+namespace tessera::server {
+
+/// Calls back when a file may have changed: was written, replaced, made or removed, by whomever.
+///
+/// Threads: the callback runs in a thread of the watch, until its destructor returns.
+class FileWatch {
+ public:
+  FileWatch(const std::filesystem::path& file, std::function<void()> changed);
+  ~FileWatch();
+  FileWatch(const FileWatch&) = delete;
+  FileWatch& operator=(const FileWatch&) = delete;
+
+ private:
+  void watch(const std::string& name);
+  [[nodiscard]] bool concerns(const std::string& name) const;
+
+  std::function<void()> changed_;
+  int events_ = -1, ended_ = -1;
+  std::thread thread_;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tessera::server {
+
+/// The identity of a text: 32 hexadecimal digits.
+[[nodiscard]] std::string revision_of(std::string_view text);
+
+/// The file that is edited. No symbolic link is followed to read or write it, so nothing outside its folder
+/// is.
+///
+/// Threads: any.
+class SpecFile {
+ public:
+  /// file: absolute, canonical. Throws std::runtime_error when its folder cannot be opened.
+  explicit SpecFile(std::filesystem::path file);
+  ~SpecFile();
+  SpecFile(const SpecFile&) = delete;
+  SpecFile& operator=(const SpecFile&) = delete;
+
+  struct Content {
+    std::string text;
+    std::string revision;
+    std::string error;  ///< why it cannot be read; empty: it could
+  };
+  /// What is on disk now.
+  [[nodiscard]] Content read() const;
+
+  enum class Written : std::uint8_t { yes, conflict, failed };
+  struct Outcome {
+    Written written = Written::failed;
+    Content now;  ///< on disk after it; of failed: with the reason
+  };
+  /// Replaces the file as a whole, if what is on disk is still `revision`. A reader sees the old text or the
+  /// new one. A file that is gone has the revision of the empty text.
+  [[nodiscard]] Outcome write(std::string_view text, std::string_view revision);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path folder() const { return path_.parent_path(); }
+
+  static constexpr std::size_t largest = std::size_t{8} << 20U;
+
+ private:
+  std::filesystem::path path_;
+  std::string name_;
+  int folder_ = -1;
+  std::mutex writing_;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "server/analysis.hpp"
+#include "server/folder.hpp"
+
+namespace tessera::server {
+
+/// The recordings in a project: of the last `tessera simulate` or `run`, of the studio's runs, and *.tsr
+/// beside the specification.
+///
+/// Threads: any.
+class Recordings {
+ public:
+  Recordings(SpecFile& file, Analyses& analyses) : file_(file), analyses_(analyses) {}
+
+  static constexpr std::size_t most_firings = 200'000;
+
+  /// [{"name", "bytes", "modified", "system", "duration"}]
+  [[nodiscard]] std::string list() const;
+  struct Span {
+    std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
+  };
+  /// {"net_hash", "system", "subsystems", "firings", "dropped", "values", "truncated"}: at most most_firings
+  /// of the span. nullopt: there is none of that name. Throws std::runtime_error when it cannot be read.
+  [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
+
+ private:
+  /// By name. Nothing is a file here that is a symbolic link, or in a folder that is one.
+  [[nodiscard]] std::map<std::string, std::filesystem::path> files() const;
+  SpecFile& file_;
+  Analyses& analyses_;
+};
+
+}  // namespace tessera::server

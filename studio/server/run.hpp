@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "project/controller.hpp"
+#include "server/analysis.hpp"
+#include "server/controller_link.hpp"
+#include "server/events.hpp"
+
+namespace tessera::server {
+
+/// What is asked of a run.
+struct RunRequest {
+  bool simulated = true;  ///< false: the steady clock and real drivers
+  std::string world, track, duration;
+  std::uint64_t seed = 1;
+  double speed = 1;
+  bool paused = false;
+};
+
+/// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
+///
+/// Threads: any.
+class Run {
+ public:
+  struct Place {
+    std::filesystem::path spec, folder;  ///< the file, and where the run's files go
+  };
+  /// building: held while something is generated and compiled, of which there is one at a time.
+  Run(std::string id, RunRequest request, Place place, std::shared_ptr<const Analysis> analysis,
+      std::mutex& building, Events& events);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  enum class State : std::uint8_t { building, running, paused, ended, failed };
+  [[nodiscard]] bool over() const;
+  /// {"run", "state", "kind", ...}: docs/studio.md.
+  [[nodiscard]] nlohmann::json info(bool all) const;
+  /// What is wrong with it; empty: done.
+  [[nodiscard]] std::string control(nlohmann::json command);
+  void stop() { stop_ = true; }
+
+ private:
+  class Teller;
+  [[nodiscard]] bool is_building() const;
+  void make_and_run();
+  [[nodiscard]] std::optional<project::Controller> make();
+  void execute(const project::Controller& controller);
+  void follow(pid_t process, const std::filesystem::path& folder);
+  void set_state(State state, const std::string& why = {});
+  void publish(const char* event, nlohmann::json data) const;
+
+  const std::string id_;
+  const RunRequest request_;
+  const Place place_;
+  const std::shared_ptr<const Analysis> analysis_;
+  std::mutex& building_;
+  Events& events_;
+  ControllerLink link_;
+  std::atomic<bool> stop_{false}, process_over_{false};
+  std::thread follower_, thread_;
+
+  mutable std::mutex mutex_;  ///< of what follows
+  State state_ = State::building;
+  std::string why_;
+  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_;
+  std::vector<std::uint32_t> marking_;
+  std::int64_t time_ns_ = 0;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,139 @@
+#include "server/studio.hpp"
+
+#include <fmt/core.h>
+
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "server/analysis.hpp"
+#include "server/answer.hpp"
+#include "server/api.hpp"
+#include "server/assets.hpp"
+#include "server/events.hpp"
+#include "server/file_watch.hpp"
+#include "server/folder.hpp"
+#include "server/guard.hpp"
+#include "server/recordings.hpp"
+#include "server/runs.hpp"
+#include "server/verify_jobs.hpp"
+
+namespace tessera::server {
+
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+/// No foreign script, no foreign frame, nothing from elsewhere.
+httplib::Headers headers_of_all() {
+  return {{"Content-Security-Policy",
+           "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+           "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+           "frame-ancestors 'none'"},
+          {"X-Content-Type-Options", "nosniff"},
+          {"Referrer-Policy", "no-referrer"},
+          {"Cross-Origin-Resource-Policy", "same-origin"}};
+}
+
+}  // namespace
+
+struct Studio::Parts {
+  explicit Parts(const StudioOptions& given)
+      : options(given),
+        file(given.spec),
+        analyses(file.path().filename().string()),
+        jobs(analyses, events),
+        runs(file, analyses, events),
+        recordings(file, analyses),
+        assets(given.page),
+        api(options, {file, analyses, events, jobs, runs, recordings}),
+        http(given.limits),
+        port(http.bind(given.port, given.tries)),
+        guard(port, token) {
+    if (port == 0)
+      throw std::runtime_error(
+          fmt::format("no port is free from {} to {}", given.port, given.port + given.tries - 1));
+  }
+
+  void serve_page(const Request& request, Response& response) const {
+    const Assets::Asset* asset = assets.find(request.path);
+    if (asset == nullptr) return answer_error(response, 404, "there is no such page");
+    response.set_content(asset->bytes, asset->type);
+    response.set_header("Cache-Control", "no-cache");
+  }
+
+  void declare() {
+    http.set_default_headers(headers_of_all());
+    http.set_pre_routing_handler([this](const Request& request, Response& response) {
+      const std::optional<Refusal> refusal = guard.refuse(request);
+      if (!refusal) return httplib::Server::HandlerResponse::Unhandled;
+      answer_error(response, refusal->status, refusal->error, refusal->hint);
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    http.set_exception_handler([](const Request&, Response& response, const std::exception_ptr& thrown) {
+      try {
+        std::rethrow_exception(thrown);
+      } catch (const std::exception& error) {
+        answer_error(response, 500, error.what());
+      } catch (...) {
+        answer_error(response, 500, "the server failed");
+      }
+    });
+    http.set_error_handler([](const Request&, Response& response) {
+      if (response.body.empty()) answer_error(response, response.status, "this cannot be answered");
+    });
+    api.serve_on(http);
+    http.Get("/.*", [this](const Request& request, Response& response) { serve_page(request, response); });
+  }
+
+  /// Nobody is told of what has not changed: writing the same text again is no news.
+  void look_at_file() {
+    std::string revision = file.read().revision;
+    if (revision == seen_revision) return;
+    seen_revision = std::move(revision);
+    events.publish("spec", text_of(nlohmann::json{{"revision", seen_revision}}));
+  }
+
+  StudioOptions options;
+  SpecFile file;
+  Analyses analyses;
+  Events events;
+  VerifyJobs jobs;
+  Runs runs;
+  Recordings recordings;
+  Assets assets;
+  Api api;
+  std::string token = random_token();
+  HttpServer http;
+  int port;
+  Guard guard;
+  std::string seen_revision = file.read().revision;
+  std::optional<FileWatch> watch;
+  std::thread serving;
+};
+
+Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(options)) {
+  Parts& parts = *parts_;
+  parts.declare();
+  parts.watch.emplace(parts.file.path(), [&parts] { parts.look_at_file(); });
+  parts.serving = std::thread([&parts] { parts.http.serve(); });
+  while (!parts.http.is_running()) std::this_thread::yield();
+}
+
+Studio::~Studio() {
+  parts_->watch.reset();
+  parts_->runs.stop_all();
+  parts_->events.close();
+  parts_->http.shut_down();
+  parts_->serving.join();
+}
+
+int Studio::port() const { return parts_->port; }
+const std::string& Studio::token() const { return parts_->token; }
+std::string Studio::url() const {
+  return fmt::format("http://127.0.0.1:{}/#token={}", parts_->port, parts_->token);
+}
+
+}  // namespace tessera::server

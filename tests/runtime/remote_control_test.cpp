@@ -1,0 +1,228 @@
+#include "remote_control.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "nets.hpp"
+#include "tessera/monitor.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+using nlohmann::json;
+
+/// Firings that a recording holds by now.
+std::size_t firings_in(const std::string& file) {
+  std::string error;
+  const std::optional<Recording> recording = read_recording(file, error);
+  std::size_t count = 0;
+  if (recording)
+    for (const Recording::Entry& entry : recording->entries)
+      count += entry.event.kind() == Event::Kind::firing ? 1U : 0U;
+  return count;
+}
+
+/// A run that is controlled: in a thread, with a socket in a folder of its own.
+class Controlled : public ::testing::Test {
+ protected:
+  Controlled() {
+    // Not scratch_file: its names are too long for a socket.
+    folder_ = std::filesystem::temp_directory_path() / ("tessera." + std::to_string(getpid()));
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+    options_.duration = 1s;
+    options_.monitor = true;
+    options_.paused = true;
+    options_.speed = 0;
+    options_.recording = scratch_file("controlled");
+  }
+  ~Controlled() override {
+    if (socket_ >= 0) close(socket_);
+    if (running_.joinable()) running_.join();
+    std::filesystem::remove_all(folder_);
+  }
+
+  static void build(TestSystem& system) {
+    const std::uint32_t a = system.add("robot.a", nets::async_sender, {}, 10ms);
+    const std::uint32_t b = system.add("robot.b", nets::async_receiver, {}, 20ms);
+    system.connect(a, "x", b, "x", asynchronous);
+  }
+
+  void start() {
+    build(system_);
+    running_ = std::thread([this] {
+      summary_ = run(system_, options_);
+      over_ = true;
+    });
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    const std::string file = monitor_folder() + "/" + std::string(system_.system().name) + "." +
+                             std::to_string(getpid()) + ".sock";
+    std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
+    socket_ = socket(AF_UNIX, SOCK_STREAM, 0);
+    while (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+      ASSERT_FALSE(over_) << summary_.ended;
+  }
+  /// The next line that it accepts.
+  template <class Wanted>
+  json await(Wanted wanted) {
+    for (;;) {
+      const std::size_t end = said_.find('\n');
+      if (end == std::string::npos) {
+        char bytes[65536];
+        const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
+        if (count <= 0) return nullptr;
+        said_.append(bytes, static_cast<std::size_t>(count));
+        continue;
+      }
+      const json line = json::parse(said_.substr(0, end), nullptr, false);
+      said_.erase(0, end + 1);
+      if (wanted(line)) return line;
+    }
+  }
+  /// What was wrong with it.
+  std::string command(json what) {
+    what["id"] = ++last_;
+    const std::string line = what.dump() + "\n";
+    send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
+    return await([&](const json& answer) { return answer.value("answer", 0) == last_; })
+        .value("error", "none");
+  }
+  json rest(std::uint64_t pauses) {
+    return await(
+        [&](const json& line) { return line.value("paused", false) && line.value("pauses", 0U) >= pauses; });
+  }
+  void finish() {
+    EXPECT_EQ(command({{"command", "resume"}}), "");
+    running_.join();
+  }
+
+  std::string folder_;
+  TestSystem system_;
+  RunOptions options_;
+  RunSummary summary_;
+  std::thread running_;
+  std::atomic<bool> over_{false};
+  int socket_ = -1, last_ = 0;
+  std::string said_;
+};
+
+TEST_F(Controlled, PausesStepsAndSpeedChangeNothingInTheRecording) {
+  {
+    TestSystem plain;
+    build(plain);
+    RunOptions options;
+    options.duration = 1s;
+    options.recording = scratch_file("plain");
+    static_cast<void>(run(plain, options));
+  }
+  start();
+  json now = rest(1);
+  for (std::uint64_t step = 2; step < 12; ++step) {
+    EXPECT_EQ(command({{"command", "step_firing"}}), "");
+    now = rest(step);
+  }
+  EXPECT_EQ(command({{"command", "step_iteration"}, {"subsystem", "robot.b"}}), "");
+  rest(12);
+  EXPECT_EQ(command({{"command", "speed"}, {"value", 1000}}), "");
+  finish();
+  EXPECT_EQ(summary_.ended, "duration");
+  EXPECT_EQ(bytes_of(options_.recording), bytes_of(scratch_file("plain")));
+}
+
+TEST_F(Controlled, AStepIsOneFiringAndTheRecordingShowsItAtOnce) {
+  start();
+  rest(1);
+  const std::size_t before = firings_in(options_.recording);
+  EXPECT_EQ(before, 2U);  // t_in of system and agent
+  for (std::uint64_t step = 1; step <= 5; ++step) {
+    EXPECT_EQ(command({{"command", "step_firing"}}), "");
+    rest(1 + step);
+    EXPECT_EQ(firings_in(options_.recording), before + step);
+  }
+  finish();
+}
+
+TEST_F(Controlled, AnIterationEndsWhenTheTransitionFunctionIsCalledAgain) {
+  start();
+  rest(1);
+  const auto iterations_of_b = [](const json& line) {
+    return line.at("subsystems").at(1).at("iterations").get<std::uint64_t>();
+  };
+  std::uint64_t before = 0;
+  for (std::uint64_t step = 2; step < 6; ++step) {
+    EXPECT_EQ(command({{"command", "step_iteration"}, {"subsystem", "robot.b"}}), "");
+    const std::uint64_t after = iterations_of_b(rest(step));
+    EXPECT_EQ(after, before + 1);
+    before = after;
+  }
+  finish();
+}
+
+TEST_F(Controlled, ABreakpointPausesWhenItsPlaceGetsAToken) {
+  options_.paused = false;
+  options_.speed = 0.001;  // hardly begins
+  start();
+  const std::string place = "robot.b.run.in";
+  EXPECT_EQ(command({{"command", "breakpoints"}, {"places", {place}}}), "");
+  EXPECT_EQ(command({{"command", "speed"}, {"value", 0}}), "");
+  EXPECT_EQ(rest(1).at("broke_at"), place);
+  EXPECT_EQ(command({{"command", "resume"}}), "");
+  EXPECT_EQ(rest(2).at("broke_at"), place);
+  EXPECT_EQ(command({{"command", "breakpoints"}, {"places", json::array()}}), "");
+  finish();
+  EXPECT_EQ(summary_.ended, "duration");
+}
+
+TEST_F(Controlled, ShowsTheBytesOfEveryBufferWhilePaused) {
+  start();
+  const json line = rest(1);
+  const json& buffers = line.at("values").at("buffers");
+  EXPECT_EQ(buffers.at("robot.a.x").get<std::string>().size(), 2 * sizeof(double));
+  EXPECT_TRUE(buffers.contains("robot.b.x"));
+  finish();
+}
+
+TEST_F(Controlled, CommandsThatMakeNoSenseAreAnsweredAndChangeNothing) {
+  start();
+  rest(1);
+  for (const char* text :
+       {R"({"command":"fly"})", R"({"command":3})", R"({"command":"speed"})",
+        R"({"command":"speed","value":-1})", R"({"command":"speed","value":"x"})",
+        R"({"command":"breakpoints","places":["nowhere"]})", R"({"command":"breakpoints","places":[1]})",
+        R"({"command":"breakpoints","places":3})", R"({"command":"step_iteration","subsystem":"robot.z"})",
+        R"({"command":"step_iteration","subsystem":[]})"})
+    EXPECT_NE(command(json::parse(text)), "") << text;
+  const std::string noise = "{\n[]\nnull\n\"x\"\n\xff\n";
+  send(socket_, noise.data(), noise.size(), MSG_NOSIGNAL);
+  EXPECT_EQ(rest(1).at("pauses"), 1);
+  finish();
+}
+
+TEST_F(Controlled, EndsWithItsOwner) {
+  start();
+  rest(1);
+  const std::string line = "{\"command\":\"own\"}\n";
+  send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
+  EXPECT_EQ(command({{"command", "pause"}}), "");
+  close(socket_);
+  socket_ = -1;
+  running_.join();
+  EXPECT_EQ(summary_.ended, "stopped: who started it has gone");
+}
+
+}  // namespace
+}  // namespace tessera::testing

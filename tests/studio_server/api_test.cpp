@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+
+#include "served.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+using Api = Served;
+
+TEST_F(Api, ProjectNamesTheSystemItsFileAndTheWorlds) {
+  serve();
+  const json project = get("/api/project").json();
+  EXPECT_EQ(project.at("name"), "line_follower");
+  EXPECT_EQ(project.at("file"), "spec.yaml");
+  EXPECT_EQ(project.at("folder"), options_.spec.parent_path().string());
+  EXPECT_EQ(project.at("version"), "test");
+  ASSERT_FALSE(project.at("worlds").empty());
+  EXPECT_FALSE(project.at("worlds")[0].at("tracks").empty());
+}
+
+TEST_F(Api, SpecComesWithItsNetAndStructure) {
+  serve();
+  const json spec_now = get("/api/spec").json();
+  EXPECT_EQ(spec_now.at("text"), content_of(spec()));
+  const json& analysis = spec_now.at("analysis");
+  EXPECT_TRUE(analysis.at("diagnostics").empty());
+  EXPECT_GT(analysis.at("net").at("flat").at("places").size(), 20U);
+  const json& structure = analysis.at("structure");
+  EXPECT_EQ(structure.at("system"), "line_follower");
+  std::vector<std::string> paths;
+  for (const json& subsystem : structure.at("agents")[0].at("subsystems"))
+    paths.push_back(subsystem.at("path").get<std::string>() + " " + subsystem.at("kind").get<std::string>());
+  EXPECT_THAT(paths, testing::IsSupersetOf({"robot.control control", "robot.sensor receptor",
+                                            "robot.sensor.left real_receptor", "robot.motor effector",
+                                            "robot.motor.left real_effector"}));
+  EXPECT_EQ(structure.at("channels")[0].at("from"), "robot.sensor.line");
+  EXPECT_EQ(structure.at("channels")[0].at("to"), "robot.control.line");
+}
+
+TEST_F(Api, ABrokenFileHasItsDiagnosticsAndWhatIsKnownOfIt) {
+  std::string text = content_of(spec());
+  text.replace(text.find("next: follow"), 12, "next: folow ");
+  write(spec(), text);
+  serve();
+  const Reply reply = get("/api/spec");
+  ASSERT_EQ(reply.status, 200);
+  const json analysis = reply.json().at("analysis");
+  ASSERT_FALSE(analysis.at("diagnostics").empty());
+  const json& one = analysis.at("diagnostics")[0];
+  EXPECT_EQ(one.at("severity"), "error");
+  EXPECT_EQ(one.at("code"), "E101");
+  EXPECT_THAT(one.at("hint").get<std::string>(), HasSubstr("follow"));
+  EXPECT_GT(one.at("end_column").get<int>(), one.at("column").get<int>());
+  EXPECT_TRUE(analysis.at("net").is_null());
+  EXPECT_EQ(analysis.at("structure").at("agents")[0].at("path"), "robot");
+}
+
+TEST_F(Api, ColumnsCountAsBrowsersDo) {
+  serve();
+  const json analysis =
+      post("/api/check", {{"text", "tessera: 1\nsystem: \"\xF0\x9F\xA4\x96\xC3\xA9\" bad\n"}}).json();
+  ASSERT_FALSE(analysis.at("diagnostics").empty());
+  const json ascii = post("/api/check", {{"text", "tessera: 1\nsystem: \"abc\" bad\n"}}).json();
+  // A robot is two units and an accented letter one: as many as three letters of ASCII.
+  EXPECT_EQ(analysis.at("diagnostics")[0].at("column"), ascii.at("diagnostics")[0].at("column"));
+}
+
+TEST_F(Api, TextThatIsNotYamlStillAnswers) {
+  serve();
+  for (const char* text : {"", "{", "\t", "a: [1, 2", "agents: {robot: 3}", "- - - -",
+                           "agents: { r: { control: { "
+                           "behaviours: { a: { next: b } } } } }"}) {
+    const Reply reply = post("/api/check", {{"text", text}});
+    EXPECT_EQ(reply.status, 200) << text;
+    EXPECT_FALSE(reply.json().at("diagnostics").empty()) << text;
+  }
+}
+
+TEST_F(Api, CheckDoesNotSave) {
+  serve();
+  const std::string before = content_of(spec());
+  EXPECT_EQ(post("/api/check", {{"text", "tessera: 1"}}).status, 200);
+  EXPECT_EQ(content_of(spec()), before);
+}
+
+TEST_F(Api, PutReplacesTheFileAndKeepsItsMode) {
+  fs::permissions(spec(), fs::perms::owner_read | fs::perms::owner_write);
+  serve();
+  const json before = get("/api/spec").json();
+  const std::string text = before.at("text").get<std::string>() + "# a comment\n";
+  const Reply saved = put("/api/spec", {{"text", text}, {"revision", before.at("revision")}});
+  ASSERT_EQ(saved.status, 200) << saved.body;
+  EXPECT_EQ(content_of(spec()), text);
+  EXPECT_EQ(fs::status(spec()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(saved.json().at("revision"), get("/api/spec").json().at("revision"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(spec().parent_path()), fs::directory_iterator()),
+            std::distance(fs::directory_iterator(fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower"),
+                          fs::directory_iterator()) -
+                (fs::exists(fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower/.tessera") ? 1 : 0))
+      << "something was left beside the file";
+}
+
+TEST_F(Api, WhatAnotherEditorWroteIsNotOverwritten) {
+  serve();
+  const json before = get("/api/spec").json();
+  write(spec(), "# of another editor\n");
+  const Reply refused = put("/api/spec", {{"text", "mine"}, {"revision", before.at("revision")}});
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_EQ(refused.json().at("text"), "# of another editor\n");
+  EXPECT_EQ(content_of(spec()), "# of another editor\n");
+  const Reply saved = put("/api/spec", {{"text", "mine"}, {"revision", refused.json().at("revision")}});
+  EXPECT_EQ(saved.status, 200);
+  EXPECT_EQ(content_of(spec()), "mine");
+}
+
+TEST_F(Api, AFileThatIsGoneCanBeSavedAgain) {
+  serve();
+  fs::remove(spec());
+  const json gone = get("/api/spec").json();
+  EXPECT_EQ(gone.at("text"), "");
+  EXPECT_FALSE(gone.at("error").is_null());
+  EXPECT_EQ(put("/api/spec", {{"text", "back"}, {"revision", gone.at("revision")}}).status, 200);
+  EXPECT_EQ(content_of(spec()), "back");
+}
+
+TEST_F(Api, WithoutABuiltPageTheServerSaysHowToBuildIt) {
+  serve();
+  const Reply page = ask_with({{"Host", host()}}, "GET", "/", {});
+  EXPECT_EQ(page.status, 200);
+  EXPECT_THAT(page.body, HasSubstr("npm run build"));
+}
+
+TEST_F(Api, ThePageNeedsNoTokenAndMayLoadNothingForeign) {
+  write(options_.page / "index.html", "<p>page");
+  write(options_.page / "assets/index.js", "1");
+  serve();
+  const Reply page = ask_with({{"Host", host()}}, "GET", "/", {});
+  EXPECT_EQ(page.body, "<p>page");
+  const auto policy = page.headers.find("Content-Security-Policy");
+  ASSERT_NE(policy, page.headers.end());
+  EXPECT_THAT(policy->second, HasSubstr("default-src 'self'"));
+  const Reply script = ask_with({{"Host", host()}}, "GET", "/assets/index.js", {});
+  EXPECT_EQ(script.body, "1");
+  EXPECT_THAT(script.headers.find("Content-Type")->second, HasSubstr("javascript"));
+}
+
+TEST_F(Api, APortThatIsTakenLeadsToTheNext) {
+  serve();
+  options_.port = port_;
+  const server::Studio second(options_);
+  EXPECT_GT(second.port(), port_);
+  EXPECT_NE(second.token(), token_);
+  options_.tries = 1;
+  EXPECT_THROW(server::Studio{options_}, std::runtime_error);
+}
+
+}  // namespace tessera::server_test

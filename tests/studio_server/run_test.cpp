@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+
+#include <future>
+#include <thread>
+
+#include "project/process.hpp"
+#include "served.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The command itself, because controllers are built with what is installed beside it.
+class RunOfTheStudio : public Served {
+ protected:
+  RunOfTheStudio() {
+    std::promise<std::string> url;
+    std::future<std::string> printed = url.get_future();
+    command_ = std::thread([this, &url] {
+      bool first = true;
+      static_cast<void>(
+          project::capture_apart({TESSERA_BINARY_DIR "/tessera", "studio", (folder_ / "project").string(),
+                                  "--port", "0", "--no-browser"},
+                                 stop_, [&](std::string_view line) {
+                                   if (line.starts_with("http://") && std::exchange(first, false))
+                                     url.set_value(std::string(line));
+                                 }));
+    });
+    const std::string address = printed.get();
+    const std::size_t colon = address.rfind(':');
+    port_ = std::stoi(address.substr(colon + 1));
+    token_ = address.substr(address.find("token=") + 6);
+    events_ = std::make_unique<EventStream>(port_, token_);
+    EXPECT_FALSE(events_->next("hello").is_null());
+  }
+  ~RunOfTheStudio() override {
+    stop_ = true;
+    command_.join();
+  }
+
+  std::string start(const json& request) {
+    const Reply reply = post("/api/runs", request);
+    EXPECT_EQ(reply.status, 202) << reply.body;
+    return reply.json().at("run");
+  }
+  int control(const std::string& run, const json& command) {
+    return post("/api/runs/" + run + "/control", command).status;
+  }
+  json await_state(const std::string& run, const std::string& state) {
+    return events_->next(
+        "run", [&](const json& data) { return data.at("run") == run && data.at("state") == state; });
+  }
+  json info(const std::string& run) { return get("/api/runs/" + run).json(); }
+  std::uint32_t place(const std::string& name) {
+    const json places = get("/api/spec").json().at("analysis").at("net").at("flat").at("places");
+    for (std::uint32_t index = 0; index < places.size(); ++index)
+      if (places[index].at("name") == name) return index;
+    ADD_FAILURE() << "no place " << name;
+    return 0;
+  }
+
+  std::atomic<bool> stop_{false};
+  std::thread command_;
+  std::unique_ptr<EventStream> events_;
+};
+
+TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording) {
+  const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 10}});
+  ASSERT_FALSE(await_state(run, "running").is_null());
+
+  const json firings = events_->next("firings");
+  ASSERT_FALSE(firings.is_null());
+  EXPECT_EQ(firings.at("run"), run);
+  EXPECT_FALSE(firings.at("firings").empty());
+  const json value = events_->next("values", [](const json& data) { return data.at("t") > 0; });
+  EXPECT_TRUE(value.at("values").at("robot.sensor.line").at("middle").is_boolean()) << value;
+  EXPECT_TRUE(value.at("values").at("robot.control.motion").at("linear").is_number());
+  const json first = events_->next("pose"),
+             later = events_->next("pose", [](const json&data) { return data.at("t") > 3'000'000'000; });
+  EXPECT_NE(first.at("x"), later.at("x"));
+
+  ASSERT_EQ(control(run, {{"command", "pause"}}), 200);
+  ASSERT_FALSE(await_state(run, "paused").is_null());
+  // A step is one firing, seen by everybody.
+  ASSERT_EQ(control(run, {{"command", "step_firing"}}), 200);
+  const std::int64_t rest = info(run).at("t");
+  const json step = events_->next("firings", [&](const json& data) { return data.at("t") >= rest; });
+  EXPECT_FALSE(step.is_null());
+
+  const std::uint32_t called = place("robot.control.follow.in");
+  ASSERT_EQ(control(run, {{"command", "breakpoints"}, {"breakpoints", {{{"place", called}}}}}), 200);
+  ASSERT_EQ(control(run, {{"command", "resume"}}), 200);
+  const json broken = events_->next("run", [&](const json& data) {
+    return data.at("state") == "paused" && !data.at("why").get<std::string>().empty();
+  });
+  EXPECT_THAT(broken.at("why").get<std::string>(), HasSubstr("robot.control.follow.in"));
+  EXPECT_THAT(info(run).at("marking").get<std::vector<std::uint32_t>>(), testing::Contains(called));
+
+  ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
+  const json ended = await_state(run, "ended");
+  ASSERT_TRUE(ended.at("outcome").is_object()) << ended;
+  EXPECT_EQ(ended.at("outcome").at("ended"), "SIGINT");
+  EXPECT_EQ(control(run, {{"command", "resume"}}), 409);
+
+  const json list = get("/api/recordings").json();
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0].at("system"), "line_follower");
+  EXPECT_GT(list[0].at("duration").get<double>(), 3);
+  const std::string name = list[0].at("name");
+  const json recording = get("/api/recordings/" + name).json();
+  EXPECT_EQ(recording.at("net_hash"), get("/api/spec").json().at("analysis").at("net_hash"));
+  ASSERT_GT(recording.at("firings").size(), 100U);
+  const json part = get("/api/recordings/" + name + "?from=1000000000&to=2000000000").json();
+  ASSERT_FALSE(part.at("firings").empty());
+  EXPECT_GE(part.at("firings").front()[0], 1'000'000'000);
+  EXPECT_LE(part.at("firings").back()[0], 2'000'000'000);
+}
+
+TEST_F(RunOfTheStudio, WhatTheCompilerSaysReachesThePage) {
+  const fs::path source = folder_ / "project/src/control.cpp";
+  write(source, content_of(source) + "\nint broken = \"text\";\n");
+  const std::string run = start({{"kind", "simulate"}});
+  const json line = events_->next("build", [](const json& data) {
+    return data.at("line").get<std::string>().find("error") != std::string::npos;
+  });
+  EXPECT_THAT(line.at("line").get<std::string>(), HasSubstr("control.cpp"));
+  EXPECT_THAT(await_state(run, "failed").at("why").get<std::string>(), HasSubstr("control.cpp"));
+}
+
+TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
+  for (const json& request : std::vector<json>{{{"kind", "fly"}},
+                                               {{"speed", -1}},
+                                               {{"speed", "fast"}},
+                                               {{"for", "soon"}},
+                                               {{"track", "../secret.png"}},
+                                               {{"track", "/etc/passwd"}},
+                                               {{"world", "nowhere.xml"}}})
+    EXPECT_EQ(post("/api/runs", request).status, 400) << request;
+  write(spec(), "tessera: 1");
+  EXPECT_EQ(post("/api/runs", {{"kind", "simulate"}}).status, 422);
+  EXPECT_EQ(get("/api/runs/1").status, 404);
+  EXPECT_EQ(control("1", {{"command", "stop"}}), 404);
+}
+
+TEST_F(RunOfTheStudio, EndsWithTheServer) {
+  const std::string run = start({{"kind", "simulate"}, {"for", "100000s"}, {"paused", true}});
+  ASSERT_FALSE(await_state(run, "paused").is_null());
+  stop_ = true;  // Ctrl-C of the studio; its controller must not be left over
+  EXPECT_TRUE(await_state(run, "nothing").is_null());
+  command_.join();
+  command_ = std::thread([] {});
+  EXPECT_TRUE(fs::exists(fs::directory_iterator(folder_ / "project/.tessera/runs")->path() / "summary.json"));
+}
+
+}  // namespace tessera::server_test

@@ -1,0 +1,71 @@
+#include <gmock/gmock.h>
+
+#include "served.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+
+class VerifyJob : public Served {
+ protected:
+  json verify(const json& body) {
+    EventStream stream(port_, token_);
+    EXPECT_FALSE(stream.next("hello").is_null());
+    const Reply started = post("/api/verify", body);
+    EXPECT_EQ(started.status, 202) << started.body;
+    const json job = started.json().at("job");
+    json done = stream.next(
+        "verify", [&](const json& data) { return data.at("job") == job && data.at("state") != "running"; });
+    EXPECT_EQ(get("/api/verify/" + job.get<std::string>()).json(), done);
+    return done;
+  }
+};
+
+TEST_F(VerifyJob, FindsThatTheExampleHolds) {
+  serve();
+  const json done = verify({{"text", content_of(spec())}});
+  EXPECT_EQ(done.at("state"), "done");
+  const json& result = done.at("result");
+  EXPECT_EQ(result.at("net_hash"), get("/api/spec").json().at("analysis").at("net_hash"));
+  ASSERT_GT(result.at("properties").size(), 5U);
+  for (const json& property : result.at("properties")) {
+    EXPECT_EQ(property.at("verdict"), "holds") << property;
+    EXPECT_TRUE(property.at("steps").is_null());
+  }
+}
+
+TEST_F(VerifyJob, AViolationHasStepsOfTheNetAndIsToldInWords) {
+  std::string text = content_of(spec());
+  const std::string own = "properties:\n";
+  ASSERT_NE(text.find(own), std::string::npos);
+  text.replace(text.find(own), own.size(), own + "  - { name: still, never: robot.motor.drive }\n");
+  serve();
+  const json done = verify({{"text", text}, {"properties", {"still"}}});
+  const json& result = done.at("result");
+  ASSERT_EQ(result.at("properties").size(), 1U);
+  const json& property = result.at("properties")[0];
+  ASSERT_EQ(property.at("verdict"), "violated") << property;
+  const json analysis = post("/api/check", {{"text", text}}).json();
+  const json& transitions = analysis.at("net").at("flat").at("transitions");
+  ASSERT_EQ(property.at("steps").size(), property.at("trace").size());
+  for (std::size_t step = 0; step < property.at("steps").size(); ++step) {
+    const std::size_t index = property.at("steps")[step];
+    if (index < transitions.size()) {
+      EXPECT_EQ(transitions[index].at("name"), property.at("trace")[step].at("transition"));
+    }
+  }
+  EXPECT_THAT(property.at("narrative").get<std::string>(), testing::HasSubstr("robot.motor"));
+}
+
+TEST_F(VerifyJob, RefusesWhatHasNoNetAndWhatNobodyKnows) {
+  serve();
+  EXPECT_EQ(post("/api/verify", {{"text", "tessera: 1"}}).status, 422);
+  const Reply unknown = post("/api/verify", {{"text", content_of(spec())}, {"properties", {"saef"}}});
+  EXPECT_EQ(unknown.status, 422);
+  EXPECT_THAT(unknown.json().at("hint").get<std::string>(), testing::HasSubstr("safe"));
+  EXPECT_EQ(post("/api/verify", {{"text", content_of(spec())}, {"timeout", "soon"}}).status, 400);
+  EXPECT_EQ(get("/api/verify/77").status, 404);
+  EXPECT_EQ(ask("DELETE", "/api/verify/99999999999999999999999", {}).status, 404);
+}
+
+}  // namespace tessera::server_test

@@ -72,16 +72,16 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   replace(project / "src/control.cpp", "  out.motion = steer(",
           "  context.assert_that(in.line.valid, \"blind in iteration {}\", context.iteration);\n"
           "  out.motion = steer(");
-  const cli::Exit found = tessera("simulate 01_line_follower --schedules 1000 --json out.json");
+  const project::Exit found = tessera("simulate 01_line_follower --schedules 1000 --json out.json");
   EXPECT_EQ(found.code, 1) << found.text;
   const nlohmann::json failure = nlohmann::json::parse(content_of(folder_ / "out.json"));
   EXPECT_NE(found.text.find("broken assertion: blind in iteration 1"), std::string::npos) << found.text;
   std::string again = failure.at("reproduce");
   ASSERT_TRUE(again.starts_with("tessera simulate ")) << again;
-  const cli::Exit made = tessera(again.substr(8));
+  const project::Exit made = tessera(again.substr(8));
   EXPECT_EQ(made.code, 1) << made.text;
   EXPECT_NE(made.text.find("blind in iteration 1"), std::string::npos) << made.text;
-  const cli::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
+  const project::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
   EXPECT_NE(printed.text.find("fault (assertion): robot.control.follow.in: blind in iteration 1"),
             std::string::npos)
       << printed.text;
@@ -89,17 +89,17 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
 
 TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
   example("01_line_follower");
-  const cli::Exit thrown =
+  const project::Exit thrown =
       tessera("simulate 01_line_follower --for 5s --inject robot.control.follow:throw@2.5s");
   EXPECT_EQ(thrown.code, 1) << thrown.text;
-  const cli::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
+  const project::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
   for (const char* line : {"robot.control: injected: robot.control.follow:throw@2.5s",
                            "robot.control: fault (exception): robot.control.follow.in: injected",
                            "ended by an error that no `next` leads to another behaviour"})
     EXPECT_NE(printed.text.find(line), std::string::npos) << printed.text;
-  const cli::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr");
+  const project::Exit summary = tessera("replay 01_line_follower/.tessera/last/recording.tsr");
   EXPECT_NE(summary.text.find("1 errors, 2 faults"), std::string::npos) << summary.text;
-  const cli::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
+  const project::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
   EXPECT_NE(checked.text.find("legal: "), std::string::npos) << checked.text;
 
   // NaN inside a structure.
@@ -108,7 +108,7 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
                 .text.find("robot.control.follow.in: output 'motion' is not finite"),
             std::string::npos);
 
-  const cli::Exit wrong = tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
+  const project::Exit wrong = tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
   EXPECT_EQ(wrong.code, 1) << wrong.text;
   EXPECT_NE(wrong.text.find("unknown 'robot.control.folow'; did you mean 'robot.control.follow'?"),
             std::string::npos)

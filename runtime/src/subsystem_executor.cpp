@@ -191,12 +191,6 @@ bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition)
   return std::all_of(inputs.begin(), inputs.end(), has_finished);
 }
 
-inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
-  if (transition.guard.kind == Guard::Kind::none) return true;
-  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
-  return tokens_[transition.latch].latched == transition.decided;
-}
-
 Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   const Duration timeout = operations_.parts().ports[transition.port].timeout;
   if (timeout == Duration::zero()) return Time::max();
@@ -418,126 +412,6 @@ void SubsystemExecutor::show() {
   gauges_.overruns.store(overruns_, std::memory_order_relaxed);
 }
 
-// -------------------------------------------------------------------------------------------- scripts
-
-namespace {
-
-std::string_view forced_by(Guard::Kind guard) {
-  switch (guard) {
-    case Guard::Kind::go_on:
-      return "neither error nor terminal";
-    case Guard::Kind::terminal:
-      return "terminal";
-    case Guard::Kind::error:
-      return "error";
-    case Guard::Kind::next:
-      return "this initial condition";
-    case Guard::Kind::none:
-    case Guard::Kind::elapsed:  // waited for
-      break;
-  }
-  return "";
-}
-
-}  // namespace
-
-SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
-  const std::uint32_t transition = script_[followed_++];
-  if (transition == Plan::none) {
-    fault(marked_.front(), "no condition of `next` holds");
-    return {Followed::fired, Time::max(), "no initial condition"};
-  }
-  renew_time();
-  while (advance_operations()) continue;
-  operations_.guard_effectors(now_, name_of(marked_.front()));
-  if (!try_fire(transition)) {
-    --followed_;
-    return {Followed::waiting, script_deadline(transition)};
-  }
-  if (at_end_) end();
-  return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
-          forced_by(plan_->transitions[transition].guard.kind)};
-}
-
-/// The transition of the script that will take a token that has just arrived; nullptr: none of it.
-const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
-  for (std::size_t index = followed_; index < script_.size(); ++index) {
-    if (script_[index] == Plan::none) continue;
-    const Plan::TransitionEntry& transition = plan_->transitions[script_[index]];
-    if (transition.latch == place) return &transition;
-  }
-  return nullptr;
-}
-
-bool SubsystemExecutor::script_ends_without_choice() const {
-  return followed_ < script_.size() && script_[followed_] == Plan::none;
-}
-
-/// When an operation has finished that the transition waits for, or its timeout has passed.
-Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
-  const Plan::TransitionEntry& transition = plan_->transitions[index];
-  Time deadline = Time::max();
-  for (const std::uint32_t place : marked_)
-    if (tokens_[place].phase != Phase::finished) deadline = std::min(deadline, tokens_[place].due);
-  if (deadline != Time::max() || transition.guard.kind != Guard::Kind::elapsed) return deadline;
-  const Time elapsed = locally_enabled(transition) ? elapses(transition) : Time::max();
-  return elapsed > now_ ? elapsed : Time::max();
-}
-
-// -------------------------------------------------------------------------------------------- waiting
-
-/// Registers in every channel exactly what this subsystem waits for; false: something may be taken after all.
-bool SubsystemExecutor::register_waits() {
-  std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
-  for (const std::uint32_t place : marked_) {
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.need == Plan::no_need || !locally_enabled(transition)) continue;
-      if (!condition_holds(transition)) continue;
-      wants_next_[transition.port] =
-          static_cast<std::uint16_t>(wants_next_[transition.port] | 1U << transition.need);
-    }
-  }
-  for (std::size_t port = 0; port < wants_.size(); ++port) {
-    if (wants_[port] == 0 && wants_next_[port] == 0) continue;
-    const PortLink& link = operations_.parts().ports[port];
-    if (!link.channel->wait(link.side, wants_next_[port])) return false;
-    registrations_ +=
-        static_cast<std::uint32_t>(wants_next_[port] != 0) - static_cast<std::uint32_t>(wants_[port] != 0);
-    wants_[port] = wants_next_[port];
-  }
-  return true;
-}
-
-Time SubsystemExecutor::next_deadline() const {
-  Time deadline = operations_.guard_deadline();
-  for (const std::uint32_t place : marked_) {
-    const Token& token = tokens_[place];
-    if (token.phase != Phase::finished) {
-      deadline = std::min(deadline, token.due);
-      continue;
-    }
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.guard.kind != Guard::Kind::elapsed || !locally_enabled(transition)) continue;
-      const Time elapsed = elapses(transition);
-      const bool registered =
-          transition.need != Plan::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
-      if (!registered)
-        deadline = std::min(deadline, elapsed);  // registered: it has elapsed and waits for its channel
-    }
-  }
-  return deadline;
-}
-
-bool SubsystemExecutor::time_stands_still() {
-  if (now_ != instant_) {
-    instant_ = now_;
-    fired_at_instant_ = 0;
-  }
-  return ++fired_at_instant_ > firings_per_instant;
-}
-
 // -------------------------------------------------------------------------------------------- ends
 
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
@@ -552,28 +426,6 @@ void SubsystemExecutor::end() {
   leave();
   control_.mark_ended(index_);
   wake_receivers();
-}
-
-std::string SubsystemExecutor::whereabouts(const System& system) const {
-  const Instance& instance = *operations_.parts().instance;
-  std::string text = path();
-  for (const std::uint32_t place : marked_) {
-    text += fmt::format(" at {}", instance.net->places[place].name);
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.port == Plan::none) continue;
-      const std::uint32_t peer = operations_.parts().ports[transition.port].peer;
-      const std::string_view port = instance.net->ports[transition.port].name;
-      if (peer == UINT32_MAX)
-        text += fmt::format(" waits for the other end of '{}', which no behaviour uses", port);
-      else
-        text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer].agent,
-                            system.instances[peer].name, port,
-                            control_.has_ended(peer) ? ", which has ended" : "");
-      break;
-    }
-  }
-  return text;
 }
 
 }  // namespace tessera

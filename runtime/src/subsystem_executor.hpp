@@ -193,4 +193,10 @@ class SubsystemExecutor {
   std::uint32_t fired_at_instant_ = 0;
 };
 
+inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
+  if (transition.guard.kind == Guard::Kind::none) return true;
+  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
+  return tokens_[transition.latch].latched == transition.decided;
+}
+
 }  // namespace tessera

@@ -104,7 +104,7 @@ TEST_P(Buffered, WithdrawalReleasesWhoYielded) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Buffered, ::testing::Bool(),
-                         [](const auto& info) { return info.param ? "OneForBoth" : "OneForEach"; });
+                         [](const auto& one) { return one.param ? "OneForBoth" : "OneForEach"; });
 
 TEST(SharedChannel, ANeedMetInPartHoldsNobodyBack) {
   CountingWaker waker;

@@ -5,15 +5,15 @@
 namespace tessera {
 namespace {
 
-/// Some microseconds in all, about what it costs to sleep and be woken. The pauses grow, so that the side at
-/// work gets several turns out of its cache before the two meet again.
-constexpr int longest_pause = 32;
+/// Some microseconds in all, about what it costs to sleep and be woken. The first pause is long enough for
+/// the side at work to have a dozen turns out of its cache before the two meet again.
+constexpr int first_pause = 32, longest_pause = 64;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();
 #elif defined(__aarch64__)
-  asm volatile("yield");
+  asm volatile("isb");
 #endif
 }
 
@@ -65,7 +65,7 @@ bool SharedChannel::wait(Side side, std::uint16_t wants) {
 }
 
 bool SharedChannel::outwait() const {
-  for (int pauses = 1; pauses <= longest_pause; pauses *= 2) {
+  for (int pauses = first_pause; pauses <= longest_pause; pauses *= 2) {
     for (int count = 0; count < pauses; ++count) pause();
     if (!held()) return true;
   }

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -254,6 +255,8 @@ std::string Monitor::snapshot() const {
       {"system", assembly_.system.name},       {"pid", getpid()},
       {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
       {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}};
+  if (const std::string& recording = assembly_.options.recording; !recording.empty())
+    all["recording"] = std::filesystem::absolute(recording).string();
   if (remote_ == nullptr) return all.dump();
   const RemoteControl::Shown shown = remote_->shown();
   all["paused"] = shown.paused;

@@ -3,110 +3,160 @@
 #include <span>
 
 #include "drawing/drawing.hpp"
+#include "drawing/json_writer.hpp"
 #include "net/counts.hpp"
 
 namespace tessera::drawing {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number_or_null(std::uint32_t number) { return number == UINT32_MAX ? Json(nullptr) : Json(number); }
-
-Json span_json(const net::Span& span) {
-  return {{"line", span.line}, {"column", span.column}, {"length", span.length}};
-}
-
-Json operation_json(const net::Operation& operation) {
-  constexpr std::array<const char*, 5> kinds{"none", "transition_function", "next_iteration", "write",
-                                             "read"};
-  if (operation.kind == net::Operation::Kind::none) return nullptr;
-  return {{"kind", kinds[static_cast<std::size_t>(operation.kind)]},
-          {"subject", number_or_null(operation.subject)}};
-}
-
-Json condition_json(const net::Condition& condition) {
-  constexpr std::array<const char*, 6> kinds{"none", "go_on", "terminal", "error", "next", "elapsed"};
-  constexpr std::array<const char*, 3> truths{"free", "always", "never"};
-  if (condition.kind == net::Condition::Kind::none) return nullptr;
-  return {{"kind", kinds[static_cast<std::size_t>(condition.kind)]},
-          {"truth", truths[static_cast<std::size_t>(condition.truth)]},
-          {"subject", number_or_null(condition.subject)},
-          {"text", condition.text}};
-}
-
-Json page_json(const net::HierarchicalNet& net, net::PageId id) {
-  const net::Page& page = net.pages[id.value];
-  Json json{{"path", net.path(id)},
-            {"name", page.name},
-            {"layer", net::name_of(page.layer)},
-            {"parent", number_or_null(page.parent.value)},
-            {"subsystem", number_or_null(page.subsystem)},
-            {"input", page.input},
-            {"output", page.output},
-            {"span", span_json(page.span)},
-            {"nodes", Json::array()},
-            {"transitions", Json::array()}};
-  for (const net::Node& node : page.nodes)
-    json["nodes"].push_back({{"name", node.name},
-                             {"page", number_or_null(node.page.value)},
-                             {"fusion", number_or_null(node.fusion.value)},
-                             {"tokens", node.tokens},
-                             {"operation", operation_json(node.operation)}});
-  for (const net::PageTransition& transition : page.transitions)
-    json["transitions"].push_back({{"name", transition.name},
-                                   {"inputs", transition.inputs},
-                                   {"outputs", transition.outputs},
-                                   {"condition", condition_json(transition.condition)},
-                                   {"span", span_json(transition.span)}});
-  return json;
-}
-
-Json arcs_json(std::span<const net::Arc> arcs) {
-  Json json = Json::array();
-  for (const net::Arc& arc : arcs) json.push_back({{"place", arc.place.value}, {"weight", arc.weight}});
-  return json;
-}
-
-Json flat_json(const net::Net& net) {
-  Json json{{"places", Json::array()}, {"transitions", Json::array()}};
-  for (const net::Place& place : net.places())
-    json["places"].push_back({{"name", place.name},
-                              {"tokens", place.tokens},
-                              {"operation", operation_json(place.operation)},
-                              {"layer", net::name_of(place.layer)},
-                              {"page", number_or_null(place.page.value)},
-                              {"subsystem", number_or_null(place.subsystem)},
-                              {"channel", number_or_null(place.channel)},
-                              {"span", span_json(place.span)}});
-  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
-    const net::TransitionId id{index};
-    const net::Transition& transition = net[id];
-    json["transitions"].push_back({{"name", transition.name},
-                                   {"inputs", arcs_json(net.preset(id))},
-                                   {"outputs", arcs_json(net.postset(id))},
-                                   {"condition", condition_json(transition.condition)},
-                                   {"layer", net::name_of(transition.layer)},
-                                   {"page", number_or_null(transition.page.value)},
-                                   {"subsystem", number_or_null(transition.subsystem)},
-                                   {"span", span_json(transition.span)}});
+/// Functions of the same name write the parts of a net, each as one value.
+class NetWriter : public JsonWriter {
+ public:
+  void span(const net::Span& span) {
+    object([&] {
+      member("line", span.line);
+      member("column", span.column);
+      member("length", span.length);
+    });
   }
-  return json;
-}
+
+  void operation(const net::Operation& operation) {
+    constexpr std::array<const char*, 5> kinds{"none", "transition_function", "next_iteration", "write",
+                                               "read"};
+    if (operation.kind == net::Operation::Kind::none) return null();
+    object([&] {
+      member("kind", kinds[static_cast<std::size_t>(operation.kind)]);
+      member("subject", operation.subject);
+    });
+  }
+
+  void condition(const net::Condition& condition) {
+    constexpr std::array<const char*, 6> kinds{"none", "go_on", "terminal", "error", "next", "elapsed"};
+    constexpr std::array<const char*, 3> truths{"free", "always", "never"};
+    if (condition.kind == net::Condition::Kind::none) return null();
+    object([&] {
+      member("kind", kinds[static_cast<std::size_t>(condition.kind)]);
+      member("truth", truths[static_cast<std::size_t>(condition.truth)]);
+      member("subject", condition.subject);
+      member("text", std::string_view(condition.text));
+    });
+  }
+
+  void page(const net::HierarchicalNet& net, net::PageId id) {
+    const net::Page& page = net.pages[id.value];
+    object([&] {
+      member("path", std::string_view(net.path(id)));
+      member("name", std::string_view(page.name));
+      member("layer", net::name_of(page.layer));
+      member("parent", page.parent.value);
+      member("subsystem", page.subsystem);
+      member("input", page.input);
+      member("output", page.output);
+      member("span", [&] { span(page.span); });
+      member("nodes", [&] { list(page.nodes, [&](const net::Node& one) { node(one); }); });
+      member("transitions",
+             [&] { list(page.transitions, [&](const net::PageTransition& one) { page_transition(one); }); });
+    });
+  }
+
+  void fusion(const net::FusionSet& set) {
+    object([&] {
+      member("name", std::string_view(set.name));
+      member("tokens", set.tokens);
+      member("channel", set.channel);
+      member("span", [&] { span(set.span); });
+    });
+  }
+
+  void place(const net::Place& place) {
+    object([&] {
+      member("name", std::string_view(place.name));
+      member("tokens", place.tokens);
+      member("operation", [&] { operation(place.operation); });
+      member("layer", net::name_of(place.layer));
+      member("page", place.page.value);
+      member("subsystem", place.subsystem);
+      member("channel", place.channel);
+      member("span", [&] { span(place.span); });
+    });
+  }
+
+  void transition(const net::Net& net, net::TransitionId id) {
+    const net::Transition& transition = net[id];
+    object([&] {
+      member("name", std::string_view(transition.name));
+      member("inputs", [&] { arcs(net.preset(id)); });
+      member("outputs", [&] { arcs(net.postset(id)); });
+      member("condition", [&] { condition(transition.condition); });
+      member("layer", net::name_of(transition.layer));
+      member("page", transition.page.value);
+      member("subsystem", transition.subsystem);
+      member("span", [&] { span(transition.span); });
+    });
+  }
+
+ private:
+  void node(const net::Node& node) {
+    object([&] {
+      member("name", std::string_view(node.name));
+      member("page", node.page.value);
+      member("fusion", node.fusion.value);
+      member("tokens", node.tokens);
+      member("operation", [&] { operation(node.operation); });
+    });
+  }
+
+  void page_transition(const net::PageTransition& transition) {
+    const auto numbers = [&](const auto& indices) {
+      list(indices, [&](std::uint32_t index) { value(index); });
+    };
+    object([&] {
+      member("name", std::string_view(transition.name));
+      member("inputs", [&] { numbers(transition.inputs); });
+      member("outputs", [&] { numbers(transition.outputs); });
+      member("condition", [&] { condition(transition.condition); });
+      member("span", [&] { span(transition.span); });
+    });
+  }
+
+  void arcs(std::span<const net::Arc> arcs) {
+    list(arcs, [&](const net::Arc& arc) {
+      object([&] {
+        member("place", arc.place.value);
+        member("weight", arc.weight);
+      });
+    });
+  }
+};
 
 }  // namespace
 
 std::string to_json(const net::HierarchicalNet& pages, const net::Net& net, int indent) {
-  Json json{{"pages", Json::array()}, {"fusions", Json::array()}};
-  for (std::uint32_t page = 0; page < pages.pages.size(); ++page)
-    json["pages"].push_back(page_json(pages, net::PageId{page}));
-  for (const net::FusionSet& set : pages.fusions)
-    json["fusions"].push_back({{"name", set.name},
-                               {"tokens", set.tokens},
-                               {"channel", number_or_null(set.channel)},
-                               {"span", span_json(set.span)}});
-  json["flat"] = flat_json(net);
-  json["counts"] = Json::parse(net::to_json(net::count(pages, net)));
-  return json.dump(indent) + "\n";
+  constexpr std::size_t bytes_per_element = 400;
+  NetWriter all;
+  all.reserve((net.places().size() + net.transitions().size()) * bytes_per_element);
+  all.object([&] {
+    std::uint32_t index = 0;
+    all.member("pages", [&] {
+      all.list(pages.pages, [&](const net::Page&) { all.page(pages, net::PageId{index++}); });
+    });
+    all.member("fusions",
+               [&] { all.list(pages.fusions, [&](const net::FusionSet& one) { all.fusion(one); }); });
+    all.member("flat", [&] {
+      all.object([&] {
+        all.member("places", [&] { all.list(net.places(), [&](const net::Place& one) { all.place(one); }); });
+        index = 0;
+        all.member("transitions", [&] {
+          all.list(net.transitions(),
+                   [&](const net::Transition&) { all.transition(net, net::TransitionId{index++}); });
+        });
+      });
+    });
+    all.member("counts",
+               [&] { all.raw(nlohmann::ordered_json::parse(net::to_json(net::count(pages, net))).dump()); });
+  });
+  const std::string text = all.take();
+  return (indent < 0 ? text : nlohmann::ordered_json::parse(text).dump(indent)) + "\n";
 }
 
 }  // namespace tessera::drawing

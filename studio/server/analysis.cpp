@@ -73,13 +73,14 @@ Analysis analyse(const std::string& name, const std::string& text) {
   Json diagnostics = Json::array();
   for (const diagnostics::Diagnostic& one : found.sorted())
     diagnostics.push_back(diagnostic_json(one, found));
-  analysis.json = "{\"diagnostics\":" + text_of(diagnostics) + ",\"structure\":" + structure;
+  std::string json = "{\"diagnostics\":" + text_of(diagnostics) + ",\"structure\":" + structure;
   if (analysis.net) {
-    analysis.json += ",\"net_hash\":\"" + analysis.net_hash + "\",\"net\":";
-    analysis.json += drawing::to_json(*analysis.pages, *analysis.net, /*indent=*/-1) + "}";
+    json += ",\"net_hash\":\"" + analysis.net_hash + "\",\"net\":";
+    json += drawing::to_json(*analysis.pages, *analysis.net, /*indent=*/-1) + "}";
   } else {
-    analysis.json += ",\"net_hash\":null,\"net\":null}";
+    json += ",\"net_hash\":null,\"net\":null}";
   }
+  analysis.json = std::make_shared<const std::string>(std::move(json));
   return analysis;
 }
 

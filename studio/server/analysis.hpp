@@ -13,7 +13,7 @@ namespace tessera::server {
 
 /// What is known about a text, however broken it is.
 struct Analysis {
-  std::string json;  ///< docs/studio.md, `analysis`
+  std::shared_ptr<const std::string> json;  ///< docs/studio.md, `analysis`
   /// Of a text without errors:
   std::optional<spec::Model> model;
   std::optional<net::HierarchicalNet> pages;

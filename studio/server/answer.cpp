@@ -1,18 +1,37 @@
 #include "server/answer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tessera::server {
 
 using nlohmann::json;
 
-void answer(httplib::Response& response, const std::string& text, int status) {
+void answer(httplib::Response& response, std::string text, int status) {
+  answer_pieces(response, {std::make_shared<const std::string>(std::move(text))});
   response.status = status;
-  response.set_content(text, "application/json");
+}
+
+void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
+                   const std::string& type) {
+  std::size_t size = 0;
+  for (const auto& piece : pieces) size += piece->size();
+  response.status = 200;
+  response.set_content_provider(
+      size, type,
+      [pieces = std::move(pieces)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        for (const auto& piece : pieces) {
+          if (offset < piece->size())
+            return sink.write(piece->data() + offset, std::min(length, piece->size() - offset));
+          offset -= piece->size();
+        }
+        return false;
+      });
 }
 
 void answer_error(httplib::Response& response, int status, std::string_view error, std::string_view hint) {
-  answer(response, text_of(json{{"error", error}, {"hint", hint}}), status);
+  response.status = status;
+  response.set_content(text_of(json{{"error", error}, {"hint", hint}}), "application/json");
 }
 
 Body::Body(const httplib::Request& request, httplib::Response& response)

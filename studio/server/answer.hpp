@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,7 +14,11 @@
 /// Requests and answers in JSON.
 namespace tessera::server {
 
-void answer(httplib::Response& response, const std::string& text, int status = 200);
+/// As it is: what httplib would compress with Brotli takes seconds for a large net, and the way is short.
+void answer(httplib::Response& response, std::string text, int status = 200);
+/// The pieces one after the other; they are shared, not copied.
+void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
+                   const std::string& type = "application/json");
 /// {"error", "hint"}
 void answer_error(httplib::Response& response, int status, std::string_view error,
                   std::string_view hint = {});

@@ -12,6 +12,7 @@
 
 #include "project/verdicts.hpp"
 #include "server/answer.hpp"
+#include "server/controller_link.hpp"
 #include "server/guard.hpp"
 
 namespace tessera::server {
@@ -40,6 +41,13 @@ json names_of(const std::map<std::string, fs::path>& assets) {
   json names = json::array();
   for (const auto& [name, path] : assets) names.push_back(name);
   return names;
+}
+
+/// {members, "analysis": ...}
+void answer_with_analysis(httplib::Response& response, const std::string& members, const Analysis& analysis) {
+  static const auto end = std::make_shared<const std::string>("}");
+  answer_pieces(response,
+                {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
 }
 
 /// The number that an address ends with.
@@ -85,6 +93,9 @@ void Api::serve_work(HttpServer& server) {
               [this](const Request& request, Response& response) { start_run(request, response); });
   server.Get("/api/runs",
              [this](const Request&, Response& response) { answer(response, text_of(parts_.runs.list())); });
+  server.Get("/api/controllers", [](const Request&, Response& response) {
+    answer(response, text_of(json(listening_sockets())));
+  });
   server.Get("/api/runs/(\\d+)",
              [this](const Request& request, Response& response) { get_run(request, response); });
   server.Post("/api/runs/(\\d+)/control",
@@ -119,10 +130,11 @@ void Api::get_project(Response& response) {
 
 void Api::get_spec(Response& response) {
   const SpecFile::Content content = parts_.file.read();
-  answer(response,
-         fmt::format(R"({{"text":{},"revision":"{}","error":{},"analysis":{}}})", text_of(json(content.text)),
-                     content.revision, content.error.empty() ? "null" : text_of(json(content.error)),
-                     parts_.analyses.of(content.text)->json));
+  answer_with_analysis(
+      response,
+      fmt::format(R"("text":{},"revision":"{}","error":{})", text_of(json(content.text)), content.revision,
+                  content.error.empty() ? "null" : text_of(json(content.error))),
+      *parts_.analyses.of(content.text));
 }
 
 void Api::put_spec(const Request& request, Response& response) {
@@ -132,8 +144,8 @@ void Api::put_spec(const Request& request, Response& response) {
   const SpecFile::Outcome outcome = parts_.file.write(text, revision);
   switch (outcome.written) {
     case SpecFile::Written::yes:
-      return answer(response, fmt::format(R"({{"revision":"{}","analysis":{}}})", outcome.now.revision,
-                                          parts_.analyses.of(text)->json));
+      return answer_with_analysis(response, fmt::format(R"("revision":"{}")", outcome.now.revision),
+                                  *parts_.analyses.of(text));
     case SpecFile::Written::conflict:
       return answer(
           response,
@@ -150,7 +162,7 @@ void Api::put_spec(const Request& request, Response& response) {
 void Api::check(const Request& request, Response& response) {
   Body body(request, response);
   const std::string text = body.text("text");
-  if (body.good()) answer(response, parts_.analyses.of(text)->json);
+  if (body.good()) answer_pieces(response, {parts_.analyses.of(text)->json});
 }
 
 void Api::start_verify(const Request& request, Response& response) {
@@ -169,9 +181,9 @@ void Api::start_verify(const Request& request, Response& response) {
 }
 
 void Api::get_verify(const Request& request, Response& response) {
-  const std::optional<std::string> state = parts_.jobs.state(number_in(request));
+  std::optional<std::string> state = parts_.jobs.state(number_in(request));
   if (!state) return answer_error(response, 404, "there is no such job");
-  answer(response, *state);
+  answer(response, std::move(*state));
 }
 
 void Api::stop_verify(const Request& request, Response& response) {
@@ -187,15 +199,21 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   Body body(request, response);
   RunRequest wanted;
   const std::string kind = body.text_or("kind", "simulate");
-  wanted.simulated = kind != "run";
+  wanted.kind = kind == "run"      ? RunRequest::Kind::run
+                : kind == "attach" ? RunRequest::Kind::attach
+                                   : RunRequest::Kind::simulate;
+  wanted.socket = body.text_or("socket", "");
   wanted.world = body.text_or("world", "");
   wanted.track = body.text_or("track", "");
-  wanted.duration = body.text_or("for", wanted.simulated ? "600s" : "");
+  wanted.duration = body.text_or("for", kind == "simulate" ? "600s" : "");
   wanted.seed = static_cast<std::uint64_t>(std::clamp(body.number("seed").value_or(1), 0.0, 9e15));
   wanted.speed = body.number("speed").value_or(1);
   wanted.paused = body.flag("paused");
   if (!body.good()) return std::nullopt;
-  if (kind != "simulate" && kind != "run") return refuse("a run is of kind simulate or run");
+  if (kind != "simulate" && kind != "run" && kind != "attach")
+    return refuse("a run is of kind simulate, run or attach");
+  if (kind == "attach" && std::ranges::count(listening_sockets(), wanted.socket) == 0)
+    return refuse("nobody listens at " + wanted.socket, "/api/controllers names those who do");
   if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
   try {
     if (!wanted.duration.empty())
@@ -248,9 +266,9 @@ void Api::get_recording(const Request& request, Response& response) {
     if (std::from_chars(text.data(), text.data() + text.size(), *end).ptr != text.data() + text.size())
       return answer_error(response, 400, std::string(name) + " is a time in nanoseconds");
   }
-  const std::optional<std::string> content = parts_.recordings.content(request.matches[1], span);
+  std::optional<std::string> content = parts_.recordings.content(request.matches[1], span);
   if (!content) return answer_error(response, 404, "there is no such recording");
-  answer(response, *content);
+  answer(response, std::move(*content));
 }
 
 void Api::get_track(const Request& request, Response& response) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace tessera::server {
@@ -12,7 +13,9 @@ namespace tessera::server {
 class Assets {
  public:
   struct Asset {
-    std::string bytes, type;
+    std::shared_ptr<const std::string> bytes;
+    std::shared_ptr<const std::string> packed;  ///< by gzip; nullptr: that saves nothing
+    std::string type;
   };
   /// folder: as Vite builds it, with an index.html; it need not exist.
   explicit Assets(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -14,24 +15,52 @@ namespace tessera::server {
 
 using nlohmann::json;
 
-ControllerLink::~ControllerLink() { close(); }
+namespace {
 
-bool ControllerLink::connect(const std::string& system, pid_t process) {
+/// -1: nobody listens there.
+int connected_to(const std::filesystem::path& file) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string file = monitor_folder() + "/" + system + "." + std::to_string(process) + ".sock";
-  if (file.size() >= sizeof address.sun_path) return false;
-  std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
+  if (file.native().size() >= sizeof address.sun_path) return -1;
+  std::memcpy(address.sun_path, file.c_str(), file.native().size() + 1);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (::connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    ::close(made);
-    return false;
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return made;
+  close(made);
+  return -1;
+}
+
+}  // namespace
+
+std::vector<std::string> listening_sockets() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(monitor_folder(), ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (entry->path().extension() != ".sock" || !entry->is_socket(ignored)) continue;
+    const int found = connected_to(entry->path());
+    if (found < 0) continue;
+    close(found);
+    names.push_back(entry->path().filename().string());
   }
+  std::ranges::sort(names);
+  return names;
+}
+
+ControllerLink::~ControllerLink() { close(); }
+
+bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
+  const int made = connected_to(file);
+  if (made < 0) return false;
   const std::lock_guard lock(mutex_);
   socket_ = made;
   open_ = true;
   answered_.notify_all();
-  return say("{\"command\":\"own\"}\n");
+  return !own || say("{\"command\":\"own\"}\n");
+}
+
+bool ControllerLink::is_over() {
+  const std::lock_guard lock(mutex_);
+  return over_;
 }
 
 bool ControllerLink::say(const std::string& line) {

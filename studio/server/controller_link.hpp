@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <condition_variable>
 #include <filesystem>
 #include <map>
@@ -9,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tessera::server {
 
@@ -22,14 +21,16 @@ class ControllerLink {
   ControllerLink(const ControllerLink&) = delete;
   ControllerLink& operator=(const ControllerLink&) = delete;
 
-  /// Connects to that process of that system, if it listens by now, and makes the run end with this
-  /// connection. true: connected.
-  bool connect(const std::string& system, pid_t process);
+  /// Connects to the socket, if somebody listens there by now. own: makes the run end with this connection.
+  /// true: connected.
+  bool connect(const std::filesystem::path& socket, bool own);
   /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<nlohmann::json> snapshot();
   /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
   /// seconds each. Meanwhile somebody has to call connect and snapshot.
   [[nodiscard]] std::string command(nlohmann::json command);
+  /// Who was connected to has closed, or `close` was called.
+  [[nodiscard]] bool is_over();
   /// No answers come any more.
   void close();
 
@@ -43,5 +44,9 @@ class ControllerLink {
   int last_ = 0;
   bool open_ = false, over_ = false;
 };
+
+/// Names in tessera::monitor_folder() of sockets where somebody listens: controllers on this machine, and
+/// ends of tunnels to others.
+[[nodiscard]] std::vector<std::string> listening_sockets();
 
 }  // namespace tessera::server

@@ -15,6 +15,7 @@ namespace {
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_poses = std::chrono::milliseconds(50);
 constexpr auto between_markings = std::chrono::milliseconds(500);
+constexpr auto between_subsystems = std::chrono::milliseconds(200);
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -31,11 +32,9 @@ json pose_of(std::string_view line) {
 
 }  // namespace
 
-Follower::Follower(const std::filesystem::path& folder, const Analysis& analysis)
-    : analysis_(analysis),
-      recording_(folder / "recording.tsr", *analysis.net),
-      path_(folder / "path.csv"),
-      values_(*analysis.model) {}
+Follower::Follower(const std::filesystem::path& recording, const std::filesystem::path& path,
+                   const Analysis& analysis)
+    : analysis_(analysis), recording_(recording, *analysis.net), path_(path), values_(*analysis.model) {}
 
 void Follower::rest() { std::this_thread::sleep_for(between_looks); }
 
@@ -78,6 +77,13 @@ void Follower::add_pose(News& news) {
 }
 
 void Follower::add_snapshot(const json& snapshot, News& news) {
+  news.time_ns = std::max(news.time_ns, nanoseconds(snapshot.value("time_s", 0.0)));
+  if (Clock::now() - subsystems_told_ >= between_subsystems) {
+    subsystems_told_ = Clock::now();
+    news.subsystems = {{"t", nanoseconds(snapshot.value("time_s", 0.0))},
+                       {"subsystems", snapshot.value("subsystems", json::array())},
+                       {"channels", snapshot.value("channels", json::array())}};
+  }
   news.has_state = snapshot.contains("paused");
   news.paused = snapshot.value("paused", false);
   news.pauses = snapshot.value("pauses", std::uint64_t{0});

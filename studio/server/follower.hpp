@@ -18,11 +18,12 @@ namespace tessera::server {
 /// the snapshots of its control socket. Ready to be sent.
 class Follower {
  public:
-  /// folder: of the run's files, as project::run_files names them.
-  Follower(const std::filesystem::path& folder, const Analysis& analysis);
+  /// recording, path: that the run writes; empty: none that can be read.
+  Follower(const std::filesystem::path& recording, const std::filesystem::path& path,
+           const Analysis& analysis);
 
   struct News {
-    nlohmann::json firings, values, pose;  ///< data of the events; null: nothing new
+    nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     bool has_state = false, paused = false;
@@ -46,7 +47,7 @@ class Follower {
   GrowingFile path_;
   std::string path_line_;
   ValueReader values_;
-  std::chrono::steady_clock::time_point marking_told_{}, pose_told_{};
+  std::chrono::steady_clock::time_point marking_told_{}, pose_told_{}, subsystems_told_{};
   nlohmann::json pose_waiting_;
   std::optional<nlohmann::json> snapshot_;
   std::string values_seen_;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <utility>
@@ -10,8 +11,8 @@
 #include "project/listener.hpp"
 #include "project/process.hpp"
 #include "project/walk.hpp"
-#include "server/follower.hpp"
 #include "server/json_text.hpp"
+#include "tessera/monitor.hpp"
 
 namespace tessera::server {
 
@@ -31,6 +32,18 @@ const char* name_of(Run::State state) {
       return "ended";
     case Run::State::failed:
       return "failed";
+  }
+  return "";
+}
+
+const char* name_of(RunRequest::Kind kind) {
+  switch (kind) {
+    case RunRequest::Kind::simulate:
+      return "simulate";
+    case RunRequest::Kind::run:
+      return "run";
+    case RunRequest::Kind::attach:
+      return "attach";
   }
   return "";
 }
@@ -112,6 +125,7 @@ void Run::set_state(State state, const std::string& why) {
 
 void Run::make_and_run() {
   try {
+    if (request_.kind == RunRequest::Kind::attach) return attach();
     const std::optional<project::Controller> controller = make();
     if (controller) execute(*controller);
   } catch (const std::exception& error) {
@@ -153,21 +167,23 @@ void Run::execute(const project::Controller& controller) {
   options.base = controller.specification.project;
   options.folder = place_.folder.string();
   const bool has_world = controller.specification.model.simulation.has_value();
-  project::Command command =
-      project::controller_command(controller, options, request_.simulated ? "simulate" : "run",
-                                  has_world && (request_.simulated || !request_.world.empty()));
-  if (request_.simulated) {
+  const bool simulated = request_.kind == RunRequest::Kind::simulate;
+  project::Command command = project::controller_command(controller, options, name_of(request_.kind),
+                                                         has_world && (simulated || !request_.world.empty()));
+  if (simulated) {
     command.insert(command.end(), {"--controlled", fmt::format("--speed={}", request_.speed)});
     if (request_.paused) command.emplace_back("--paused");
   }
-  set_state(request_.paused && request_.simulated ? State::paused : State::running);
+  set_state(request_.paused && simulated ? State::paused : State::running);
   const project::Exit exit = project::capture_apart(
       command, stop_,
       [this](std::string_view line) {
         publish("log", {{"line", line}});
       },
       [this, &options](pid_t process) {
-        follower_ = std::thread([this, process, folder = options.folder] { follow(process, folder); });
+        const std::filesystem::path socket = std::filesystem::path(monitor_folder()) /
+                                             fmt::format("{}.{}.sock", analysis_->model->system, process);
+        follower_ = std::thread([this, socket, folder = options.folder] { follow(socket, folder); });
       });
   process_over_ = true;
   if (follower_.joinable()) follower_.join();
@@ -181,46 +197,91 @@ void Run::execute(const project::Controller& controller) {
   set_state(failed ? State::failed : State::ended, why);
 }
 
-void Run::follow(pid_t process, const std::filesystem::path& folder) {
-  Follower follower(folder, *analysis_);
+void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
+  Follower follower(folder / "recording.tsr", folder / "path.csv", *analysis_);
   bool connected = false;
-  std::uint64_t pauses = 0;
   for (bool last = false;; last = process_over_) {
-    if (request_.simulated && !connected) connected = link_.connect(analysis_->model->system, process);
-    Follower::News news = follower.look(connected ? link_.snapshot() : std::nullopt);
-    std::optional<State> changed;
-    {
-      const std::lock_guard lock(mutex_);
-      time_ns_ = std::max(time_ns_, news.time_ns);
-      if (news.marking) marking_ = *news.marking;
-      if (!news.values.is_null()) values_ = news.values.at("values");
-      if (!news.pose.is_null()) pose_ = news.pose;
-      const State now = news.paused ? State::paused : State::running;
-      // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
-      const bool rested_again = news.paused && news.pauses != std::exchange(pauses, news.pauses);
-      if (news.has_state && (now != state_ || rested_again) && !last) changed = now;
-    }
-    if (!news.firings.is_null()) publish("firings", std::move(news.firings));
-    if (!news.values.is_null()) publish("values", std::move(news.values));
-    if (!news.pose.is_null()) publish("pose", std::move(news.pose));
-    if (changed) set_state(*changed, news.broke_at.empty() ? "" : "breakpoint: " + news.broke_at);
-    if (last && !news.more) break;
-    if (!news.more) follower.rest();
+    if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
+    const bool more = tell(follower, connected ? link_.snapshot() : std::nullopt, last);
+    if (last && !more) break;
+    if (!more) Follower::rest();
   }
   link_.close();
 }
 
+/// true: there is more to tell at once.
+bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
+  Follower::News news = follower.look(std::move(snapshot));
+  std::optional<State> changed;
+  {
+    const std::lock_guard lock(mutex_);
+    time_ns_ = std::max(time_ns_, news.time_ns);
+    if (news.marking) marking_ = *news.marking;
+    if (!news.values.is_null()) values_ = news.values.at("values");
+    if (!news.pose.is_null()) pose_ = news.pose;
+    if (!news.subsystems.is_null()) subsystems_ = news.subsystems;
+    const State now = news.paused ? State::paused : State::running;
+    // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
+    const bool rested_again = news.paused && news.pauses != std::exchange(pauses_, news.pauses);
+    if (news.has_state && (now != state_ || rested_again) && !last) changed = now;
+  }
+  controllable_ = controllable_ || news.has_state;
+  if (!news.firings.is_null()) publish("firings", std::move(news.firings));
+  if (!news.values.is_null()) publish("values", std::move(news.values));
+  if (!news.pose.is_null()) publish("pose", std::move(news.pose));
+  if (!news.subsystems.is_null()) publish("subsystems", std::move(news.subsystems));
+  if (changed) set_state(*changed, news.broke_at.empty() ? "" : "breakpoint: " + news.broke_at);
+  return news.more;
+}
+
+/// Why what runs there cannot be shown on this net; empty: it can.
+std::string Run::refused(const json& snapshot) const {
+  if (snapshot.value("net_hash", "") == analysis_->net_hash) return {};
+  return fmt::format("the controller runs another net (of the system {}) than the specification here",
+                     snapshot.value("system", "?"));
+}
+
+/// The controller's recording when it is within the project; else an empty path.
+std::filesystem::path Run::readable(const json& snapshot) const {
+  std::error_code missing;
+  const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);
+  const auto [end, ignored] = std::ranges::mismatch(place_.folder, file);
+  return !missing && end == place_.folder.end() ? file : std::filesystem::path();
+}
+
+void Run::attach() {
+  if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
+    return set_state(State::failed, "nobody listens at " + request_.socket);
+  std::optional<json> snapshot;
+  while (!snapshot && !stop_ && !link_.is_over()) {
+    snapshot = link_.snapshot();
+    if (!snapshot) Follower::rest();
+  }
+  if (!snapshot) return set_state(State::ended, "it has ended");
+  if (const std::string why = refused(*snapshot); !why.empty()) return set_state(State::failed, why);
+  const std::filesystem::path recording = readable(*snapshot);
+  Follower follower(recording, recording.empty() ? recording : recording.parent_path() / "path.csv",
+                    *analysis_);
+  set_state(State::running);
+  while (!stop_ && !link_.is_over()) {
+    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) Follower::rest();
+    snapshot = link_.snapshot();
+  }
+  link_.close();
+  set_state(State::ended, stop_ ? "let go; it runs on" : "it has ended");
+}
+
 json Run::info(bool all) const {
   const std::lock_guard lock(mutex_);
-  json info{
-      {"run", id_},  {"state", name_of(state_)},        {"kind", request_.simulated ? "simulate" : "run"},
-      {"why", why_}, {"net_hash", analysis_->net_hash}, {"t", time_ns_}};
+  json info{{"run", id_},  {"state", name_of(state_)},        {"kind", name_of(request_.kind)},
+            {"why", why_}, {"net_hash", analysis_->net_hash}, {"t", time_ns_}};
   if (!all) return info;
   info["marking"] = marking_;
   info["values"] = values_;
   info["pose"] = pose_;
   info["verdicts"] = verdicts_;
   info["outcome"] = outcome_;
+  info["subsystems"] = subsystems_;
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
 }
@@ -232,8 +293,10 @@ std::string Run::control(json command) {
     stop_ = true;
     return {};
   }
-  if (!request_.simulated) return "a controller in real time can only be stopped";
+  if (request_.kind == RunRequest::Kind::run) return "a controller in real time can only be stopped";
   if (is_building()) return "the controller is still being made";
+  if (request_.kind == RunRequest::Kind::attach && !controllable_)
+    return "this controller can only be watched: it runs in real time";
   if (what == "breakpoints") {
     json places = json::array();
     for (const std::uint32_t place : command.value("places", std::vector<std::uint32_t>{})) {

@@ -14,12 +14,18 @@
 #include "server/analysis.hpp"
 #include "server/controller_link.hpp"
 #include "server/events.hpp"
+#include "server/follower.hpp"
 
 namespace tessera::server {
 
 /// What is asked of a run.
 struct RunRequest {
-  bool simulated = true;  ///< false: the steady clock and real drivers
+  enum class Kind : std::uint8_t {
+    simulate,  ///< the simulated clock
+    run,       ///< the steady clock and real drivers
+    attach     ///< a controller that somebody else has started
+  } kind = Kind::simulate;
+  std::string socket;  ///< of attach: a name in tessera::monitor_folder()
   std::string world, track, duration;
   std::uint64_t seed = 1;
   double speed = 1;
@@ -27,12 +33,13 @@ struct RunRequest {
 };
 
 /// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
+/// One that is attached to is only followed; it goes on when this ends.
 ///
 /// Threads: any.
 class Run {
  public:
   struct Place {
-    std::filesystem::path spec, folder;  ///< the file, and where the run's files go
+    std::filesystem::path spec, folder;  ///< the file, and where the run's files go, or are looked for
   };
   /// building: held while something is generated and compiled, of which there is one at a time.
   Run(std::string id, RunRequest request, Place place, std::shared_ptr<const Analysis> analysis,
@@ -55,7 +62,11 @@ class Run {
   void make_and_run();
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(const project::Controller& controller);
-  void follow(pid_t process, const std::filesystem::path& folder);
+  void attach();
+  [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot) const;
+  void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
+  [[nodiscard]] bool tell(Follower& follower, std::optional<nlohmann::json> snapshot, bool last);
   void set_state(State state, const std::string& why = {});
   void publish(const char* event, nlohmann::json data) const;
 
@@ -66,13 +77,14 @@ class Run {
   std::mutex& building_;
   Events& events_;
   ControllerLink link_;
-  std::atomic<bool> stop_{false}, process_over_{false};
+  std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
+  std::uint64_t pauses_ = 0;  ///< the follower's: how often the controller had come to rest
   std::thread follower_, thread_;
 
   mutable std::mutex mutex_;  ///< of what follows
   State state_ = State::building;
   std::string why_;
-  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_;
+  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
 };

@@ -28,10 +28,12 @@ Runs::Started Runs::start(RunRequest request) {
     runs_.erase(old);
   }
   const std::uint64_t number = ++last_;
+  const bool makes_files = request.kind != RunRequest::Kind::attach;
   const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), number);
-  runs_[number] = std::make_shared<Run>(std::to_string(number), std::move(request),
-                                        Run::Place{file_.path(), file_.folder() / ".tessera/runs" / name},
-                                        std::move(analysis), building_, events_);
+  const fs::path folder = makes_files ? file_.folder() / ".tessera/runs" / name : file_.folder();
+  runs_[number] =
+      std::make_shared<Run>(std::to_string(number), std::move(request), Run::Place{file_.path(), folder},
+                            std::move(analysis), building_, events_);
   return {std::to_string(number), 202, {}, {}};
 }
 

@@ -60,7 +60,11 @@ struct Studio::Parts {
   void serve_page(const Request& request, Response& response) const {
     const Assets::Asset* asset = assets.find(request.path);
     if (asset == nullptr) return answer_error(response, 404, "there is no such page");
-    response.set_content(asset->bytes, asset->type);
+    const bool packed = asset->packed != nullptr &&
+                        request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+    answer_pieces(response, {packed ? asset->packed : asset->bytes}, asset->type);
+    if (packed) response.set_header("Content-Encoding", "gzip");
+    response.set_header("Vary", "Accept-Encoding");
     response.set_header("Cache-Control", "no-cache");
   }
 
@@ -82,7 +86,8 @@ struct Studio::Parts {
       }
     });
     http.set_error_handler([](const Request&, Response& response) {
-      if (response.body.empty()) answer_error(response, response.status, "this cannot be answered");
+      if (response.body.empty() && !response.content_provider_)
+        answer_error(response, response.status, "this cannot be answered");
     });
     api.serve_on(http);
     http.Get("/.*", [this](const Request& request, Response& response) { serve_page(request, response); });

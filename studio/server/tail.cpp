@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 
 namespace tessera::server {
 
@@ -49,18 +50,16 @@ void RecordingTail::play(std::uint32_t transition) {
     tokens_[arc.place.value] += static_cast<std::int32_t>(arc.weight);
 }
 
-std::optional<RecordingTail::Batch> RecordingTail::next() {
-  constexpr std::size_t most = std::size_t{1} << 20U;
-  const std::string bytes = file_.more(most);
-  if (bytes.empty()) return std::nullopt;
-  reader_.feed(bytes);
-  if (!reader_.has_header()) return std::nullopt;
-  if (hash_.empty()) {
-    hash_ = reader_.recording().net_hash;
-    transitions_ = map_.of(reader_.recording());
-  }
-  Batch batch;
-  batch.more = bytes.size() == most;
+bool RecordingTail::read_header() {
+  if (!reader_.has_header()) return false;
+  if (!hash_.empty()) return true;
+  hash_ = reader_.recording().net_hash;
+  transitions_ = map_.of(reader_.recording());
+  return true;
+}
+
+/// Of many firings, only the last are kept.
+void RecordingTail::take(Batch& batch) {
   for (Recording::Entry& entry : std::exchange(reader_.recording().entries, {})) {
     if (entry.event.kind() != Event::Kind::firing) {
       batch.messages.emplace_back(entry.event.time_ns, std::move(entry.text));
@@ -75,12 +74,27 @@ std::optional<RecordingTail::Batch> RecordingTail::next() {
   }
   // Threads write one after the other; the page shows time.
   std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
-  if (batch.firings.size() > most_firings) {
-    batch.dropped = batch.firings.size() - most_firings;
-    batch.firings.erase(batch.firings.begin(),
-                        batch.firings.end() - static_cast<std::ptrdiff_t>(most_firings));
-  }
-  return batch;
+  if (batch.firings.size() <= most_firings) return;
+  const std::size_t beyond = batch.firings.size() - most_firings;
+  batch.dropped += beyond;
+  batch.firings.erase(batch.firings.begin(), batch.firings.begin() + static_cast<std::ptrdiff_t>(beyond));
+}
+
+std::optional<RecordingTail::Batch> RecordingTail::next() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t piece = std::size_t{1} << 20U;
+  constexpr auto patience = std::chrono::milliseconds(30);
+  const Clock::time_point until = Clock::now() + patience;
+  Batch batch;
+  do {
+    const std::string bytes = file_.more(piece);
+    batch.more = bytes.size() == piece;
+    if (bytes.empty()) break;
+    reader_.feed(bytes);
+    if (read_header()) take(batch);
+  } while (batch.more && Clock::now() < until);
+  const bool nothing = batch.firings.empty() && batch.dropped == 0 && batch.messages.empty() && !batch.more;
+  return nothing ? std::nullopt : std::optional(std::move(batch));
 }
 
 std::vector<std::uint32_t> RecordingTail::marking() const {

@@ -51,7 +51,7 @@ class RecordingTail {
     std::vector<std::pair<std::int64_t, std::string>> messages;   ///< of the log, and why it stopped
     bool more = false;                                            ///< the file may have more already
   };
-  /// What has been written since; nullopt: nothing.
+  /// What has been written since, as far as it can be read in a few milliseconds; nullopt: nothing.
   [[nodiscard]] std::optional<Batch> next();
   /// Places with a token after all that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const;
@@ -61,6 +61,8 @@ class RecordingTail {
 
  private:
   void play(std::uint32_t transition);
+  [[nodiscard]] bool read_header();
+  void take(Batch& batch);
   GrowingFile file_;
   const net::Net& net_;
   TransitionMap map_;

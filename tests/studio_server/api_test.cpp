@@ -146,6 +146,25 @@ TEST_F(Api, ThePageNeedsNoTokenAndMayLoadNothingForeign) {
   EXPECT_THAT(script.headers.find("Content-Type")->second, HasSubstr("javascript"));
 }
 
+TEST_F(Api, FilesOfThePageComePackedToWhoeverTakesThemSoAndAnswersNever) {
+  const std::string script(100'000, ' ');
+  write(options_.page / "assets/index.js", script);
+  serve();
+  const auto ask_packed = [&](const std::string& path) {
+    Headers headers = own_headers();
+    headers.emplace("Accept-Encoding", "gzip, deflate, br");
+    return ask_with(headers, "GET", path, {});
+  };
+  const Reply packed = ask_packed("/assets/index.js");
+  ASSERT_TRUE(packed.headers.contains("Content-Encoding"));
+  EXPECT_EQ(packed.headers.find("Content-Encoding")->second, "gzip");
+  EXPECT_LT(packed.body.size(), 1000U);
+  EXPECT_EQ(get("/assets/index.js").body, script);
+  const Reply answer = ask_packed("/api/spec");
+  EXPECT_FALSE(answer.headers.contains("Content-Encoding"));
+  EXPECT_TRUE(answer.json().at("analysis").at("net").is_object());
+}
+
 TEST_F(Api, APortThatIsTakenLeadsToTheNext) {
   serve();
   options_.port = port_;

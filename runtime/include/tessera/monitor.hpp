@@ -6,7 +6,7 @@
 /// `<monitor_folder()>/<system>.<pid>.sock`, and sends to whoever connects a line of JSON at once and then
 /// five times a second:
 ///
-///     {"system", "pid", "net_hash", "time_s",
+///     {"system", "pid", "net_hash", "time_s", "recording": file; absent: none,
 ///      "subsystems": [{"path", "behaviour", "calling", "ended", "iterations", "firings", "overruns",
 ///      "errors",
 ///                      "period_s", "called_at_s", "call_s", "longest_call_s"}],

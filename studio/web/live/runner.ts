@@ -62,6 +62,7 @@ export class Track {
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
   track: Track | null = null;
+  private asking = false;
 
   constructor(
     private readonly api: Api,
@@ -196,10 +197,22 @@ export class Runner {
     if (run === null) return;
     try {
       await this.api.control(run, request);
-      this.store.set({ problem: "", ...(request.command === "speed" && request.value ? { speed: request.value } : {}) });
+      this.store.set({ problem: "" });
     } catch (error) {
       this.store.set({ problem: message(error) });
     }
+  }
+
+  /** Shows the speed at once and asks for it; of many in a row, as a slider gives them, only the latest is asked for. */
+  async setSpeed(speed: number): Promise<void> {
+    this.store.set({ speed });
+    if (this.asking) return;
+    this.asking = true;
+    for (let asked = NaN; asked !== this.store.get().speed;) {
+      asked = this.store.get().speed;
+      await this.control({ command: "speed", value: asked });
+    }
+    this.asking = false;
   }
 
   toggleBreakpoint(place: number): void {

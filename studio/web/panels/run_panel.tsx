@@ -158,7 +158,7 @@ function Controls() {
               choices={subsystems.map((path) => ({ value: path, title: path }))}
             />
           )}
-          <SpeedSlider speed={speed} onChange={(value) => void control({ command: "speed", value })} />
+          <SpeedSlider speed={speed} onChange={(value) => void studio.runner.setSpeed(value)} />
         </>
       )}
     </>

@@ -1,8 +1,15 @@
-// Times of the page with large fleets: node tests/e2e/measure.mjs FOLDER ... (TESSERA and STUDIO_DIST as for the tests).
-import { onPage } from "./page.mjs";
+// Times of the page with large fleets: node tests/e2e/measure.mjs 100 1000 (TESSERA as for the tests).
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { folder, onPage } from "./page.mjs";
 
-for (const folder of process.argv.slice(2))
-  await onPage(folder, async (page) => {
+const fleet = readFileSync(join(folder("fleet"), "spec.yaml"), "utf8");
+
+for (const robots of process.argv.slice(2)) {
+  const project = mkdtempSync(join(tmpdir(), "studio-fleet-"));
+  writeFileSync(join(project, "spec.yaml"), fleet.replace("count: 100", `count: ${robots}`));
+  await onPage(project, async (page) => {
     const loaded = await page.evaluate(
       () =>
         new Promise((done) => {
@@ -27,7 +34,7 @@ for (const folder of process.argv.slice(2))
         `  ${what}: ${((1000 * gaps.length) / (times.at(-1) - times[0])).toFixed(1)} frames/s, median ${gaps[gaps.length >> 1].toFixed(1)} ms, worst ${gaps.at(-1).toFixed(0)} ms`,
       );
     };
-    console.log(`${folder}: drawn after ${(loaded / 1000).toFixed(2)} s`);
+    console.log(`${robots} robots: drawn after ${(loaded / 1000).toFixed(2)} s`);
     const pan = async () => {
       await page.mouse.move(area.x + area.width / 2, area.y + 200);
       await page.mouse.down();
@@ -42,3 +49,5 @@ for (const folder of process.argv.slice(2))
       for (let step = 0; step < 60; step += 1) await page.mouse.wheel(0, step < 40 ? -80 : 80);
     });
   });
+  rmSync(project, { recursive: true, force: true });
+}

@@ -153,6 +153,10 @@ inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& tran
   return tokens_[transition.latch].latched == transition.decided;
 }
 
+bool SubsystemExecutor::wants_to_fire(std::uint32_t transition) const {
+  return locally_enabled(plan_->transitions[transition]) && condition_holds(plan_->transitions[transition]);
+}
+
 Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   const Duration timeout = operations_.parts().ports[transition.port].timeout;
   if (timeout == Duration::zero()) return Time::max();
@@ -164,6 +168,7 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
 
 inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
   if (++firings_ % look_up == 0 || lane_ != nullptr) renew_time();
+  last_fired_ = transition.index;
   if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
   if (transition.tells_of_timeout) {
     if (transition.guard.kind == Guard::Kind::elapsed)

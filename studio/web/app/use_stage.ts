@@ -7,6 +7,8 @@ import { useStore, useStudio } from "./use";
 export function useRunning(): ReadonlyMap<string, string> {
   const studio = useStudio();
   const net = useStore(studio.stage.shown, (all) => all.net);
+  const live = useStore(studio.stage.shown, (all) => all.mode === "live");
+  const told = useStore(studio.runner.store, (all) => all.behaviours);
   const [text, setText] = useState("");
   useEffect(() => {
     const look = () =>
@@ -14,6 +16,8 @@ export function useRunning(): ReadonlyMap<string, string> {
     look();
     return studio.stage.subscribe(look);
   }, [net, studio]);
+  // Without its recording one knows of a controller only what it says.
+  if (text === "" && live) return told;
   return new Map(
     text
       .split("\n")

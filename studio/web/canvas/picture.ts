@@ -76,10 +76,30 @@ function add(element: Element, to: Element, frame: DOMRect): void {
 }
 
 function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Element, frame: DOMRect): void {
-  const border = parseFloat(style.borderTopWidth) * scale;
   const clear = (colour: string) => colour === "rgba(0, 0, 0, 0)" || colour === "transparent";
-  const outlined = border > 0 && style.borderTopStyle !== "none" && !clear(style.borderTopColor);
-  if (box.width === 0 || (clear(style.backgroundColor) && !outlined)) return;
+  const width = (side: "Top" | "Bottom" | "Left") =>
+    style[`border${side}Style`] === "none" || clear(style[`border${side}Color`])
+      ? 0
+      : parseFloat(style[`border${side}Width`]) * scale;
+  const border = width("Top");
+  const outlined = border > 0 && width("Left") > 0;
+  if (box.width === 0) return;
+  // A border above or below alone is a line.
+  if (!outlined)
+    for (const [side, y] of [
+      ["Top", box.top],
+      ["Bottom", box.bottom],
+    ] as const)
+      if (width(side) > 0)
+        to.append(
+          make("path", {
+            d: `M${round(box.left - frame.left)} ${round(y - frame.top)}h${round(box.width)}`,
+            stroke: plainColour(style[`border${side}Color`]),
+            "stroke-width": round(width(side)),
+            ...(style[`border${side}Style`] === "dashed" ? { "stroke-dasharray": "4 3" } : {}),
+          }),
+        );
+  if (clear(style.backgroundColor) && !outlined) return;
   const rect = make("rect", {
     x: round(box.left - frame.left),
     y: round(box.top - frame.top),
@@ -87,9 +107,9 @@ function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Ele
     height: round(box.height),
     rx: round(Math.min(parseFloat(style.borderTopLeftRadius) * scale || 0, box.height / 2)),
   });
-  rect.setAttribute("fill", clear(style.backgroundColor) ? "none" : style.backgroundColor);
+  rect.setAttribute("fill", clear(style.backgroundColor) ? "none" : plainColour(style.backgroundColor));
   if (outlined) {
-    rect.setAttribute("stroke", style.borderTopColor);
+    rect.setAttribute("stroke", plainColour(style.borderTopColor));
     rect.setAttribute("stroke-width", String(round(border)));
     if (style.borderTopStyle === "dashed") rect.setAttribute("stroke-dasharray", "4 3");
   }
@@ -104,12 +124,13 @@ function addText(node: Node, style: CSSStyleDeclaration, scale: number, to: Elem
   const text = make("text", {
     x: round(box.left - frame.left),
     y: round(box.top - frame.top + box.height / 2 + size * 0.35),
-    fill: style.color,
+    fill: plainColour(style.color),
     "font-size": round(size),
     "font-family": style.fontFamily,
     "font-weight": style.fontWeight,
   });
-  text.textContent = node.textContent!.trim();
+  text.setAttribute("xml:space", "preserve");
+  text.textContent = node.textContent!.replace(/\s+/g, " ");
   to.append(text);
 }
 
@@ -119,13 +140,22 @@ function copy(element: Element): Element {
   if (hidden(style) && !(element instanceof SVGMarkerElement)) return make("g", {});
   for (const property of kept) {
     const value = style.getPropertyValue(property);
-    if (value && value !== "none" && value !== "normal") same.setAttribute(property, value.replace(/url\("[^"#]*#/, 'url("#'));
+    if (value && value !== "none" && value !== "normal")
+      same.setAttribute(property, plainColour(value.replace(/url\("[^"#]*#/, 'url("#')));
     else if (value === "none" && (property === "fill" || property === "stroke")) same.setAttribute(property, value);
   }
   for (const name of ["class", "style", "role", "aria-label", "tabindex"]) same.removeAttribute(name);
   if (!(element instanceof SVGMarkerElement)) same.removeAttribute("id");
   for (const child of element.childNodes) same.append(child instanceof Element ? copy(child) : child.cloneNode(true));
   return same;
+}
+
+/** A mixed colour as the browser computes it, in the words that every program understands. */
+export function plainColour(value: string): string {
+  const mixed = /^color\(srgb ([-\d.e]+) ([-\d.e]+) ([-\d.e]+)(?: \/ ([\d.e-]+))?\)$/.exec(value);
+  if (!mixed) return value;
+  const [red, green, blue] = mixed.slice(1, 4).map((part) => Math.round(Math.min(1, Math.max(0, Number(part))) * 255));
+  return mixed[4] === undefined ? `rgb(${red}, ${green}, ${blue})` : `rgba(${red}, ${green}, ${blue}, ${mixed[4]})`;
 }
 
 function make(name: string, attributes: Record<string, string | number>): Element {

@@ -93,6 +93,8 @@ export class Api {
     this.ask<RunInfo[] | { runs: RunInfo[] }>("GET", "/api/runs").then((answer) =>
       Array.isArray(answer) ? answer : answer.runs,
     );
+  /** Sockets where controllers listen. */
+  controllers = () => this.ask<string[]>("GET", "/api/controllers");
   run = (run: string) => this.ask<RunInfo>("GET", `/api/runs/${encodeURIComponent(run)}`);
   recordings = () =>
     this.ask<RecordingInfo[] | { recordings: RecordingInfo[] }>("GET", "/api/recordings").then((answer) =>

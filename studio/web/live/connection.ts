@@ -7,7 +7,7 @@ export interface ConnectionState {
   attempt: number;
 }
 type Handler = (data: never) => void;
-const names = ["hello", "spec", "verify", "build", "log", "run", "firings", "values", "pose"] as const;
+const names = ["hello", "spec", "verify", "build", "log", "run", "firings", "values", "pose", "subsystems"] as const;
 export type EventName = (typeof names)[number];
 
 /** The event stream, opened again whenever it breaks. */

@@ -88,6 +88,12 @@ export interface ValuesEvent {
   t: number;
   values: Record<string, unknown>;
 }
+/** What a controller says of itself; all there is of one whose recording cannot be read from here. */
+export interface SubsystemsEvent {
+  run: string;
+  t: number;
+  subsystems: { path: string; behaviour: string; firings: number }[];
+}
 export interface PoseEvent {
   run: string;
   t: number;
@@ -111,7 +117,9 @@ export interface Recording {
   truncated?: boolean;
 }
 export interface RunRequest {
-  kind: "simulate" | "run";
+  kind: "simulate" | "run" | "attach";
+  /** Of the controller to watch, when one is attached to. */
+  socket?: string;
   world?: string;
   track?: string;
   for?: string;

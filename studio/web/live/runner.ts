@@ -4,7 +4,16 @@ import { Timeline } from "../model/timeline";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
-import type { ControlRequest, FiringsEvent, PoseEvent, RunInfo, RunRequest, RunState, ValuesEvent } from "./protocol";
+import type {
+  ControlRequest,
+  FiringsEvent,
+  PoseEvent,
+  RunInfo,
+  RunRequest,
+  RunState,
+  SubsystemsEvent,
+  ValuesEvent,
+} from "./protocol";
 import type { Stage } from "./stage";
 import { Store } from "./store";
 
@@ -17,6 +26,8 @@ export interface RunnerState {
   build: readonly string[];
   speed: number;
   problem: string;
+  /** Behaviour by path of subsystem, as the controller says. */
+  behaviours: ReadonlyMap<string, string>;
   /** Places at which the run pauses. */
   breakpoints: readonly number[];
 }
@@ -30,6 +41,7 @@ const idle: RunnerState = {
   build: [],
   speed: 1,
   problem: "",
+  behaviours: new Map(),
   breakpoints: [],
 };
 
@@ -79,6 +91,7 @@ export class Runner {
     connection.on<FiringsEvent>("firings", (event) => this.mine(event) && this.fired(event));
     connection.on<ValuesEvent>("values", (event) => this.mine(event) && this.valued(event));
     connection.on<PoseEvent>("pose", (event) => this.mine(event) && this.posed(event));
+    connection.on<SubsystemsEvent>("subsystems", (event) => this.mine(event) && this.reported(event));
     connection.on("hello", () => void this.attach());
   }
 
@@ -183,6 +196,14 @@ export class Runner {
     if (!track) return;
     track.now = Math.max(track.now, t);
     for (const [path, value] of Object.entries(values)) track.series.add(t, path, value);
+  }
+
+  private reported({ t, subsystems }: SubsystemsEvent): void {
+    if (this.track) this.track.now = Math.max(this.track.now, t);
+    const behaviours = new Map(subsystems.map(({ path, behaviour }) => [path, behaviour]));
+    const known = this.store.get().behaviours;
+    if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
+      this.store.set({ behaviours });
   }
 
   private posed({ t, x, y, heading }: PoseEvent): void {

@@ -1,6 +1,7 @@
-import { useState } from "react";
+import { useCallback, useEffect, useState } from "react";
 import { useRunning } from "../app/use_stage";
 import { useStore, useStudio } from "../app/use";
+import { message } from "../live/draft";
 import type { RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";
 import { Icon } from "./icons";
@@ -50,6 +51,51 @@ export function RunPanel() {
   );
 }
 
+const kinds = [
+  { value: "simulate", title: "in the simulated world" },
+  { value: "run", title: "on the steady clock, as on the robot" },
+  { value: "attach", title: "nothing: watch one that runs already" },
+] as const;
+
+/** Controllers that were started elsewhere, to be watched. */
+function AttachForm({ kind, onKind }: { kind: RunRequest["kind"]; onKind: (kind: RunRequest["kind"]) => void }) {
+  const studio = useStudio();
+  const [sockets, setSockets] = useState<readonly string[] | null>(null);
+  const [chosen, setChosen] = useState("");
+  const [problem, setProblem] = useState("");
+  const look = useCallback(
+    () =>
+      studio.api.controllers().then(
+        (found) => (setSockets(found), setProblem("")),
+        (error: unknown) => setProblem(message(error)),
+      ),
+    [studio],
+  );
+  useEffect(() => void look(), [look]);
+  const socket = sockets?.includes(chosen) ? chosen : (sockets?.[0] ?? "");
+  return (
+    <>
+      <Choice label="Run" value={kind} onChange={onKind} choices={kinds} />
+      {problem && <p className="problem-hint">{problem}</p>}
+      {sockets?.length === 0 && <p className="faint">No controller runs on this machine for this user.</p>}
+      {socket && (
+        <Choice
+          label="Controller"
+          value={socket}
+          onChange={setChosen}
+          choices={sockets!.map((one) => ({ value: one, title: one.replace(/\.sock$/, "") }))}
+        />
+      )}
+      <div className="buttons">
+        <button className="primary" disabled={!socket} onClick={() => void studio.runner.start({ kind: "attach", socket })}>
+          Watch it
+        </button>
+        <button onClick={() => void look()}>Look again</button>
+      </div>
+    </>
+  );
+}
+
 function StartForm() {
   const studio = useStudio();
   const runner = useStore(studio.runner.store, (all) => all);
@@ -62,6 +108,7 @@ function StartForm() {
   const [seed, setSeed] = useState("1");
   const [speed, setSpeed] = useState("1");
   const tracks = worlds.flatMap((world) => world.tracks);
+  if (kind === "attach") return <AttachForm kind={kind} onKind={setKind} />;
   const start = async (paused: boolean) => {
     // What runs is what is on disk.
     if (dirty && !(await studio.draft.save())) return;
@@ -77,15 +124,7 @@ function StartForm() {
   };
   return (
     <>
-      <Choice
-        label="Run"
-        value={kind}
-        onChange={setKind}
-        choices={[
-          { value: "simulate", title: "in the simulated world" },
-          { value: "run", title: "on the steady clock, as on the robot" },
-        ]}
-      />
+      <Choice label="Run" value={kind} onChange={setKind} choices={kinds} />
       {tracks.length > 0 && (
         <Choice
           label="Track"
@@ -129,10 +168,10 @@ function Controls() {
           <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
         </button>
         <button onClick={() => void control({ command: "stop" })}>
-          <Icon name="stop" /> Stop
+          <Icon name="stop" /> {kind === "attach" ? "Let go" : "Stop"}
         </button>
       </div>
-      {kind === "simulate" && (
+      {kind !== "run" && (
         <>
           <div className="buttons">
             <button disabled={!paused} onClick={() => void control({ command: "step_firing" })}>

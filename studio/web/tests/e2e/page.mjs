@@ -18,13 +18,13 @@ export async function onPage(project, test, options = {}) {
     reducedMotion: "reduce",
   });
   const problems = [];
-  const open = async () => {
+  const open = async (on = server) => {
     const page = await context.newPage();
     page.setDefaultTimeout(60_000);
     page.on("pageerror", (error) => problems.push(error.stack));
     page.on("request", (request) => {
       const { protocol, host } = new URL(request.url());
-      if (protocol.startsWith("http") && host !== new URL(server.address).host) problems.push(`request to ${request.url()}`);
+      if (protocol.startsWith("http") && host !== new URL(on.address).host) problems.push(`request to ${request.url()}`);
     });
     return page;
   };

@@ -226,6 +226,32 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await button(page, "Close").click();
   }));
 
+test("a controller that runs already is watched, and let go", () =>
+  onPage(lineFollower, async (page, server, open) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    // Another studio of the same project finds it.
+    const beside = await serve(server.root, { copy: false });
+    try {
+      const other = await open(beside);
+      await other.goto(beside.url);
+      await tab(other, "Run").click();
+      await other.getByRole("combobox", { name: "Run", exact: true }).selectOption("attach");
+      await other.getByRole("combobox", { name: "Controller" }).selectOption({ index: 0 });
+      await button(other, "Watch it").click();
+      await other.locator(".running-now").getByText("follow").waitFor();
+      const facts = () => other.getByTestId("run-facts").innerText();
+      const before = await facts();
+      await until(other, async () => (await facts()) !== before, "more of its run");
+      await button(other, "Let go").click();
+      await other.getByTestId("run-state").getByText("it runs on").waitFor();
+    } finally {
+      await beside.close();
+    }
+    await page.getByTestId("run-state").getByText("Running").waitFor();
+  }));
+
 test("after a reload the run and the unsaved text are there again", () =>
   onPage(lineFollower, async (page) => {
     await tab(page, "Run").click();
@@ -294,7 +320,7 @@ test("a view is exported as a drawing that stands on its own", () =>
     const text = readFileSync(await svg.path(), "utf8");
     assert.equal(svg.suggestedFilename(), "robot.control.follow.svg");
     assert.match(text, /follow\(\)/);
-    assert.doesNotMatch(text, /var\(|class=|https?:\/\/(?!www\.w3\.org)/);
+    assert.doesNotMatch(text, /var\(|color\(|class=|https?:\/\/(?!www\.w3\.org)/);
     const [png] = await Promise.all([page.waitForEvent("download"), button(page, "PNG").click()]);
     assert.equal(
       readFileSync(await png.path())

@@ -3,6 +3,7 @@ import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
+import { plainColour } from "../../canvas/picture";
 import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
 import { readStructure } from "../../model/structure";
 import { Timeline } from "../../model/timeline";
@@ -105,6 +106,14 @@ describe("stuck", () => {
       { name: "r", verdict: "holds" as const, waits: ["c waits for z"] },
     ];
     expect(stuck(verdicts)).toEqual(["a.control", "b"]);
+  });
+});
+
+describe("plainColour", () => {
+  it("says mixed colours in the words of SVG, and leaves others alone", () => {
+    expect(plainColour("color(srgb 1 0.5 0)")).toBe("rgb(255, 128, 0)");
+    expect(plainColour("color(srgb 1 0.5 0 / 0.25)")).toBe("rgba(255, 128, 0, 0.25)");
+    expect(plainColour("rgb(1, 2, 3)")).toBe("rgb(1, 2, 3)");
   });
 });
 

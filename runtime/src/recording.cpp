@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -47,28 +48,68 @@ constexpr std::string_view magic = "TESSREC1";
   return false;
 }
 
-/// Events up to the first that is cut or damaged.
-void read_events(std::string_view bytes, Recording& recording) {
-  while (!bytes.empty()) {
-    recording.truncated = true;  // until this event is known to be whole
-    if (bytes.size() < sizeof(Event)) return;
-    Recording::Entry entry;
-    std::memcpy(&entry.event, bytes.data(), sizeof(Event));
-    bytes.remove_prefix(sizeof(Event));
-    if (!makes_sense(entry.event, recording)) return;
-    if (entry.event.has_text()) {
-      const std::size_t length = entry.event.subject;
-      const std::size_t padded = (length + sizeof(Event) - 1) / sizeof(Event) * sizeof(Event);
-      if (padded > bytes.size()) return;
-      entry.text = bytes.substr(0, length);
-      bytes.remove_prefix(padded);
-    }
-    recording.entries.push_back(std::move(entry));
-    recording.truncated = false;
+}  // namespace
+
+void RecordingReader::feed(std::string_view bytes) {
+  if (state_ == State::damaged) return;
+  // Copied only when a piece ends within an entry.
+  if (!pending_.empty()) {
+    pending_.append(bytes);
+    bytes = pending_;
   }
+  std::size_t taken = state_ == State::header ? take_header(bytes) : 0;
+  if (state_ == State::events) taken += take_events(bytes.substr(taken));
+  pending_ = std::string(bytes.substr(std::min(taken, bytes.size())));
 }
 
-}  // namespace
+void RecordingReader::give_up(std::string problem) {
+  problem_ = std::move(problem);
+  state_ = State::damaged;
+}
+
+/// 0: it is not whole yet.
+std::size_t RecordingReader::take_header(std::string_view bytes) {
+  std::uint32_t length = 0;
+  const std::size_t before_header = magic.size() + sizeof length;
+  if (!bytes.starts_with(magic.substr(0, bytes.size()))) {
+    give_up("is no recording of Tessera");
+    return 0;
+  }
+  if (bytes.size() < before_header) return 0;
+  std::memcpy(&length, bytes.data() + magic.size(), sizeof length);
+  const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
+  if (bytes.size() < start_of_events) return 0;
+  recording_.header = bytes.substr(before_header, length);
+  if (!read_header(recording_)) {
+    give_up("has a damaged header");
+    return 0;
+  }
+  state_ = State::events;
+  has_header_ = true;
+  return start_of_events;
+}
+
+std::size_t RecordingReader::take_events(std::string_view bytes) {
+  const std::size_t size = bytes.size();
+  while (bytes.size() >= sizeof(Event)) {
+    Recording::Entry entry;
+    std::memcpy(&entry.event, bytes.data(), sizeof(Event));
+    if (!makes_sense(entry.event, recording_)) {
+      give_up("is damaged");
+      break;
+    }
+    std::size_t padded = 0;
+    if (entry.event.has_text()) {
+      const std::size_t length = entry.event.subject;
+      padded = (length + sizeof(Event) - 1) / sizeof(Event) * sizeof(Event);
+      if (padded > bytes.size() - sizeof(Event)) break;
+      entry.text = bytes.substr(sizeof(Event), length);
+    }
+    bytes.remove_prefix(sizeof(Event) + padded);
+    recording_.entries.push_back(std::move(entry));
+  }
+  return size - bytes.size();
+}
 
 std::string_view name_of(Fault fault) {
   switch (fault) {
@@ -97,26 +138,20 @@ std::optional<Recording> read_recording(const std::string& path, std::string& er
     error = fmt::format("cannot read '{}'", path);
     return std::nullopt;
   }
-  std::string_view bytes = content;
-  std::uint32_t length = 0;
-  const std::size_t before_header = magic.size() + sizeof length;
-  if (bytes.size() < before_header || !bytes.starts_with(magic)) {
-    error = fmt::format("'{}' is no recording of Tessera", path);
+  RecordingReader reader;
+  reader.feed(content);
+  const bool cut = !reader.has_header() && reader.problem().empty();
+  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // of the padding behind the header
+  if (!reader.has_header()) {
+    const bool begins_well = content.size() >= 12 && reader.problem().empty();
+    error = fmt::format("'{}' {}", path,
+                        begins_well                ? "has a damaged header"
+                        : reader.problem().empty() ? "is no recording of Tessera"
+                                                   : reader.problem());
     return std::nullopt;
   }
-  std::memcpy(&length, bytes.data() + magic.size(), sizeof length);
-  const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
-  Recording recording;
-  if (bytes.size() >= before_header + length) recording.header = bytes.substr(before_header, length);
-  if (recording.header.empty() || !read_header(recording)) {
-    error = fmt::format("the header of '{}' is damaged", path);
-    return std::nullopt;
-  }
-  if (bytes.size() < start_of_events)
-    recording.truncated = true;
-  else
-    read_events(bytes.substr(start_of_events), recording);
-  return recording;
+  reader.recording().truncated = !reader.problem().empty() || reader.pending() > 0;
+  return std::move(reader.recording());
 }
 
 }  // namespace tessera

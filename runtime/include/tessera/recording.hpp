@@ -67,6 +67,31 @@ struct Recording {
   bool truncated = false;  ///< the tail was cut; what came before is here
 };
 
+/// Reads a recording piece by piece, also one that is still being written.
+class RecordingReader {
+ public:
+  /// The next bytes of the file. Entries come into `recording` as soon as they are whole.
+  void feed(std::string_view bytes);
+  /// The header has been read; before that there is nothing in `recording`.
+  [[nodiscard]] bool has_header() const { return has_header_; }
+  /// Why nothing more will come: "is no recording of Tessera", "is damaged"; empty: more may come.
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+  /// Bytes of an entry, or of the header, that is not whole yet.
+  [[nodiscard]] std::size_t pending() const { return pending_.size(); }
+  /// Who reads a long one takes the entries out as they come.
+  [[nodiscard]] Recording& recording() { return recording_; }
+
+ private:
+  enum class State : std::uint8_t { header, events, damaged };
+  [[nodiscard]] std::size_t take_header(std::string_view bytes);
+  [[nodiscard]] std::size_t take_events(std::string_view bytes);
+  void give_up(std::string problem);
+  State state_ = State::header;
+  bool has_header_ = false;
+  std::string pending_, problem_;
+  Recording recording_;
+};
+
 /// nullopt and `error` when it is no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
 

@@ -26,6 +26,11 @@ void declare(CLI::App& command, LaunchOptions& options) {
                      "YAML file of parameters (default: params.yaml of the project)");
   command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
   command
+      .add_option("--record-values", options.record_values,
+                  "Which values of buffers to record: none, small (up to 4 KiB; of larger ones a hash), all")
+      ->check(CLI::IsMember({"none", "small", "all"}))
+      ->capture_default_str();
+  command
       .add_option("--inject", options.inject,
                   "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
                   "device:robot.motor@any (docs/running.md)")
@@ -169,6 +174,8 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   mode,
                   "--record",
                   files.recording.string(),
+                  "--record-values",
+                  options.record_values,
                   "--summary",
                   files.summary.string(),
                   "--seed",

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string_view>
@@ -44,7 +45,15 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->allow_extra_args(false);
   command.add_option("--parameters", words.parameter_file,
                      "File of 'path = value' lines, applied before --set");
-  command.add_option("--record", options.recording, "Write every firing and log line to this file");
+  command.add_option("--record", options.recording,
+                     "Write every firing, log line and value of a buffer to this file");
+  using Values = RunOptions::Values;
+  command
+      .add_option("--record-values", options.values,
+                  "Which values of buffers: none, small (up to 4 KiB; of larger ones a hash), all")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Values>{
+          {"none", Values::none}, {"small", Values::small}, {"all", Values::all}}))
+      ->default_str("small");
   command.add_option("--world", words.world.world, "World of the simulated robot (MJCF)");
   command.add_option("--world-library", options.world_library, "Library that simulates the world");
   command.add_option("--track", words.world.track, "Floor picture (PNG), dark is line");
@@ -188,6 +197,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                      "Subsystems take turns after every firing, drawn from the seed");
   simulate->add_option("--schedules", line.schedules,
                        "Try so many seeds from --seed on, interleaved; report the first whose run fails");
+  simulate->add_option("--from", line.from,
+                       "Run user code again on what this recording says it was given; compare what it does");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   try {
     app.parse(argc, argv);

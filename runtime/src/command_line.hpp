@@ -12,6 +12,7 @@ namespace tessera {
 struct CommandLine {
   RunOptions options;
   std::string summary;          ///< file; "-": standard output; empty: none
+  std::string from;             ///< recording to run user code again from; empty: none
   std::uint64_t schedules = 0;  ///< how many to try; 0: one run
 };
 

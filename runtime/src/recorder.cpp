@@ -109,13 +109,36 @@ void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::
   head.subject = static_cast<std::uint32_t>(text.size());
   head.version = level;
   push(head);
-  while (!text.empty()) {
-    Event piece{};
-    const std::size_t count = std::min(text.size(), sizeof piece);
-    std::memcpy(&piece, text.data(), count);
-    push(piece);
-    text.remove_prefix(count);
+  push_bytes(text.data(), text.size());
+  publish();
+}
+
+void RecordingLane::call(Time time, std::uint32_t behaviour, std::uint64_t iteration) {
+  Event begun = event(Event::Kind::call, time);
+  if (!has_room(1)) return;
+  begun.subject = behaviour;
+  begun.version = static_cast<std::uint32_t>(iteration);
+  push(begun);
+  publish();
+}
+
+void RecordingLane::value(Time time, std::uint32_t buffer, std::uint32_t flags,
+                          std::span<const std::byte> head, std::span<const std::byte> bytes) {
+  Event changed = event(Event::Kind::value, time);
+  const std::size_t size = head.size() + bytes.size();
+  if (!has_room(1 + (size + sizeof(Event) - 1) / sizeof(Event))) return;
+  changed.subject = static_cast<std::uint32_t>(size);
+  changed.version = buffer | flags << 24U;
+  push(changed);
+  if (!head.empty()) {
+    std::array<std::byte, sizeof(Event)> first{};
+    const std::size_t count = std::min(bytes.size(), first.size() - head.size());
+    std::copy(head.begin(), head.end(), first.begin());
+    std::copy_n(bytes.begin(), count, first.begin() + static_cast<std::ptrdiff_t>(head.size()));
+    push_bytes(first.data(), head.size() + count);
+    bytes = bytes.subspan(count);
   }
+  push_bytes(bytes.data(), bytes.size());
   publish();
 }
 
@@ -135,6 +158,19 @@ void RecordingLane::push(const Event& event) {
     ring_[pushed_++ & (ring_.size() - 1)] = event;
 }
 
+/// In pieces of the size of an event, the last filled up.
+void RecordingLane::push_bytes(const void* bytes, std::size_t count) {
+  const auto* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    Event piece{};
+    const std::size_t taken = std::min(count, sizeof piece);
+    std::memcpy(&piece, next, taken);
+    push(piece);
+    next += taken;
+    count -= taken;
+  }
+}
+
 void RecordingLane::publish() { published_.store(pushed_, std::memory_order_release); }
 
 void RecordingLane::drain() {
@@ -147,14 +183,16 @@ void RecordingLane::drain() {
 // ------------------------------------------------------------------------------------------------ recorder
 
 std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_view header,
-                                         std::uint32_t instances, Mode mode, std::string& error) {
+                                         std::uint32_t instances, Mode mode, std::string& error,
+                                         std::size_t longest) {
   std::unique_ptr<Recorder> recorder(new Recorder);
   if (!recorder->file_.open(path, header, error)) return nullptr;
   // About 24 MB of rings, up to a quarter of a second at a million events a second for each.
+  const std::size_t least = std::max<std::size_t>(512, 8 * longest / sizeof(Event));
   const std::size_t capacity =
       mode == Mode::direct
           ? 0
-          : std::clamp<std::size_t>((std::size_t{1} << 20) / (instances + 1), 512, std::size_t{1} << 18);
+          : std::max(least, std::min((std::size_t{1} << 20) / (instances + 1), std::size_t{1} << 18));
   for (std::uint32_t instance = 0; instance < instances; ++instance)
     recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));

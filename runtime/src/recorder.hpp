@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -57,6 +58,10 @@ class RecordingLane {
   void firing(Time time, std::uint32_t transition, std::uint32_t version);
   void overrun(Time time, std::uint32_t missed);
   void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
+  void call(Time time, std::uint32_t behaviour, std::uint64_t iteration);
+  /// head: at most sizeof(Event) bytes, before the others.
+  void value(Time time, std::uint32_t buffer, std::uint32_t flags, std::span<const std::byte> head,
+             std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   void drain();
 
@@ -64,6 +69,7 @@ class RecordingLane {
   [[nodiscard]] Event event(Event::Kind kind, Time time);
   [[nodiscard]] bool has_room(std::uint64_t count);
   void push(const Event& event);
+  void push_bytes(const void* bytes, std::size_t count);
   void publish();
 
   std::uint32_t instance_;
@@ -82,8 +88,10 @@ class Recorder {
  public:
   enum class Mode : std::uint8_t { direct, threaded };
   /// nullptr and `error` when the file cannot be created.
+  /// longest: bytes of the longest value.
   [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, std::string_view header,
-                                                      std::uint32_t instances, Mode mode, std::string& error);
+                                                      std::uint32_t instances, Mode mode, std::string& error,
+                                                      std::size_t longest = 0);
   ~Recorder();
 
   [[nodiscard]] RecordingLane* lane(std::uint32_t instance) { return lanes_[instance].get(); }

@@ -13,6 +13,33 @@ namespace {
 
 constexpr std::string_view magic = "TESSREC1";
 
+[[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
+  for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
+                               Recording::Direction::real_input, Recording::Direction::real_output})
+    if (name_of(direction) == name) return direction;
+  return std::nullopt;
+}
+
+[[nodiscard]] bool read_buffers(const nlohmann::json& values, Recording& recording) {
+  values.at("limit").get_to(recording.value_limit);
+  for (const nlohmann::json& buffer : values.at("buffers")) {
+    const auto direction = direction_of(buffer.at(2).get<std::string>());
+    const auto instance = buffer.at(1).get<std::uint32_t>();
+    if (!direction || instance >= recording.instances.size()) return false;
+    recording.buffers.push_back(
+        {buffer.at(0).get<std::string>(), instance, *direction, buffer.at(3).get<std::string>()});
+  }
+  return true;
+}
+
+/// How the run was started.
+void read_run(const nlohmann::json& header, Recording& recording) {
+  if (header.contains("parameters")) header.at("parameters").get_to(recording.parameters);
+  if (header.contains("injected")) header.at("injected").get_to(recording.injected);
+  if (header.contains("behaviours")) header.at("behaviours").get_to(recording.behaviours);
+  if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
+}
+
 /// false when the JSON lacks what every recording has.
 [[nodiscard]] bool read_header(Recording& recording) {
   const nlohmann::json header = nlohmann::json::parse(recording.header, nullptr, /*allow_exceptions=*/false);
@@ -27,10 +54,20 @@ constexpr std::string_view magic = "TESSREC1";
     for (const nlohmann::json& transition : header.at("transitions"))
       recording.transitions.push_back(
           {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
+    read_run(header, recording);
+    if (header.contains("values")) return read_buffers(header.at("values"), recording);
   } catch (const nlohmann::json::exception&) {
     return false;
   }
   return true;
+}
+
+constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 1;
+
+/// How many bytes at least a value event with these flags has.
+[[nodiscard]] std::size_t fixed_bytes(std::uint32_t flags) {
+  return ((flags & ValueFlags::stamped) != 0 ? sizeof(std::int64_t) : 0) +
+         ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
 }
 
 [[nodiscard]] bool makes_sense(const Event& event, const Recording& recording) {
@@ -42,6 +79,12 @@ constexpr std::string_view magic = "TESSREC1";
     case Event::Kind::stop:
     case Event::Kind::overrun:
       return true;
+    case Event::Kind::call:
+      return event.instance() < recording.behaviours.size() &&
+             event.subject < recording.behaviours[event.instance()].size();
+    case Event::Kind::value:
+      return (event.version & buffer_bits) < recording.buffers.size() &&
+             event.subject >= fixed_bytes(event.version >> buffer_shift);
     case Event::Kind::fault:
       return !name_of(static_cast<Fault>(event.version)).empty();
   }
@@ -129,6 +172,31 @@ std::string_view name_of(Fault fault) {
       return "stall";
   }
   return "";
+}
+
+std::string_view name_of(Recording::Direction direction) {
+  switch (direction) {
+    case Recording::Direction::input:
+      return "in";
+    case Recording::Direction::output:
+      return "out";
+    case Recording::Direction::real_input:
+      return "real_in";
+    case Recording::Direction::real_output:
+      return "real_out";
+  }
+  return "";
+}
+
+ValueEvent value_of(const Recording::Entry& entry) {
+  ValueEvent value{.buffer = entry.event.version & buffer_bits,
+                   .flags = entry.event.version >> buffer_shift,
+                   .bytes = entry.text};
+  if (value.has(ValueFlags::stamped)) {
+    std::memcpy(&value.stamp_ns, entry.text.data(), sizeof value.stamp_ns);
+    value.bytes.remove_prefix(sizeof value.stamp_ns);
+  }
+  return value;
 }
 
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {

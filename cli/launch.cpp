@@ -25,6 +25,9 @@ void declare(CLI::App& command, LaunchOptions& options) {
   command.add_option("--parameters", options.parameters,
                      "YAML file of parameters (default: params.yaml of the project)");
   command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
+  command.add_option(
+      "--record-limit", options.record_limit,
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
   command
       .add_option("--record-values", options.record_values,
                   "Which values of buffers to record: none, small (up to 4 KiB; of larger ones a hash), all")
@@ -181,6 +184,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   "--seed",
                   std::to_string(options.seed)};
   if (isatty(STDERR_FILENO) != 0) command.push_back("--progress");
+  if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameters_of(specification, options)) append(command, {"--set", value});
   for (const std::string& value : options.set) append(command, {"--set", value});

@@ -17,7 +17,7 @@ struct LaunchOptions {
   std::string duration;  ///< "60s"; empty: until stopped
   std::vector<std::string> set, inject;
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
-  std::string record, record_values = "small";
+  std::string record, record_values = "small", record_limit;
   bool debug = false;
   Gate gate;
   // Of the simulated world.

@@ -103,6 +103,8 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
       recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
   fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", recording.system, recording.clock,
              recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
+  if (recording.segment.value_or(0) > 0)
+    fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
@@ -113,6 +115,7 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
     if (one.iterations > 0)
       fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
     print_distribution("period", one.period);
+    print_distribution("transition function", one.call);
     print_distribution("communication", one.iteration);
     for (std::size_t wait = 0; wait < std::min(shown_waits, one.waits.size()); ++wait)
       if (one.waits[wait].time.most > 0)
@@ -144,6 +147,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
                           {"skips", one.skips},
                           {"overwrites", one.overwrites},
                           {"period", to_json(one.period)},
+                          {"transition_function", to_json(one.call)},
                           {"communication", to_json(one.iteration)},
                           {"waits", std::move(waits)}});
   }

@@ -193,8 +193,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   command->add_option("--report", options->report, "Folder for a page and a picture of the run")
       ->excludes(schedules);
   command->get_option("--record")->excludes(schedules);
-  for (const char* other : {"--for", "--seed", "--inject", "--record", "--record-values", "--track",
-                            "--start", "--scenario", "--schedules", "--interleave", "--realtime", "--report"})
+  for (const char* other :
+       {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
+        "--scenario", "--schedules", "--interleave", "--realtime", "--report"})
     from->excludes(command->get_option(other));
   command->footer(
       "Examples:\n"

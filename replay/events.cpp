@@ -30,6 +30,8 @@ const char* kind_of(const Event& event) {
       return "call";
     case Event::Kind::value:
       return "value";
+    case Event::Kind::marking:
+      return "marking";
   }
   return "";
 }
@@ -46,6 +48,9 @@ std::string text_of(const Recording& recording, const Entry& entry) {
       return recording.transitions[event.subject].name;
     case Event::Kind::overrun:
       return fmt::format("{} instants of its rate missed", event.subject);
+    case Event::Kind::marking:
+      return fmt::format("a segment of the recording begins; {} places hold a token",
+                         std::ranges::count(entry.text, '\n') + (entry.text.empty() ? 0 : 1));
     case Event::Kind::call:
       return fmt::format("{}, iteration {}", recording.behaviours[event.instance()][event.subject],
                          event.version);
@@ -60,6 +65,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::firing:
     case Event::Kind::log:
     case Event::Kind::value:
+    case Event::Kind::marking:
       return "";
     case Event::Kind::stop:
       return "stop: ";

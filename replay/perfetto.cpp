@@ -99,7 +99,8 @@ class Writing {
 
   void write_log() {
     for (const auto& [event, text] : recording_.entries) {
-      if (!event.has_text() || event.kind() == Event::Kind::value) continue;
+      if (!event.has_text() || event.kind() == Event::Kind::value || event.kind() == Event::Kind::marking)
+        continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
       const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
       write({{"ph", "i"},

@@ -277,13 +277,28 @@ class Assembler {
     const RunOptions& options = assembly_.options;
     if (options.recording.empty()) return true;
     const bool simulated = options.clock == RunOptions::Clock::simulated;
-    assembly_.recorder = Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
-                                        static_cast<std::uint32_t>(parts_.size()),
-                                        simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
-                                        longest_value());
+    assembly_.recorder =
+        Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
+                       static_cast<std::uint32_t>(parts_.size()),
+                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_, longest_value(),
+                       options.record_limit,
+                       options.record_limit.segment_bytes == 0
+                           ? nullptr
+                           : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
     if (assembly_.recorder == nullptr) return false;
     if (options.values != RunOptions::Values::none) record_values();
     return true;
+  }
+
+  /// As MarkingTrack wants them.
+  [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
+    std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      for (const Plan::TransitionEntry& transition : plans_[index]->transitions)
+        if (transition.port != Plan::none)
+          channels[net_.first_of_instance[index] + transition.index] =
+              static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
+    return channels;
   }
 
   /// Larger values are not recorded whole.

@@ -28,7 +28,7 @@ namespace {
 
 /// As the user wrote it, before it means anything.
 struct Words {
-  std::string duration, parameter_file;
+  std::string duration, parameter_file, record_limit;
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   WorldOptions world;
@@ -47,6 +47,9 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
                      "File of 'path = value' lines, applied before --set");
   command.add_option("--record", options.recording,
                      "Write every firing, log line and value of a buffer to this file");
+  command.add_option(
+      "--record-limit", words.record_limit,
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
   using Values = RunOptions::Values;
   command
       .add_option("--record-values", options.values,
@@ -89,6 +92,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
     options.duration = parse_duration(words.duration);
     if (!options.duration)
       return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+  }
+  if (!words.record_limit.empty()) {
+    const auto limit = parse_record_limit(words.record_limit);
+    if (!limit)
+      return fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit);
+    options.record_limit = *limit;
   }
   for (const std::string& assignment : words.parameters) {
     const std::size_t equals = assignment.find('=');
@@ -141,6 +150,35 @@ std::optional<Duration> parse_duration(std::string text) {
     const double nanoseconds = std::round(*number * known.in_ns);
     if (nanoseconds > 9e18) return std::nullopt;
     return Duration(static_cast<Duration::rep>(nanoseconds));
+  }
+  return std::nullopt;
+}
+
+std::optional<RunOptions::Limit> parse_record_limit(std::string text) {
+  constexpr std::uint32_t segments_of_all = 4;
+  std::erase(text, ' ');
+  RunOptions::Limit limit{.segment_bytes = 0, .segments = segments_of_all};
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const std::optional<double> count = parse_number(std::string_view(text).substr(times + 1));
+    if (!count || *count < 2 || *count > 1e6 || *count != std::floor(*count)) return std::nullopt;
+    limit.segments = static_cast<std::uint32_t>(*count);
+    text.resize(times);
+  }
+  const std::size_t unit_at = text.find_first_not_of("0123456789.");
+  const std::string_view unit = unit_at == std::string::npos ? "B" : std::string_view(text).substr(unit_at);
+  const std::optional<double> number = parse_number(std::string_view(text).substr(0, unit_at));
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  for (const Unit& known :
+       {Unit{"B", 1}, Unit{"kB", 1e3}, Unit{"MB", 1e6}, Unit{"GB", 1e9}, Unit{"TB", 1e12}}) {
+    if (known.name != unit || !number || *number <= 0) continue;
+    const double bytes = *number * known.bytes / (times == std::string::npos ? segments_of_all : 1);
+    if (bytes < 1 || bytes > 1e18) return std::nullopt;
+    limit.segment_bytes = static_cast<std::uint64_t>(bytes);
+    return limit;
   }
   return std::nullopt;
 }

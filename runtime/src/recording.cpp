@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("parameters")) header.at("parameters").get_to(recording.parameters);
   if (header.contains("injected")) header.at("injected").get_to(recording.injected);
   if (header.contains("behaviours")) header.at("behaviours").get_to(recording.behaviours);
+  if (header.contains("segment")) recording.segment = header.at("segment").get<std::uint64_t>();
   if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
 }
 
@@ -78,12 +80,14 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::log:
     case Event::Kind::stop:
     case Event::Kind::overrun:
+    case Event::Kind::marking:
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&
              event.subject < recording.behaviours[event.instance()].size();
     case Event::Kind::value:
       return (event.version & buffer_bits) < recording.buffers.size() &&
+             recording.buffers[event.version & buffer_bits].instance == event.instance() &&
              event.subject >= fixed_bytes(event.version >> buffer_shift);
     case Event::Kind::fault:
       return !name_of(static_cast<Fault>(event.version)).empty();
@@ -199,7 +203,9 @@ ValueEvent value_of(const Recording::Entry& entry) {
   return value;
 }
 
-std::optional<Recording> read_recording(const std::string& path, std::string& error) {
+namespace {
+
+[[nodiscard]] std::optional<Recording> read_segment(const std::string& path, std::string& error) {
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad()) {
@@ -220,6 +226,50 @@ std::optional<Recording> read_recording(const std::string& path, std::string& er
   }
   reader.recording().truncated = !reader.problem().empty() || reader.pending() > 0;
   return std::move(reader.recording());
+}
+
+/// "run.3.tsr" and the like.
+[[nodiscard]] bool has_number(const std::filesystem::path& path) {
+  const std::string number = path.stem().extension().string();
+  return number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+/// What the headers of segments of one run have in common.
+[[nodiscard]] std::string_view without_segment(std::string_view header) {
+  return header.substr(0, header.rfind(",\"segment\":"));
+}
+
+}  // namespace
+
+std::string segment_path(const std::string& path, std::uint64_t number) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() /
+          fmt::format("{}.{}{}", whole.stem().string(), number, whole.extension().string()))
+      .string();
+}
+
+std::optional<Recording> read_recording(const std::string& path, std::string& error) {
+  const bool folder = std::filesystem::is_directory(path);
+  const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
+  std::optional<Recording> newest = read_segment(file, error);
+  if (!newest || newest->segment.value_or(0) == 0 || has_number(file)) return newest;
+  std::vector<Recording> segments;
+  std::uint64_t number = *newest->segment;
+  segments.push_back(std::move(*newest));
+  while (number > 0) {
+    std::string none;
+    std::optional<Recording> before = read_segment(segment_path(file, --number), none);
+    if (!before || without_segment(before->header) != without_segment(segments.front().header)) break;
+    segments.push_back(std::move(*before));
+  }
+  Recording all = std::move(segments.back());
+  segments.pop_back();
+  for (; !segments.empty(); segments.pop_back()) {
+    std::move(segments.back().entries.begin(), segments.back().entries.end(),
+              std::back_inserter(all.entries));
+    all.truncated = all.truncated || segments.back().truncated;
+  }
+  return all;
 }
 
 }  // namespace tessera

@@ -349,6 +349,7 @@ class Play {
     LooseParts parts;
     if (!error.empty() || !take_apart(assembly_, clock_, parts, error)) return std::nullopt;
     error = complaint_of_buffers(parts);
+    if (error.empty()) error = complaint_of_events(parts);
     if (!error.empty()) return std::nullopt;
     std::uint32_t first_buffer = 0;
     for (LoosePart& part : parts.parts) {
@@ -380,6 +381,8 @@ class Play {
           recording_.net_hash, system.net_hash);
     if (recording_.buffers.empty())
       return "it holds no values of buffers: record the run with --record-values small or all";
+    if (recording_.segment.value_or(0) > 0)
+      return "its beginning is gone (--record-limit), and with it what the code remembered from then";
     std::vector<std::uint32_t> next(recording_.instances.size());
     for (const Entry& entry : recording_.entries) {
       if (entry.event.instance() >= next.size()) continue;
@@ -422,6 +425,24 @@ class Play {
     if (wrong.empty() && number != recording_.buffers.size())
       wrong = fmt::format("this controller has no buffer {}", recording_.buffers[number].path);
     return wrong;
+  }
+
+  /// The header is that of a recording of this net, but a damaged file may say anything.
+  [[nodiscard]] std::string complaint_of_events(const LooseParts& parts) const {
+    if (recording_.instances.size() != parts.parts.size()) return "it is damaged";
+    for (const Entry& entry : recording_.entries) {
+      const Event& event = entry.event;
+      if (event.instance() >= parts.parts.size()) continue;
+      const LoosePart& part = parts.parts[event.instance()];
+      const bool fits = event.kind() == Event::Kind::firing
+                            ? event.subject >= part.first_transition &&
+                                  event.subject - part.first_transition < part.plan->transitions.size()
+                        : event.kind() == Event::Kind::call
+                            ? event.subject < part.parts.instance->net->behaviours.size()
+                            : true;
+      if (!fits) return "it is damaged";
+    }
+    return "";
   }
 
   [[nodiscard]] std::vector<Moment> moments() const {

@@ -29,7 +29,8 @@ enum class Fault : std::uint8_t {
 ///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
 ///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a
 /// multiple of 8, then events of 24 bytes. A truncated tail loses only itself. Nothing in it depends on the
-/// wall clock when the run's clock is simulated.
+/// wall clock when the run's clock is simulated. A recording with a limit goes on in segments: files of their
+/// own, with "segment": number in the header, which begin with an event `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
     firing = 1,   ///< subject: transition; version: of the channel it touched (0: none)
@@ -38,7 +39,10 @@ struct Event {
     fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
     overrun = 5,  ///< subject: how many instants of its rate the subsystem's work has made it miss
     call = 6,     ///< a transition function begins; subject: behaviour; version: iteration
-    value = 7     ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
+    value = 7,    ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
+    /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
+    /// Not counted in `sequence`.
+    marking = 8
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
@@ -50,6 +54,8 @@ struct Event {
   [[nodiscard]] bool has_text() const {
     return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call;
   }
+  /// Events' worth of space that its text takes.
+  [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);
@@ -103,7 +109,11 @@ struct Recording {
   std::optional<std::int64_t> duration_ns;                      ///< that the run was given
   std::vector<Buffer> buffers;                                  ///< none: without values
   std::uint64_t value_limit = 0;                                ///< larger ones are hashed
+  /// Of a recording with a limit: the number of this segment, from 0; of several read together the first.
+  std::optional<std::uint64_t> segment;
   std::vector<Entry> entries;
+  /// The order of the entries is that of the firings: of the simulated clock, and of recordings with a limit.
+  [[nodiscard]] bool ordered() const { return clock == "simulated" || segment.has_value(); }
   bool truncated = false;  ///< the tail was cut; what came before is here
 };
 
@@ -137,7 +147,13 @@ class RecordingReader {
   Recording recording_;
 };
 
-/// nullopt and `error` when it is no recording.
+/// Where segment `number` of the recording `path` is when it is no longer the newest: "run.tsr" ->
+/// "run.3.tsr".
+[[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
+
+/// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
+/// before the file that is named; of one named by its number, that one alone. nullopt and `error` when it is
+/// no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
 
 }  // namespace tessera

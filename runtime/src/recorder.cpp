@@ -74,7 +74,9 @@ bool RecordingFile::open_segment() {
     header += fmt::format(",\"segment\":{}}}", segment_);
   }
   const auto length = static_cast<std::uint32_t>(header.size());
-  std::string start(magic);
+  std::string start;
+  start.reserve(magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.append(magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');

@@ -252,8 +252,7 @@ TEST(Redrive, RefusesARecordingThatDoesNotFit) {
   }
   {
     Robot robot;
-    EXPECT_EQ(complaint(robot.build(), "/nonexistent"),
-              "cannot read '/nonexistent'");
+    EXPECT_EQ(complaint(robot.build(), "/nonexistent"), "cannot read '/nonexistent'");
   }
   {
     const std::string without = scratch_file("without");

@@ -122,12 +122,13 @@ Robot::Robot(Call call) {
 
 Robot::~Robot() { call_in_use = nullptr; }
 
-std::uint32_t Robot::add(const SubsystemNet& net, Duration period) {
+std::uint32_t Robot::add(const SubsystemNet& net, Duration period, int cpu) {
   const auto index = static_cast<std::uint32_t>(instances_.size());
   const std::string& name =
       *names_.emplace_back(std::make_unique<std::string>("part" + std::to_string(index)));
   instances_.push_back({"robot", name, Kind::control, &net,
                         net.behaviours.size() == 1 ? make_one : make_changing, period, Duration{0}});
+  instances_.back().policies.realtime.cpu = cpu;
   return index;
 }
 

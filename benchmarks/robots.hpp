@@ -40,7 +40,8 @@ class Robot {
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
   ~Robot();
-  std::uint32_t add(const SubsystemNet& net, Duration period = Duration{0});
+  /// cpu: the processor its thread stays on; -1: any.
+  std::uint32_t add(const SubsystemNet& net, Duration period = Duration{0}, int cpu = -1);
   void connect(std::uint32_t from, std::string_view out, std::uint32_t to, std::string_view in,
                std::span<const FusedPlace> places);
   /// Under the steady clock; aborts with a message when it cannot start or fails.

@@ -5,13 +5,14 @@
 
 #include <benchmark/benchmark.h>
 #include <linux/futex.h>
+#include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
-#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -28,32 +29,44 @@ constexpr Duration flat_out = 300ms;
 
 // -------------------------------------------------------------------------------------------- iterations
 
-/// CPU time of an iteration of a subsystem that runs alone and exchanges values with itself, in ns.
-[[nodiscard]] double iteration_ns(const SubsystemNet& net, const RunOptions& options = {}) {
+/// What a subsystem is connected to: with itself, all in one thread; or with others, which hardly ever run.
+enum class Others : std::uint8_t { none, idle };
+
+/// CPU time of an iteration of a subsystem with empty user code, in ns.
+[[nodiscard]] double iteration_ns(const SubsystemNet& net, Others others) {
   constexpr std::uint64_t warm = 20'000, last = 1'020'000;
   std::int64_t begin = 0, end = 0;
-  Robot robot([&](std::uint32_t, Context& context) {
+  Robot robot([&](std::uint32_t number, Context& context) {
+    if (number != 0) return;
     if (context.iteration == warm) begin = thread_cpu_ns();
     if (context.iteration != last) return;
     end = thread_cpu_ns();
     context.stop("enough");
   });
   const std::uint32_t part = robot.add(net);
-  if (!net.ports.empty()) robot.connect(part, "out", part, "in", asynchronous);
-  robot.run(options);
+  if (!net.ports.empty() && others == Others::none) robot.connect(part, "out", part, "in", asynchronous);
+  if (!net.ports.empty() && others == Others::idle) {
+    const std::uint32_t to = robot.add(nets::receiver, 1s), from = robot.add(nets::sender, 1s);
+    robot.connect(part, "out", to, "x", asynchronous);
+    robot.connect(from, "x", part, "in", asynchronous);
+  }
+  robot.run();
   return static_cast<double>(end - begin) / static_cast<double>(last - warm);
 }
 
-void iteration(benchmark::State& state, const SubsystemNet& net) {
+void iteration(benchmark::State& state, const SubsystemNet& net, Others others) {
   std::vector<double> ns;
   for (auto _ : state) {
-    ns.push_back(iteration_ns(net));
+    ns.push_back(iteration_ns(net, others));
     state.SetIterationTime(ns.back() * 1e-9);
   }
   state.counters["iteration_ns"] = median(ns);
 }
-BENCHMARK_CAPTURE(iteration, eight_firings, nets::relay)->UseManualTime()->Iterations(rounds);
-BENCHMARK_CAPTURE(iteration, six_firings, nets::alone)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(iteration, eight_firings, nets::relay, Others::none)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(iteration, eight_firings_shared, nets::relay, Others::idle)
+    ->UseManualTime()
+    ->Iterations(rounds);
+BENCHMARK_CAPTURE(iteration, six_firings, nets::alone, Others::none)->UseManualTime()->Iterations(rounds);
 
 // -------------------------------------------------------------------------------------------- channels
 
@@ -199,8 +212,14 @@ BENCHMARK(channel_cycle)->UseManualTime()->Iterations(rounds);
 
 constexpr std::uint64_t trips = 20'000;
 
+/// Where the two threads of a round trip run. Left to the scheduler, the same program takes 2 us or 50.
+struct Placement {
+  int one, other;
+};
+constexpr Placement one_core{0, 0}, two_cores{0, 1};
+
 /// Wall time of an iteration of subsystem 0.
-[[nodiscard]] double trip_ns(const std::function<void(Robot&)>& build) {
+[[nodiscard]] double trip_ns(void (*build)(Robot&, Placement), Placement placement) {
   std::int64_t begin = 0, end = 0;
   Robot robot([&](std::uint32_t number, Context& context) {
     if (number != 0) return;
@@ -209,20 +228,22 @@ constexpr std::uint64_t trips = 20'000;
     end = wall_ns();
     context.stop("enough");
   });
-  build(robot);
+  build(robot, placement);
   robot.run();
   return static_cast<double>(end - begin) / static_cast<double>(trips);
 }
 
 /// A value there, its acknowledgement back.
-void one_channel(Robot& robot) {
-  const std::uint32_t from = robot.add(nets::patient_sender), to = robot.add(nets::patient_receiver);
+void one_channel(Robot& robot, Placement placement) {
+  const std::uint32_t from = robot.add(nets::patient_sender, Duration{0}, placement.one),
+                      to = robot.add(nets::patient_receiver, Duration{0}, placement.other);
   robot.connect(from, "x", to, "x", acknowledged);
 }
 
 /// A value there and acknowledged, another back and acknowledged.
-void both_ways(Robot& robot) {
-  const std::uint32_t asker = robot.add(nets::asker), answerer = robot.add(nets::answerer);
+void both_ways(Robot& robot, Placement placement) {
+  const std::uint32_t asker = robot.add(nets::asker, Duration{0}, placement.one),
+                      answerer = robot.add(nets::answerer, Duration{0}, placement.other);
   robot.connect(asker, "out", answerer, "in", acknowledged);
   robot.connect(answerer, "out", asker, "in", acknowledged);
 }
@@ -231,8 +252,15 @@ void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value)
   syscall(SYS_futex, &word, operation, value, nullptr, nullptr, 0);
 }
 
+void stay_on(int cpu) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(cpu, &set);
+  if (sched_setaffinity(0, sizeof set, &set) != 0) std::abort();
+}
+
 /// Two threads that do nothing but wake each other.
-[[nodiscard]] double bare_round_trip_ns() {
+[[nodiscard]] double bare_round_trip_ns(Placement placement) {
   struct alignas(64) Word {
     std::atomic<std::uint32_t> value{0};
   };
@@ -245,27 +273,33 @@ void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value)
     for (std::uint32_t seen = word.value.load(); seen != value; seen = word.value.load())
       futex(word.value, FUTEX_WAIT_PRIVATE, seen);
   };
+  std::int64_t took = 0;
   std::thread other([&] {
+    stay_on(placement.other);
     for (std::uint32_t trip = 1; trip <= trips; ++trip) {
       await(words[0], trip);
       tell(words[1], trip);
     }
   });
-  const std::int64_t begin = wall_ns();
-  for (std::uint32_t trip = 1; trip <= trips; ++trip) {
-    tell(words[0], trip);
-    await(words[1], trip);
-  }
-  const std::int64_t end = wall_ns();
+  std::thread one([&] {
+    stay_on(placement.one);
+    const std::int64_t begin = wall_ns();
+    for (std::uint32_t trip = 1; trip <= trips; ++trip) {
+      tell(words[0], trip);
+      await(words[1], trip);
+    }
+    took = wall_ns() - begin;
+  });
+  one.join();
   other.join();
-  return static_cast<double>(end - begin) / static_cast<double>(trips);
+  return static_cast<double>(took) / static_cast<double>(trips);
 }
 
-void blocking_round_trip(benchmark::State& state, void (*build)(Robot&)) {
+void blocking_round_trip(benchmark::State& state, void (*build)(Robot&, Placement), Placement placement) {
   std::vector<double> ns, bare_ns, ratio;
   for (auto _ : state) {
-    bare_ns.push_back(bare_round_trip_ns());
-    ns.push_back(trip_ns(build));
+    bare_ns.push_back(bare_round_trip_ns(placement));
+    ns.push_back(trip_ns(build, placement));
     ratio.push_back(ns.back() / bare_ns.back());
     state.SetIterationTime(ns.back() * 1e-9);
   }
@@ -273,8 +307,18 @@ void blocking_round_trip(benchmark::State& state, void (*build)(Robot&)) {
   state.counters["bare_ns"] = median(bare_ns);
   state.counters["ratio"] = median(ratio);
 }
-BENCHMARK_CAPTURE(blocking_round_trip, one_channel, one_channel)->UseManualTime()->Iterations(rounds);
-BENCHMARK_CAPTURE(blocking_round_trip, both_ways, both_ways)->UseManualTime()->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, one_channel_one_core, one_channel, one_core)
+    ->UseManualTime()
+    ->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, one_channel_two_cores, one_channel, two_cores)
+    ->UseManualTime()
+    ->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, both_ways_one_core, both_ways, one_core)
+    ->UseManualTime()
+    ->Iterations(rounds);
+BENCHMARK_CAPTURE(blocking_round_trip, both_ways_two_cores, both_ways, two_cores)
+    ->UseManualTime()
+    ->Iterations(rounds);
 
 }  // namespace
 }  // namespace tessera::benchmarks

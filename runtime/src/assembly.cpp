@@ -207,6 +207,8 @@ class Assembler {
           marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
       if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
+      const bool to_itself = channel.from.instance == channel.to.instance;
+      if (clock_.simulated() || to_itself) assembly_.channels.back()->set_single_threaded();
     }
     return true;
   }

@@ -50,6 +50,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       clock_(clock),
       lane_(lane),
       inputs_(parts_.bindings.inputs.size()) {
+  for (std::size_t index = 0; index < inputs_.size(); ++index)
+    inputs_[index].arrival = parts_.bindings.inputs[index].arrival;
   for (const PortLink& port : parts_.ports) {
     if (port.side != Side::receive) continue;
     inputs_[port.buffer].used = true;
@@ -66,20 +68,22 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
 /// thrown.
 template <class Code>
 bool Operations::survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code) {
-  std::array<char, 512> text;
-  const auto describe = [&](std::string_view what) {
-    const auto end = fmt::format_to_n(text.data(), text.size(), "{}{}", activity, what);
-    fail(fault, behaviour, {text.data(), std::min(end.size, text.size())});
-  };
   try {
     std::forward<Code>(code)();
     return true;
   } catch (const std::exception& exception) {
-    describe(exception.what());
+    fail_in(fault, behaviour, activity, exception.what());
   } catch (...) {
-    describe("an exception that is no std::exception");
+    fail_in(fault, behaviour, activity, "an exception that is no std::exception");
   }
   return false;
+}
+
+void Operations::fail_in(Fault fault, std::uint16_t behaviour, std::string_view activity,
+                         std::string_view what) {
+  std::array<char, 512> text;
+  const auto end = fmt::format_to_n(text.data(), text.size(), "{}{}", activity, what);
+  fail(fault, behaviour, {text.data(), std::min(end.size, text.size())});
 }
 
 void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view what) {
@@ -225,10 +229,8 @@ void Operations::note_answer(std::uint32_t port) {
 }
 
 void Operations::refresh_ages(Time now) {
-  for (std::size_t index = 0; index < inputs_.size(); ++index) {
-    Arrival& arrival = *parts_.bindings.inputs[index].arrival;
-    if (inputs_[index].sequence != 0) arrival.age = age(arrival.stamp, now);
-  }
+  for (const InputState& input : inputs_)
+    if (input.sequence != 0) input.arrival->age = age(input.arrival->stamp, now);
   for (const Bindings::Incoming& input : parts_.bindings.real_inputs)
     if (input.arrival->valid) input.arrival->age = now - input.arrival->stamp;
 }

@@ -118,6 +118,7 @@ class Operations final : public ContextServices {
   void check_outputs();
   void fail_not_finite(const Bindings::Outgoing& output);
   void refresh_ages(Time now);
+  void fail_in(Fault fault, std::uint16_t behaviour, std::string_view activity, std::string_view what);
   void fail(Fault fault, std::uint16_t behaviour, std::string_view what);
   [[nodiscard]] std::string_view place_of_call(std::uint16_t behaviour) const;
   /// Why the outputs must not go to the devices.
@@ -138,6 +139,7 @@ class Operations final : public ContextServices {
   RecordingLane* lane_;
 
   struct InputState {
+    Arrival* arrival = nullptr;
     std::uint64_t sequence = 0;  // of the last value read; 0: none yet
     std::uint64_t newest = 0;    // of all values read
     Time last_valid{};

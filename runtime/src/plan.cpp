@@ -106,9 +106,9 @@ class Compilation {
     find_latch(transition, entry);
     entry.tells_of_timeout = entry.guard.kind == Guard::Kind::elapsed;
     if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
-    if (entry.outputs - entry.inputs == 1 && entry.end - entry.outputs == 1) {
+    if (entry.outputs - entry.inputs == 1) {
       entry.from = plan_.arcs[entry.inputs];
-      entry.to = plan_.arcs[entry.outputs];
+      if (entry.end - entry.outputs == 1) entry.to = plan_.arcs[entry.outputs];
     }
     plan_.transitions.push_back(entry);
   }
@@ -185,9 +185,14 @@ class Compilation {
     plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
     for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
     for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
-      plan_.places[place].first_departure = plan_.first_leaving[place];
-      plan_.places[place].end_of_departures = plan_.first_leaving[place + 1];
+      Plan::PlaceEntry& entry = plan_.places[place];
+      entry.idle = entry.does == Does::Kind::nothing && !entry.timed && place != plan_.out;
+      if (plan_.leaving_of(place).empty()) continue;
+      entry.departure = plan_.departures.data() + plan_.first_leaving[place];
+      plan_.departures[plan_.first_leaving[place + 1] - 1].last = true;
     }
+    for (Plan::TransitionEntry& transition : plan_.departures)
+      if (transition.to != Plan::none) transition.onward = plan_.places[transition.to].departure;
   }
 
   const SubsystemNet& net_;

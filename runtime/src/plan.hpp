@@ -11,17 +11,19 @@
 namespace tessera {
 
 /// The net of a subsystem made ready to be fired: names resolved to indices, arcs in compressed rows.
-/// Instances with the same tables share one. Immutable.
+/// Instances with the same tables share one. Immutable; can be moved, not copied.
 struct Plan {
   static constexpr std::uint32_t none = UINT32_MAX;
 
+  struct TransitionEntry;
   struct PlaceEntry {
+    const TransitionEntry* departure = nullptr;  ///< the first of those that take from it; nullptr: none
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< that is written or read, from 0
     std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
-    std::uint32_t first_departure = 0, end_of_departures = 0;  ///< into departures
-    bool timed = false;  ///< a timeout counts from the arrival of its token
+    bool timed = false;         ///< a timeout counts from the arrival of its token
+    bool idle = false;          ///< nothing happens when a token arrives; not `out`
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;
@@ -29,20 +31,30 @@ struct Plan {
   };
   static constexpr std::uint8_t no_need = 0xff;
   struct TransitionEntry {
+    const TransitionEntry* onward = nullptr;         ///< in departures: the first that takes from `to`
     std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
-    std::uint32_t from = none, to = none;            ///< of one with a single input and a single output here
+    std::uint32_t from = none;                       ///< of one with a single input here
+    std::uint32_t to = none;                         ///< of one with a single input and a single output here
     std::uint32_t port = none;                       ///< the channel it touches
     std::uint32_t latch = none;                      ///< the input place whose arrival decides the guard ...
     std::int32_t decided = 0;                        ///< ... if it says this
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
+    bool last = false;                      ///< in departures: of its place
     bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits
   };
+
+  Plan() = default;
+  Plan(const Plan&) = delete;
+  Plan& operator=(const Plan&) = delete;
+  Plan(Plan&&) = default;
+  Plan& operator=(Plan&&) = default;
+  ~Plan() = default;
 
   std::vector<PlaceEntry> places;
   std::vector<TransitionEntry> transitions;
@@ -61,10 +73,6 @@ struct Plan {
   }
   [[nodiscard]] std::span<const std::uint32_t> leaving_of(std::uint32_t place) const {
     return std::span(leaving).subspan(first_leaving[place], first_leaving[place + 1] - first_leaving[place]);
-  }
-  [[nodiscard]] std::span<const TransitionEntry> departures_of(std::uint32_t place) const {
-    return {departures.data() + places[place].first_departure,
-            departures.data() + places[place].end_of_departures};
   }
 };
 

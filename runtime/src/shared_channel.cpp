@@ -5,15 +5,15 @@
 namespace tessera {
 namespace {
 
-/// Some microseconds in all, about what it costs to sleep and be woken. The pauses grow, so that the side at
-/// work gets several turns out of its cache before the two meet again.
-constexpr int longest_pause = 32;
+/// Some microseconds in all, about what it costs to sleep and be woken. The first pause is long enough for
+/// the side at work to have a dozen turns out of its cache before the two meet again.
+constexpr int first_pause = 32, longest_pause = 64;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();
 #elif defined(__aarch64__)
-  asm volatile("yield");
+  asm volatile("isb");
 #endif
 }
 
@@ -37,7 +37,15 @@ SharedChannel::~SharedChannel() {
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,
                             std::vector<std::uint16_t> needs) {
   assert(needs.size() <= max_needs);
-  parties_[static_cast<std::size_t>(side)] = {word_.load(), waker, instance, std::move(needs)};
+  Party& party = parties_[static_cast<std::size_t>(side)];
+  party.seen = word_.load();
+  party.waker = waker;
+  party.instance = instance;
+  party.needs = std::move(needs);
+}
+
+void SharedChannel::set_single_threaded() {
+  for (Party& party : parties_) party.single_threaded = true;
 }
 
 bool SharedChannel::wait(Side side, std::uint16_t wants) {
@@ -57,7 +65,7 @@ bool SharedChannel::wait(Side side, std::uint16_t wants) {
 }
 
 bool SharedChannel::outwait() const {
-  for (int pauses = 1; pauses <= longest_pause; pauses *= 2) {
+  for (int pauses = first_pause; pauses <= longest_pause; pauses *= 2) {
     for (int count = 0; count < pauses; ++count) pause();
     if (!held()) return true;
   }

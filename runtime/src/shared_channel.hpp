@@ -43,7 +43,9 @@ namespace tessera {
 /// That token passes through the word, whose compare-and-swaps acquire and release, so the bytes need no
 /// atomics.
 ///
-/// Threads: one thread per side; `connect` before they start.
+/// Threads: one thread per side, or one for both, which then needs no exchange that others could interfere
+/// with;
+///         `connect` before they start.
 class alignas(64) SharedChannel {
  public:
   static constexpr std::size_t max_places = 10;
@@ -58,6 +60,8 @@ class alignas(64) SharedChannel {
 
   /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
+  /// One thread runs both sides.
+  void set_single_threaded();
 
   /// Takes `taken` (one of the needs of that side, as bits, or nothing) and gives `produced`. 0: not now.
   /// Otherwise the version that this firing made, and the registration of `side` is void.
@@ -96,6 +100,7 @@ class alignas(64) SharedChannel {
 
     static constexpr std::uint64_t field = (1U << max_places) - 1;
     static constexpr std::uint64_t receiver_last = 1U << 30, insisting = 1U << 31;
+    static constexpr std::uint64_t one_version = std::uint64_t{1} << 32;
     [[nodiscard]] static constexpr unsigned wants_shift(Side side) { return side == Side::send ? 10 : 20; }
 
     [[nodiscard]] std::uint16_t marking() const { return static_cast<std::uint16_t>(bits & field); }
@@ -111,7 +116,8 @@ class alignas(64) SharedChannel {
     [[nodiscard]] Word after_firing(Side side, std::uint16_t taken, std::uint16_t given) const;
   };
   struct alignas(64) Party {
-    std::uint64_t seen = 0;  // the word as this side left or found it; its own
+    std::uint64_t seen = 0;        // the word as this side left or found it; its own
+    bool single_threaded = false;  // the same for both; here, where looking costs nothing
     Waker* waker = nullptr;
     std::uint32_t instance = 0;
     std::vector<std::uint16_t> needs;
@@ -128,6 +134,7 @@ class alignas(64) SharedChannel {
     return word.insists() && word.last_was(side) && waits_for_met_need(word, other(side));
   }
   void wake_if_ready(Word word, Side side);
+  [[nodiscard]] std::uint32_t fire_alone(Side side, std::uint16_t taken, std::uint16_t produced);
   [[nodiscard]] const Party& party(Side side) const { return parties_[static_cast<std::size_t>(side)]; }
 
   std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
@@ -143,19 +150,20 @@ inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint1
 
 inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uint16_t taken,
                                                              std::uint16_t given) const {
-  std::uint32_t next = version() + 1;
-  if (next == 0) next = 1;  // 0 means "no channel" in a recording
-  const auto marked = static_cast<std::uint64_t>((marking() & ~taken) | given);
-  const std::uint64_t wanted = bits & field << wants_shift(other(side));
-  const std::uint64_t insists = wants(side) != 0 ? 0 : bits & insisting;  // it has had its turn
-  const std::uint64_t last = side == Side::receive ? receiver_last : 0;
-  return {static_cast<std::uint64_t>(next) << 32 | insists | last | wanted | marked};
+  std::uint64_t next = bits + one_version;
+  if (next < one_version) next += one_version;  // version 0 means "no channel" in a recording
+  const std::uint64_t waited = bits & field << wants_shift(side);
+  if (waited != 0) next &= ~(waited | insisting);  // it waits no more, and has had its turn
+  next = (next & ~std::uint64_t{taken}) | given;
+  return {side == Side::receive ? next | receiver_last : next & ~receiver_last};
 }
 
 /// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once
 /// to change.
 inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
-  std::uint64_t& seen = parties_[static_cast<std::size_t>(side)].seen;
+  Party& own = parties_[static_cast<std::size_t>(side)];
+  if (own.single_threaded) return fire_alone(side, taken, produced);
+  std::uint64_t& seen = own.seen;
   if (!may_take({seen}, side, taken)) seen = word_.load(std::memory_order_acquire);
   for (;;) {
     const Word before{seen};
@@ -168,6 +176,16 @@ inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::ui
       return after.version();
     }
   }
+}
+
+inline std::uint32_t SharedChannel::fire_alone(Side side, std::uint16_t taken, std::uint16_t produced) {
+  const Word before{word_.load(std::memory_order_relaxed)};
+  if (!may_take(before, side, taken)) return 0;
+  assert((before.marking() & ~taken & produced) == 0 && "the net is not safe");
+  const Word after = before.after_firing(side, taken, produced);
+  word_.store(after.bits, std::memory_order_relaxed);
+  if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
+  return after.version();
 }
 
 inline std::uint16_t SharedChannel::marking() const {

@@ -11,6 +11,7 @@
 
 #include "console.hpp"
 #include "monitor.hpp"
+#include "stillness.hpp"
 
 namespace tessera {
 namespace {
@@ -52,20 +53,6 @@ class Pace {
   Time start_{};
   std::int64_t start_ns_ = monotonic_ns();
 };
-
-[[nodiscard]] std::string why_nothing_happens(const Assembly& assembly) {
-  constexpr int shown = 8;
-  std::string text = "stopped: nothing can ever happen again";
-  int named = 0, waiting = 0;
-  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
-    if (assembly.control.has_ended(instance)) continue;
-    ++waiting;
-    if (named++ < shown)
-      text += (named == 1 ? ": " : "; ") + assembly.executors[instance]->whereabouts(assembly.system);
-  }
-  if (waiting > shown) text += fmt::format("; and {} more", waiting - shown);
-  return text;
-}
 
 }  // namespace
 
@@ -228,7 +215,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (upper.ended()) return ending("net ended", false);
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
-    if (next == Time::max()) return ending(why_nothing_happens(assembly), true);
+    if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
     if (remote_ != nullptr) remote_->show_values(clock_.now());
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {

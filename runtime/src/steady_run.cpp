@@ -15,6 +15,7 @@
 #include "console.hpp"
 #include "monitor.hpp"
 #include "realtime.hpp"
+#include "stillness.hpp"
 #include "watchdogs.hpp"
 
 namespace tessera {
@@ -130,6 +131,8 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, const StopSign
   RunControl& control = assembly.control;
   Watchdogs watchdogs(assembly.executors,
                       assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+  Stillness stillness(started_);
+  const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
     collect_ended(assembly, upper);
     const Time now = clock_.now();
@@ -140,10 +143,12 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, const StopSign
     } else if (now >= end) {
       duration_over_ = true;
       control.request_stop("duration", /*fault=*/false);
+    } else if (stillness.look(now, wake_words_.get(), gone)) {
+      control.request_stop(why_nothing_happens(assembly), /*fault=*/true);
     } else {
       progress.update(now);
       assembly.signals.raise_due(now);
-      const Time next = std::min({end, watchdogs.check(now), assembly.signals.next()});
+      const Time next = std::min({end, stillness.next(), watchdogs.check(now), assembly.signals.next()});
       await_news(signals.descriptor(),
                  assembly.options.progress ? std::min(next, now + progress_step) : next);
     }

@@ -25,16 +25,24 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       watched_(shared.watched || operations_.parts().instance->policies.watchdog > Duration::zero()),
       simulated_(shared.clock.simulated()),
       ports_(operations_.parts().ports.data()),
+      places_(plan_->places.data()),
       tokens_(plan_->places.size()),
       wants_(plan_->ports.size()),
       wants_next_(plan_->ports.size()) {
   marked_.reserve(plan_->places.size());
+  const auto timed = [](const Plan::PlaceEntry& place) { return place.timed; };
+  watches_time_ = simulated_ || operations_.parts().instance->period > Duration::zero() ||
+                  operations_.commands_devices() ||
+                  std::any_of(plan_->places.begin(), plan_->places.end(), timed);
 }
 
 void SubsystemExecutor::enter() { put(plan_->in); }
 
 SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
-  renew_time();
+  if (watches_time_)
+    renew_time();
+  else
+    time_is_known_ = false;
   if (blocked_since_ != Time::max()) waited_ += now_ - std::exchange(blocked_since_, Time::max());
   bool up_to_date = true;  // nothing has happened since the clock was read
   for (;;) {
@@ -55,13 +63,13 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
       continue;
     }
     if (outwait_peer()) continue;
-    if (!std::exchange(up_to_date, true)) {
+    if (watches_time_ && !std::exchange(up_to_date, true)) {
       renew_time();
       continue;
     }
     operations_.guard_effectors(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
-    if (registrations_ > 0) blocked_since_ = now_;
+    if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
     return {State::waiting, next_deadline()};
   }
 }
@@ -83,39 +91,63 @@ Time SubsystemExecutor::now() {
 
 bool SubsystemExecutor::fire_one() {
   if (marked_.size() == 1) return walk();
-  for (const std::uint32_t place : marked_)
-    if (tokens_[place].phase == Phase::finished && fire_from(place) != nullptr) return true;
+  for (const std::uint32_t place : marked_) {
+    if (tokens_[place].phase != Phase::finished) continue;
+    if (const Plan::TransitionEntry* const fired = fire_one_of(places_[place].departure); fired != nullptr) {
+      if (firings_ % look_up == 0) renew_time();
+      move_tokens(*fired);
+      return true;
+    }
+  }
   return false;
 }
 
-/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can.
+/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can. On the
+/// way no token has a position: no transition that takes several tokens is enabled.
 bool SubsystemExecutor::walk() {
   std::uint32_t place = marked_.front();
+  const Plan::TransitionEntry* departure = places_[place].departure;
+  tokens_[place].position = Plan::none;
   bool walked = false;
-  while (tokens_[place].phase == Phase::finished) {
-    const Plan::TransitionEntry* const fired = fire_from(place);
-    if (fired == nullptr) return walked;
+  for (std::uint32_t left = simulated_ ? 1 : look_up; tokens_[place].phase == Phase::finished; --left) {
+    if (left == 0) {  // it looks up: at the clock, and whether the run is to stop
+      renew_time();
+      break;
+    }
+    const Plan::TransitionEntry* const fired = fire_one_of(departure);
+    if (fired == nullptr) break;
     walked = true;
-    // Now and then it looks up: at the clock, and whether the run is to stop.
-    if (fired->to == Plan::none || simulated_ || marked_.size() != 1 || firings_ % look_up == 0) break;
-    place = fired->to;
+    if (fired->to == Plan::none) {
+      tokens_[place].position = 0;
+      move_tokens(*fired);
+      return true;
+    }
+    departure = fired->onward;
+    place = marked_.front() = fired->to;
+    arrive(place);
   }
+  tokens_[place].position = 0;
   return walked;
 }
 
-inline const Plan::TransitionEntry* SubsystemExecutor::fire_from(std::uint32_t place) {
-  for (const Plan::TransitionEntry& transition : plan_->departures_of(place)) {
-    const bool enabled = transition.from != Plan::none || locally_enabled(transition);
-    if (enabled && fire_enabled(transition)) return &transition;
+/// Of the departures of a place. The tokens still lie where they were.
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_one_of(const Plan::TransitionEntry* departure) {
+  if (departure == nullptr) return nullptr;
+  for (;; ++departure) {
+    if ((departure->from != Plan::none || locally_enabled(*departure)) && fire_enabled(*departure))
+      return departure;
+    if (departure->last) return nullptr;
   }
-  return nullptr;
 }
 
 bool SubsystemExecutor::try_fire(std::uint32_t index) {
   const Plan::TransitionEntry& transition = plan_->transitions[index];
-  return locally_enabled(transition) && fire_enabled(transition);
+  if (!locally_enabled(transition) || !fire_enabled(transition)) return false;
+  move_tokens(transition);
+  return true;
 }
 
+/// Everything that firing does but moving the tokens of the subsystem.
 inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
   if (!condition_holds(transition)) return false;
   std::uint32_t version = 0;
@@ -129,8 +161,21 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
     if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
       --registrations_;  // firing voids them
   }
-  after_firing(transition, version);
+  ++firings_;
+  if (lane_ != nullptr) {
+    renew_time();
+    lane_->firing(now_, first_transition_ + transition.index, version);
+    last_fired_ = transition.index;
+  }
+  if (transition.tells_of_timeout) tell_of_timeout(transition);
   return true;
+}
+
+void SubsystemExecutor::tell_of_timeout(const Plan::TransitionEntry& transition) {
+  if (transition.guard.kind == Guard::Kind::elapsed)
+    operations_.note_timeout(transition.port);
+  else
+    operations_.note_answer(transition.port);
 }
 
 /// Some transition waits for nothing but a peer that is reading or writing: that is shorter than a sleep.
@@ -147,12 +192,6 @@ bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition)
   return std::all_of(inputs.begin(), inputs.end(), has_finished);
 }
 
-inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
-  if (transition.guard.kind == Guard::Kind::none) return true;
-  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
-  return tokens_[transition.latch].latched == transition.decided;
-}
-
 bool SubsystemExecutor::wants_to_fire(std::uint32_t transition) const {
   return locally_enabled(plan_->transitions[transition]) && condition_holds(plan_->transitions[transition]);
 }
@@ -166,28 +205,13 @@ Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
   return arrival + timeout;
 }
 
-inline void SubsystemExecutor::after_firing(const Plan::TransitionEntry& transition, std::uint32_t version) {
-  if (++firings_ % look_up == 0 || lane_ != nullptr) renew_time();
-  last_fired_ = transition.index;
-  if (lane_ != nullptr) lane_->firing(now_, first_transition_ + transition.index, version);
-  if (transition.tells_of_timeout) {
-    if (transition.guard.kind == Guard::Kind::elapsed)
-      operations_.note_timeout(transition.port);
-    else
-      operations_.note_answer(transition.port);
-  }
-  if (transition.to != Plan::none && marked_.size() == 1) {
-    tokens_[transition.from].position = Plan::none;
-    tokens_[transition.to].position = 0;
-    marked_.front() = transition.to;
-    return arrive(transition.to);
-  }
+// -------------------------------------------------------------------------------------------- tokens,
+// operations
+
+void SubsystemExecutor::move_tokens(const Plan::TransitionEntry& transition) {
   for (const std::uint32_t place : plan_->inputs(transition)) take(place);
   for (const std::uint32_t place : plan_->outputs(transition)) put(place);
 }
-
-// -------------------------------------------------------------------------------------------- tokens,
-// operations
 
 void SubsystemExecutor::take(std::uint32_t place) {
   const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
@@ -207,9 +231,10 @@ void SubsystemExecutor::put(std::uint32_t place) {
 
 /// Starts the operation.
 inline void SubsystemExecutor::arrive(std::uint32_t place) {
-  const Plan::PlaceEntry& entry = plan_->places[place];
+  const Plan::PlaceEntry& entry = places_[place];
   Token& token = tokens_[place];
   token.phase = Phase::finished;
+  if (entry.idle) return;
   if (entry.timed) {
     renew_time();
     token.arrival = now_;
@@ -240,15 +265,28 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
   }
 }
 
+/// A decision without a transition would leave the token where it is for ever.
+inline void SubsystemExecutor::check_way_out(std::uint32_t place) {
+  const std::int32_t decided = tokens_[place].latched;
+  if (decided < 64 && (places_[place].ways >> decided & 1U) != 0) return;
+  look_for_way_out(place);
+}
+
+void SubsystemExecutor::look_for_way_out(std::uint32_t place) {
+  const auto leaving = plan_->leaving_of(place);
+  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
+  if (std::none_of(leaving.begin(), leaving.end(), may_fire))
+    fault(place, "what was decided has no transition: the generated code does not fit its net");
+}
+
 void SubsystemExecutor::decide(std::uint32_t place) {
   Token& token = tokens_[place];
-  if (const Plan::TransitionEntry* next = decided_by_script(place)) {
+  if (const Plan::TransitionEntry* const next = decided_by_script(place)) {
     operations_.accept_outcome(static_cast<Outcome>(next->decided));
     token.latched = next->decided;
     return;
   }
-  token.latched =
-      static_cast<std::int32_t>(operations_.decide(plan_->places[place].subject, time_of_conditions()));
+  token.latched = static_cast<std::int32_t>(operations_.decide(places_[place].subject, time_of_conditions()));
   check_way_out(place);
 }
 
@@ -260,20 +298,10 @@ void SubsystemExecutor::route(std::uint32_t place) {
   }
   token.latched = Operations::no_entry;
   if (script_ends_without_choice()) return;
-  token.latched = operations_.route(plan_->places[place].subject, time_of_conditions());
+  token.latched = operations_.route(places_[place].subject, time_of_conditions());
   if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
   if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
   if (token.latched >= 0) check_way_out(place);
-}
-
-/// A decision without a transition would leave the token where it is for ever.
-void SubsystemExecutor::check_way_out(std::uint32_t place) {
-  const std::int32_t decided = tokens_[place].latched;
-  if (decided < 64 && (plan_->places[place].ways >> decided & 1U) != 0) return;
-  const auto leaving = plan_->leaving_of(place);
-  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
-  if (std::none_of(leaving.begin(), leaving.end(), may_fire))
-    fault(place, "what was decided has no transition: the generated code does not fit its net");
 }
 
 void SubsystemExecutor::arrive_at_end() {
@@ -389,126 +417,6 @@ void SubsystemExecutor::show() {
   gauges_.overruns.store(overruns_, std::memory_order_relaxed);
 }
 
-// -------------------------------------------------------------------------------------------- scripts
-
-namespace {
-
-std::string_view forced_by(Guard::Kind guard) {
-  switch (guard) {
-    case Guard::Kind::go_on:
-      return "neither error nor terminal";
-    case Guard::Kind::terminal:
-      return "terminal";
-    case Guard::Kind::error:
-      return "error";
-    case Guard::Kind::next:
-      return "this initial condition";
-    case Guard::Kind::none:
-    case Guard::Kind::elapsed:  // waited for
-      break;
-  }
-  return "";
-}
-
-}  // namespace
-
-SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
-  const std::uint32_t transition = script_[followed_++];
-  if (transition == Plan::none) {
-    fault(marked_.front(), "no condition of `next` holds");
-    return {Followed::fired, Time::max(), "no initial condition"};
-  }
-  renew_time();
-  while (advance_operations()) continue;
-  operations_.guard_effectors(now_, name_of(marked_.front()));
-  if (!try_fire(transition)) {
-    --followed_;
-    return {Followed::waiting, script_deadline(transition)};
-  }
-  if (at_end_) end();
-  return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
-          forced_by(plan_->transitions[transition].guard.kind)};
-}
-
-/// The transition of the script that will take a token that has just arrived; nullptr: none of it.
-const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
-  for (std::size_t index = followed_; index < script_.size(); ++index) {
-    if (script_[index] == Plan::none) continue;
-    const Plan::TransitionEntry& transition = plan_->transitions[script_[index]];
-    if (transition.latch == place) return &transition;
-  }
-  return nullptr;
-}
-
-bool SubsystemExecutor::script_ends_without_choice() const {
-  return followed_ < script_.size() && script_[followed_] == Plan::none;
-}
-
-/// When an operation has finished that the transition waits for, or its timeout has passed.
-Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
-  const Plan::TransitionEntry& transition = plan_->transitions[index];
-  Time deadline = Time::max();
-  for (const std::uint32_t place : marked_)
-    if (tokens_[place].phase != Phase::finished) deadline = std::min(deadline, tokens_[place].due);
-  if (deadline != Time::max() || transition.guard.kind != Guard::Kind::elapsed) return deadline;
-  const Time elapsed = locally_enabled(transition) ? elapses(transition) : Time::max();
-  return elapsed > now_ ? elapsed : Time::max();
-}
-
-// -------------------------------------------------------------------------------------------- waiting
-
-/// Registers in every channel exactly what this subsystem waits for; false: something may be taken after all.
-bool SubsystemExecutor::register_waits() {
-  std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
-  for (const std::uint32_t place : marked_) {
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.need == Plan::no_need || !locally_enabled(transition)) continue;
-      if (!condition_holds(transition)) continue;
-      wants_next_[transition.port] =
-          static_cast<std::uint16_t>(wants_next_[transition.port] | 1U << transition.need);
-    }
-  }
-  for (std::size_t port = 0; port < wants_.size(); ++port) {
-    if (wants_[port] == 0 && wants_next_[port] == 0) continue;
-    const PortLink& link = operations_.parts().ports[port];
-    if (!link.channel->wait(link.side, wants_next_[port])) return false;
-    registrations_ +=
-        static_cast<std::uint32_t>(wants_next_[port] != 0) - static_cast<std::uint32_t>(wants_[port] != 0);
-    wants_[port] = wants_next_[port];
-  }
-  return true;
-}
-
-Time SubsystemExecutor::next_deadline() const {
-  Time deadline = operations_.guard_deadline();
-  for (const std::uint32_t place : marked_) {
-    const Token& token = tokens_[place];
-    if (token.phase != Phase::finished) {
-      deadline = std::min(deadline, token.due);
-      continue;
-    }
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.guard.kind != Guard::Kind::elapsed || !locally_enabled(transition)) continue;
-      const Time elapsed = elapses(transition);
-      const bool registered =
-          transition.need != Plan::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
-      if (!registered)
-        deadline = std::min(deadline, elapsed);  // registered: it has elapsed and waits for its channel
-    }
-  }
-  return deadline;
-}
-
-bool SubsystemExecutor::time_stands_still() {
-  if (now_ != instant_) {
-    instant_ = now_;
-    fired_at_instant_ = 0;
-  }
-  return ++fired_at_instant_ > firings_per_instant;
-}
-
 // -------------------------------------------------------------------------------------------- ends
 
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
@@ -523,28 +431,6 @@ void SubsystemExecutor::end() {
   leave();
   control_.mark_ended(index_);
   wake_receivers();
-}
-
-std::string SubsystemExecutor::whereabouts(const System& system) const {
-  const Instance& instance = *operations_.parts().instance;
-  std::string text = path();
-  for (const std::uint32_t place : marked_) {
-    text += fmt::format(" at {}", instance.net->places[place].name);
-    for (const std::uint32_t index : plan_->leaving_of(place)) {
-      const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.port == Plan::none) continue;
-      const std::uint32_t peer = operations_.parts().ports[transition.port].peer;
-      const std::string_view port = instance.net->ports[transition.port].name;
-      if (peer == UINT32_MAX)
-        text += fmt::format(" waits for the other end of '{}', which no behaviour uses", port);
-      else
-        text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer].agent,
-                            system.instances[peer].name, port,
-                            control_.has_ended(peer) ? ", which has ended" : "");
-      break;
-    }
-  }
-  return text;
 }
 
 }  // namespace tessera

@@ -92,7 +92,7 @@ class SubsystemExecutor {
   /// A token is in that place of the table.
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
-  /// The transition of the table that fired last. Precondition: one has.
+  /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
   [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
   /// Its tokens in this subsystem are there, and its condition holds; channels may still be in its way.
   [[nodiscard]] bool wants_to_fire(std::uint32_t transition) const;
@@ -121,18 +121,20 @@ class SubsystemExecutor {
   [[nodiscard]] bool fire_one();
   [[nodiscard]] bool try_fire(std::uint32_t transition);
   [[nodiscard]] bool walk();
-  [[nodiscard]] const Plan::TransitionEntry* fire_from(std::uint32_t place);
+  [[nodiscard]] const Plan::TransitionEntry* fire_one_of(const Plan::TransitionEntry* departure);
   [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
   [[nodiscard]] bool outwait_peer();
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
-  void after_firing(const Plan::TransitionEntry& transition, std::uint32_t version);
+  void tell_of_timeout(const Plan::TransitionEntry& transition);
 
+  void move_tokens(const Plan::TransitionEntry& transition);
   void take(std::uint32_t place);
   void put(std::uint32_t place);
   void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
+  void look_for_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();
   [[nodiscard]] bool advance(std::uint32_t place);
@@ -170,8 +172,10 @@ class SubsystemExecutor {
   Time now_{};                  // of the last look at the clock
   bool time_is_known_ = false;  // no code of the user's has run since
   bool watched_, simulated_;
-  bool at_end_ = false;                  // the token is in `out`
-  const PortLink* ports_;                // of operations_
+  bool watches_time_ = true;        // what it does next may depend on the time: a rate, a timeout, a device
+  bool at_end_ = false;             // the token is in `out`
+  const PortLink* ports_;           // of operations_
+  const Plan::PlaceEntry* places_;  // of plan_
   const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
 
   std::vector<Token> tokens_;              // per place
@@ -194,5 +198,11 @@ class SubsystemExecutor {
   Time instant_ = Time::min();
   std::uint32_t fired_at_instant_ = 0;
 };
+
+inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
+  if (transition.guard.kind == Guard::Kind::none) return true;
+  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
+  return tokens_[transition.latch].latched == transition.decided;
+}
 
 }  // namespace tessera

@@ -15,19 +15,26 @@ std::int64_t monotonic_ns() {
 
 void WakeWord::wake() {
   // A sleeper that looks for work later reads this exchange first, and with it whatever made it worthwhile.
-  if (state_.exchange(woken, std::memory_order_acq_rel) != asleep) return;
+  if (state_.exchange(woken, std::memory_order_acq_rel) < asleep) return;
   syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
 }
 
 void WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
-  if (!state_.compare_exchange_strong(ticket, asleep, std::memory_order_acq_rel)) return;  // woken meanwhile
+  const std::uint32_t how = until_ns < 0 ? at_rest : asleep;
+  if (how == at_rest) rests_.store(rests_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  if (!state_.compare_exchange_strong(ticket, how, std::memory_order_acq_rel)) return;  // woken meanwhile
   timespec until{};
   until.tv_sec = until_ns / 1'000'000'000;
   until.tv_nsec = until_ns % 1'000'000'000;
   // BITSET takes an absolute time of CLOCK_MONOTONIC. Whatever ends the wait, the caller looks at its net
   // again.
-  syscall(SYS_futex, &state_, FUTEX_WAIT_BITSET_PRIVATE, asleep, until_ns < 0 ? nullptr : &until, nullptr,
+  syscall(SYS_futex, &state_, FUTEX_WAIT_BITSET_PRIVATE, how, until_ns < 0 ? nullptr : &until, nullptr,
           FUTEX_BITSET_MATCH_ANY);
+}
+
+std::uint64_t WakeWord::rest() const {
+  if (state_.load(std::memory_order_acquire) != at_rest) return 0;
+  return rests_.load(std::memory_order_relaxed);
 }
 
 }  // namespace tessera

@@ -30,10 +30,13 @@ class alignas(64) WakeWord {
   void wake();
   /// Until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
   void sleep(std::uint32_t ticket, std::int64_t until_ns);
+  /// While it sleeps without a limit: the number of that sleep, from 1; else 0. Threads: any.
+  [[nodiscard]] std::uint64_t rest() const;
 
  private:
-  static constexpr std::uint32_t awake = 0, woken = 1, asleep = 2;
+  static constexpr std::uint32_t awake = 0, woken = 1, asleep = 2, at_rest = 3;
   std::atomic<std::uint32_t> state_{awake};
+  std::atomic<std::uint64_t> rests_{0};  // written by the sleeper
 };
 
 /// CLOCK_MONOTONIC in nanoseconds.

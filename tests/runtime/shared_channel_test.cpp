@@ -18,17 +18,19 @@ struct CountingWaker final : Waker {
   void wake(std::uint32_t instance) override { ++woken[instance]; }
 };
 
-/// A buffered channel; sender 0, receiver 1. Needs of both: 0 = empty, 1 = full.
-struct Buffered : ::testing::Test {
+/// A buffered channel; sender 0, receiver 1. Needs of both: 0 = empty, 1 = full. With a thread for each side,
+/// or one for both, the rules are the same.
+struct Buffered : ::testing::TestWithParam<bool> {
   CountingWaker waker;
   SharedChannel channel{empty, sizeof(double)};
   Buffered() {
+    if (GetParam()) channel.set_single_threaded();
     channel.connect(Side::send, &waker, 0, {empty, full});
     channel.connect(Side::receive, &waker, 1, {empty, full});
   }
 };
 
-TEST_F(Buffered, FiringNeedsItsPlacesAndCountsVersions) {
+TEST_P(Buffered, FiringNeedsItsPlacesAndCountsVersions) {
   EXPECT_EQ(channel.fire(Side::receive, full, 0), 0u);
   EXPECT_EQ(channel.fire(Side::send, empty, 0), 1u);
   EXPECT_EQ(channel.fire(Side::send, 0, full), 2u);
@@ -36,18 +38,18 @@ TEST_F(Buffered, FiringNeedsItsPlacesAndCountsVersions) {
   EXPECT_EQ(channel.fire(Side::receive, full, 0), 3u);
 }
 
-TEST_F(Buffered, SkipIsAFiringOfItsOwnVersion) {
+TEST_P(Buffered, SkipIsAFiringOfItsOwnVersion) {
   EXPECT_EQ(channel.fire(Side::receive, empty, empty), 1u);
   EXPECT_EQ(channel.fire(Side::receive, empty, empty), 2u);
   EXPECT_EQ(channel.marking(), empty);
 }
 
-TEST_F(Buffered, RegistrationIsRefusedWhenANeedIsMet) {
+TEST_P(Buffered, RegistrationIsRefusedWhenANeedIsMet) {
   EXPECT_FALSE(channel.wait(Side::send, 0b01));
   EXPECT_TRUE(channel.wait(Side::receive, 0b10));
 }
 
-TEST_F(Buffered, AMetNeedWakesWhoWaitsForIt) {
+TEST_P(Buffered, AMetNeedWakesWhoWaitsForIt) {
   ASSERT_TRUE(channel.wait(Side::receive, 0b10));
   ASSERT_NE(channel.fire(Side::send, empty, 0), 0u);
   EXPECT_EQ(waker.woken[1], 0);
@@ -55,7 +57,7 @@ TEST_F(Buffered, AMetNeedWakesWhoWaitsForIt) {
   EXPECT_EQ(waker.woken[1], 1);
 }
 
-TEST_F(Buffered, FiringEndsARegistration) {
+TEST_P(Buffered, FiringEndsARegistration) {
   ASSERT_TRUE(channel.wait(Side::receive, 0b10));
   ASSERT_NE(channel.fire(Side::send, empty, full), 0u);
   ASSERT_NE(channel.fire(Side::receive, full, empty), 0u);
@@ -63,7 +65,7 @@ TEST_F(Buffered, FiringEndsARegistration) {
   EXPECT_EQ(waker.woken[1], 1) << "it waits no more";
 }
 
-TEST_F(Buffered, WhoFiredLastMayGoOnUntilTheOtherHasWaitedInVain) {
+TEST_P(Buffered, WhoFiredLastMayGoOnUntilTheOtherHasWaitedInVain) {
   ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
   ASSERT_NE(channel.fire(Side::receive, 0, empty), 0u);
@@ -77,7 +79,7 @@ TEST_F(Buffered, WhoFiredLastMayGoOnUntilTheOtherHasWaitedInVain) {
   EXPECT_NE(channel.fire(Side::send, empty, 0), 0u) << "nobody waits any more";
 }
 
-TEST_F(Buffered, WhoFiredLastYieldsToTheOtherThatInsists) {
+TEST_P(Buffered, WhoFiredLastYieldsToTheOtherThatInsists) {
   ASSERT_NE(channel.fire(Side::receive, empty, empty), 0u);  // skip
   ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);      // as if it held the memory
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
@@ -90,7 +92,7 @@ TEST_F(Buffered, WhoFiredLastYieldsToTheOtherThatInsists) {
   EXPECT_EQ(waker.woken[1], 0) << "what it waits for has gone";
 }
 
-TEST_F(Buffered, WithdrawalReleasesWhoYielded) {
+TEST_P(Buffered, WithdrawalReleasesWhoYielded) {
   ASSERT_NE(channel.fire(Side::receive, empty, 0), 0u);
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
   ASSERT_TRUE(channel.wait(Side::send, 0b01));
@@ -100,6 +102,9 @@ TEST_F(Buffered, WithdrawalReleasesWhoYielded) {
   EXPECT_EQ(waker.woken[1], 1);
   EXPECT_NE(channel.fire(Side::receive, empty, empty), 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Threads, Buffered, ::testing::Bool(),
+                         [](const auto& one) { return one.param ? "OneForBoth" : "OneForEach"; });
 
 TEST(SharedChannel, ANeedMetInPartHoldsNobodyBack) {
   CountingWaker waker;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <thread>
 
 #include "firing_oracle.hpp"
 #include "nets.hpp"
@@ -54,6 +55,35 @@ TEST(SteadyRun, StopWakesThoseWhoWait) {
   EXPECT_EQ(summary.ended, "stopped: enough");
   EXPECT_FALSE(summary.failed);
   EXPECT_LT(summary.wall_s, 30);
+}
+
+TEST(SteadyRun, EndsWhenNothingCanEverHappenAgainAndSaysWhoWaitsForWhom) {
+  TestSystem system;
+  Script once;
+  once.decide = [](const ScriptState&) { return Outcome::terminal; };
+  const auto a = system.add("robot.a", nets::nb_sender, once, 10ms);
+  const auto b = system.add("robot.b", nets::b_receiver, {});
+  system.connect(a, "x", b, "x", buffered);
+  const RunSummary summary = run(system, steady(60s));
+  EXPECT_TRUE(summary.failed);
+  EXPECT_EQ(summary.ended,
+            "stopped: nothing can ever happen again: robot.b at run.rcv.in waits for robot.a over 'x', which "
+            "has ended");
+}
+
+TEST(SteadyRun, DoesNotTakeALongTransitionFunctionForTheEnd) {
+  TestSystem system;
+  Script slow;
+  slow.call = [](ScriptState& state) {
+    if (state.context.iteration == 1) std::this_thread::sleep_for(1s);
+    if (state.context.iteration == 2) state.context.stop("enough");
+  };
+  const auto a = system.add("robot.a", nets::nb_sender, slow);
+  const auto b = system.add("robot.b", nets::b_receiver, {});
+  system.connect(a, "x", b, "x", buffered);
+  const RunSummary summary = run(system, steady(60s));
+  EXPECT_EQ(summary.ended, "stopped: enough");
+  EXPECT_FALSE(summary.failed);
 }
 
 TEST(SteadyRun, SignalsStopItSafely) {

@@ -1,0 +1,42 @@
+#include "stillness.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace tessera {
+namespace {
+
+constexpr Duration between_looks = std::chrono::milliseconds(250);
+
+}  // namespace
+
+std::string why_nothing_happens(const Assembly& assembly) {
+  constexpr int shown = 8;
+  std::string text = "nothing can ever happen again";
+  int named = 0, waiting = 0;
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    if (assembly.control.has_ended(instance)) continue;
+    ++waiting;
+    if (named++ < shown)
+      text += (named == 1 ? ": " : "; ") + assembly.executors[instance]->whereabouts(assembly.system);
+  }
+  if (waiting > shown) text += fmt::format("; and {} more", waiting - shown);
+  return text;
+}
+
+bool Stillness::look(Time now, const WakeWord* words, const std::function<bool(std::uint32_t)>& gone) {
+  if (now < next_) return false;
+  next_ = now + between_looks;
+  bool still = true, any = false;
+  for (std::uint32_t thread = 0; thread < rests_.size(); ++thread) {
+    if (gone(thread)) continue;
+    any = true;
+    const std::uint64_t rest = words[thread].rest();
+    still = still && rest != 0 && rest == rests_[thread];
+    rests_[thread] = rest;
+  }
+  return still && any;
+}
+
+}  // namespace tessera

@@ -1,0 +1,86 @@
+// What a subsystem waits for when nothing may fire: in which channels it registers, until when, and what it
+// says of that.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "subsystem_executor.hpp"
+
+namespace tessera {
+
+/// Registers in every channel exactly what this subsystem waits for; false: something may be taken after all.
+bool SubsystemExecutor::register_waits() {
+  std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
+  for (const std::uint32_t place : marked_) {
+    for (const std::uint32_t index : plan_->leaving_of(place)) {
+      const Plan::TransitionEntry& transition = plan_->transitions[index];
+      if (transition.need == Plan::no_need || !locally_enabled(transition)) continue;
+      if (!condition_holds(transition)) continue;
+      wants_next_[transition.port] =
+          static_cast<std::uint16_t>(wants_next_[transition.port] | 1U << transition.need);
+    }
+  }
+  for (std::size_t port = 0; port < wants_.size(); ++port) {
+    if (wants_[port] == 0 && wants_next_[port] == 0) continue;
+    const PortLink& link = operations_.parts().ports[port];
+    if (!link.channel->wait(link.side, wants_next_[port])) return false;
+    registrations_ +=
+        static_cast<std::uint32_t>(wants_next_[port] != 0) - static_cast<std::uint32_t>(wants_[port] != 0);
+    wants_[port] = wants_next_[port];
+  }
+  return true;
+}
+
+Time SubsystemExecutor::next_deadline() const {
+  Time deadline = operations_.guard_deadline();
+  for (const std::uint32_t place : marked_) {
+    const Token& token = tokens_[place];
+    if (token.phase != Phase::finished) {
+      deadline = std::min(deadline, token.due);
+      continue;
+    }
+    for (const std::uint32_t index : plan_->leaving_of(place)) {
+      const Plan::TransitionEntry& transition = plan_->transitions[index];
+      if (transition.guard.kind != Guard::Kind::elapsed || !locally_enabled(transition)) continue;
+      const Time elapsed = elapses(transition);
+      const bool registered =
+          transition.need != Plan::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
+      if (!registered)
+        deadline = std::min(deadline, elapsed);  // registered: it has elapsed and waits for its channel
+    }
+  }
+  return deadline;
+}
+
+bool SubsystemExecutor::time_stands_still() {
+  if (now_ != instant_) {
+    instant_ = now_;
+    fired_at_instant_ = 0;
+  }
+  return ++fired_at_instant_ > firings_per_instant;
+}
+
+std::string SubsystemExecutor::whereabouts(const System& system) const {
+  const Instance& instance = *operations_.parts().instance;
+  std::string text = path();
+  for (const std::uint32_t place : marked_) {
+    text += fmt::format(" at {}", instance.net->places[place].name);
+    for (const std::uint32_t index : plan_->leaving_of(place)) {
+      const Plan::TransitionEntry& transition = plan_->transitions[index];
+      if (transition.port == Plan::none) continue;
+      const std::uint32_t peer = operations_.parts().ports[transition.port].peer;
+      const std::string_view port = instance.net->ports[transition.port].name;
+      if (peer == UINT32_MAX)
+        text += fmt::format(" waits for the other end of '{}', which no behaviour uses", port);
+      else
+        text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer].agent,
+                            system.instances[peer].name, port,
+                            control_.has_ended(peer) ? ", which has ended" : "");
+      break;
+    }
+  }
+  return text;
+}
+
+}  // namespace tessera

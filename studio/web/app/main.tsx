@@ -1,0 +1,17 @@
+import "@xyflow/react/dist/style.css";
+import { StrictMode } from "react";
+import { createRoot } from "react-dom/client";
+import { Studio } from "../live/studio";
+import { App } from "./app";
+import "./style.css";
+import { StudioContext } from "./use";
+
+const studio = new Studio();
+void studio.open();
+createRoot(document.getElementById("root")!).render(
+  <StrictMode>
+    <StudioContext value={studio}>
+      <App />
+    </StudioContext>
+  </StrictMode>,
+);

@@ -1,0 +1,15 @@
+import type { ElkNode } from "../model/layout";
+
+/** ELK in a worker of its own, loaded when the first page asks for it. */
+let ready: Promise<{ layout: (graph: unknown) => Promise<unknown> }> | undefined;
+
+export async function elk(graph: ElkNode): Promise<ElkNode> {
+  ready ??= (async () => {
+    const [{ default: Elk }, { default: address }] = await Promise.all([
+      import("elkjs/lib/elk-api.js"),
+      import("elkjs/lib/elk-worker.min.js?url"),
+    ]);
+    return new Elk({ workerFactory: () => new Worker(address) });
+  })();
+  return (await (await ready).layout(graph)) as ElkNode;
+}

@@ -1,0 +1,51 @@
+import { isActive } from "../model/game";
+import type { NetModel } from "../model/net";
+import { runningBehaviours } from "../model/game";
+import type { Stage } from "../live/stage";
+
+/**
+ * Puts the marking onto what is drawn, by the elements' numbers. This runs at the rate of frames and touches only what
+ * is on screen, so it goes past React.
+ */
+export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
+  if (!stage.is(net)) return;
+  const { marking, occupied, counts, firedAt, mode } = stage;
+  const playing = mode !== "edit";
+  const now = performance.now();
+  root.querySelectorAll<SVGGElement>("[data-place]").forEach((group) => {
+    const tokens = marking[Number(group.dataset.place)] ?? 0;
+    group.style.display = tokens > 0 ? "" : "none";
+    const text = group.lastElementChild!;
+    const many = tokens > 1 ? String(tokens) : "";
+    if (text.textContent !== many) text.textContent = many;
+  });
+  root.querySelectorAll<SVGGElement>("[data-transition]").forEach((group) => {
+    const index = Number(group.dataset.transition);
+    group.classList.toggle("enabled", mode === "game" && isActive(net, marking, index));
+    group.classList.toggle("fired", playing && now - firedAt[index]! < 350);
+    const text = group.lastElementChild!;
+    const count = playing && counts[index]! > 0 ? `×${short(counts[index]!)}` : "";
+    if (text.textContent !== count) text.textContent = count;
+  });
+  root.querySelectorAll<SVGGElement>("[data-page]").forEach((group) => {
+    const page = Number(group.dataset.page);
+    const layer = net.page(page).layer;
+    const idle = layer === "system";
+    group.classList.toggle("occupied", playing && !idle && occupied[page] === 1);
+  });
+  if (root instanceof SVGElement) root.classList.toggle("runs", playing && occupied[Number(root.dataset.of)] === 1);
+  const running = playing ? runningBehaviours(net, marking) : new Map<number, string>();
+  root.querySelectorAll<SVGTextElement>("[data-running]").forEach((text) => {
+    const page = net.page(Number(text.dataset.running));
+    const name = page.layer === "subsystem" && page.subsystem !== null ? (running.get(page.subsystem) ?? "") : "";
+    const label = name ? `▸ ${name}` : "";
+    if (text.textContent !== label) text.textContent = label;
+  });
+}
+
+/** 999, 12k, 3.4M */
+export function short(count: number): string {
+  if (count < 1000) return String(count);
+  if (count < 1e6) return `${(count / 1000).toFixed(count < 1e4 ? 1 : 0)}k`;
+  return `${(count / 1e6).toFixed(1)}M`;
+}

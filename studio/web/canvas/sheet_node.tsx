@@ -1,0 +1,85 @@
+import type { NodeProps, Node } from "@xyflow/react";
+import { memo, useEffect, useRef } from "react";
+import { useStudio } from "../app/use";
+import type { NetModel } from "../model/net";
+import type { Placed } from "../model/sheets";
+import { paint } from "./paint";
+import { Arcs, BarSymbol, PageSymbol, PlaceSymbol } from "./symbols";
+
+export interface SheetData extends Record<string, unknown> {
+  net: NetModel;
+  placed: Placed;
+  /** Pages whose nets are drawn by sheets of their own. */
+  open: string;
+  folded: string;
+  /** How near it is: 2 means that lines and letters would be four times too large, -1 that they are small, -3 mere dots. */
+  near: number;
+  selected: string | null;
+  flags: ReadonlyMap<string, "error" | "warning">;
+}
+export type SheetNode = Node<SheetData, "sheet">;
+
+/** One page's net. Its symbols carry the numbers by which tokens are put on them. */
+export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
+  const studio = useStudio();
+  const ref = useRef<SVGSVGElement>(null);
+  const { net, placed, open, folded, near, selected, flags } = data;
+  const { page, sheet, scale } = placed;
+  const opened = new Set(open.split(",").map(Number));
+  const closed = new Set(folded.split(",").map(Number));
+  useEffect(() => {
+    const now = () => ref.current && paint(ref.current, net, studio.stage);
+    now();
+    return studio.stage.subscribe(now);
+  }, [net, studio, sheet, open, folded, selected]);
+  const far = near <= -3;
+  const parts = { net, page, direction: sheet.direction };
+  const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);
+  const drawn = net.page(page);
+  return (
+    <svg
+      ref={ref}
+      className={`sheet layer-${drawn.layer} near${data.near}`}
+      width={sheet.width}
+      height={sheet.height}
+      style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
+      data-sheet={drawn.path || "system"}
+      data-of={page}
+    >
+      <Arcs net={net} page={page} sheet={sheet} far={far} />
+      {drawn.nodes.map((node, index) => {
+        const box = sheet.nodes[index]!;
+        if (node.page === null)
+          return <PlaceSymbol key={index} {...parts} index={index} box={box} selected={isSelected(net, page, index, selected)} />;
+        const path = net.page(node.page).path;
+        return (
+          <PageSymbol
+            key={index}
+            {...parts}
+            direction={labelled(closed.has(node.page))}
+            index={index}
+            box={box}
+            selected={selected === path}
+            folded={closed.has(node.page)}
+            open={opened.has(node.page)}
+            far={far}
+            flagged={flags.get(path) ?? null}
+            onFold={(at, to) => studio.fold(at, to)}
+          />
+        );
+      })}
+      {drawn.transitions.map((_, index) => (
+        <BarSymbol
+          key={index}
+          {...parts}
+          index={index}
+          box={sheet.transitions[index]!}
+          selected={selected !== null && net.transitions[net.flatTransitions(page)[index]!]?.name === selected}
+        />
+      ))}
+    </svg>
+  );
+});
+
+const isSelected = (net: NetModel, page: number, node: number, selected: string | null) =>
+  selected !== null && net.places[net.flatPlaces(page)[node]!]?.name === selected;

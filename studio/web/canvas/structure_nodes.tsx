@@ -1,0 +1,130 @@
+import { Handle, Position, type NodeProps } from "@xyflow/react";
+import { useRunning } from "../app/use_stage";
+import type { Agent, Buffer, Subsystem } from "../model/structure";
+import { head, ports, row } from "../model/structure_layout";
+
+interface Complaint {
+  severity: "error" | "warning";
+  messages: string[];
+}
+const Flag = ({ of }: { of: Complaint | undefined }) =>
+  of ? (
+    <span
+      className={`dot ${of.severity}`}
+      role="img"
+      aria-label={`${of.severity}: ${of.messages.join("; ")}`}
+      title={of.messages.join("\n")}
+    />
+  ) : null;
+
+export function AgentNode({ data }: NodeProps) {
+  const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
+  return (
+    <div className={`agent-box${selected ? " selected" : ""}`}>
+      <button className="agent-name" data-path={agent.name} aria-pressed={selected}>
+        {agent.name}
+        {agent.count && <span className="faint"> × {agent.count}</span>}
+        {agent.template && <span className="faint"> uses {agent.template}</span>}
+        <Flag of={complaint} />
+      </button>
+    </div>
+  );
+}
+
+const kindTitle = { control: "control subsystem", receptor: "virtual receptor", effector: "virtual effector" };
+
+export function SubsystemNode({ data }: NodeProps) {
+  const { subsystem, selected, complaints } = data as {
+    subsystem: Subsystem;
+    selected: string | null;
+    complaints: ReadonlyMap<string, Complaint>;
+  };
+  const running = useRunning();
+  const now = running.get(subsystem.path) ?? [...running].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
+  const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
+  const isSelected = selected === subsystem.path;
+  return (
+    <div className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}>
+      <button className="subsystem-head" data-path={subsystem.path} aria-pressed={isSelected} style={{ height: head - 4 }}>
+        <span className="subsystem-name">{subsystem.name}</span>
+        <span className="kind">
+          {kindTitle[subsystem.kind]}
+          {subsystem.rate && ` · ${subsystem.rate}`}
+        </span>
+        <Flag of={complaints.get(subsystem.path)} />
+      </button>
+      {subsystem.kind !== "control" && (
+        <Handle
+          id="device"
+          type={subsystem.kind === "effector" ? "source" : "target"}
+          position={Position.Bottom}
+          className="device-handle"
+          isConnectable={false}
+        />
+      )}
+      <div className="ports" style={{ height: ports(subsystem) * row }}>
+        <Ports buffers={of("input")} selected={selected} side="in" />
+        <Ports buffers={of("output")} selected={selected} side="out" />
+      </div>
+      <div className="chips">
+        {subsystem.behaviours.map((behaviour) => (
+          <button
+            key={behaviour.name}
+            className={`chip${now === behaviour.name ? " running" : ""}`}
+            data-path={behaviour.path}
+            aria-pressed={selected === behaviour.path}
+            aria-label={`behaviour ${behaviour.name}${now === behaviour.name ? ", running" : ""}`}
+          >
+            {behaviour.name}
+            <Flag of={complaints.get(behaviour.path)} />
+          </button>
+        ))}
+      </div>
+    </div>
+  );
+}
+
+function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: string | null; side: "in" | "out" }) {
+  return (
+    <div className={`port-list ${side}`}>
+      {buffers.map((buffer, at) => (
+        <div key={buffer.path} className="port">
+          <Handle
+            id={buffer.path}
+            type={side === "in" ? "target" : "source"}
+            position={side === "in" ? Position.Left : Position.Right}
+            style={{ top: head + at * row + row / 2 }}
+            data-handle={buffer.path}
+          />
+          <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.type}`}>
+            {buffer.name}
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}
+
+export function DeviceNode({ data }: NodeProps) {
+  const { subsystem, selected } = data as { subsystem: Subsystem; selected: string | null };
+  const receptor = subsystem.kind !== "effector";
+  return (
+    <div className="device-box">
+      <span className="kind">{receptor ? "real receptor" : "real effector"}</span>
+      {subsystem.buffers
+        .filter((buffer) => buffer.direction === "real")
+        .map((buffer) => (
+          <button key={buffer.path} data-path={buffer.path} aria-pressed={selected === buffer.path} title={buffer.type}>
+            {buffer.name}
+          </button>
+        ))}
+      <Handle
+        id="device"
+        type={receptor ? "source" : "target"}
+        position={Position.Top}
+        className="device-handle"
+        isConnectable={false}
+      />
+    </div>
+  );
+}

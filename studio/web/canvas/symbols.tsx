@@ -1,0 +1,242 @@
+import { memo } from "react";
+import { foldedPage, header, roundedPath, type Box, type Sheet } from "../model/geometry";
+import { conditionText, operationText, pageName, spoken } from "../model/labels";
+import type { NetModel, Page } from "../model/net";
+
+/** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
+
+interface PartProps {
+  net: NetModel;
+  page: number;
+  index: number;
+  box: Box;
+  direction: "down" | "right";
+  selected: boolean;
+}
+
+const idOf = (path: string) => `element-${path || "system"}`;
+
+function Labels({ box, direction, lines }: { box: Box; direction: "down" | "right"; lines: { text: string; kind: string }[] }) {
+  const shown = lines.filter((line) => line.text);
+  const down = direction === "down";
+  const x = down ? box.x + box.width + 6 : box.x + box.width / 2;
+  const first = down ? box.y + box.height / 2 + 4 - (shown.length - 1) * 6.5 : box.y + box.height + 13;
+  return shown.map((line, at) => (
+    <text key={at} className={`label ${line.kind}`} x={x} y={first + at * 13} textAnchor={down ? "start" : "middle"}>
+      {line.text}
+    </text>
+  ));
+}
+
+export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, direction, selected }: PartProps) {
+  const on = net.page(page);
+  const node = on.nodes[index]!;
+  const flat = net.flatPlaces(page)[index]!;
+  const path = net.places[flat]?.name ?? node.name;
+  const [cx, cy, r] = [box.x + box.width / 2, box.y + box.height / 2, box.width / 2];
+  return (
+    <g
+      className={`element place${node.fusion === null ? "" : " fused"}${selected ? " selected" : ""}`}
+      id={`${idOf(path)}@${page}`}
+      data-path={path}
+      role="img"
+      aria-label={spoken(net, path)}
+    >
+      <circle className="shape" cx={cx} cy={cy} r={r} />
+      <g className="tokens" data-place={flat} style={{ display: node.tokens > 0 ? "" : "none" }}>
+        <circle className="token" cx={cx} cy={cy} r={5} />
+        <text className="token-count" x={cx} y={cy + 4} textAnchor="middle" />
+      </g>
+      <Labels
+        box={box}
+        direction={direction}
+        lines={[
+          { text: node.name, kind: "name" },
+          { text: operationText(on, node.operation), kind: "operation" },
+        ]}
+      />
+    </g>
+  );
+});
+
+export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direction, selected }: PartProps) {
+  const transition = net.page(page).transitions[index]!;
+  const flat = net.flatTransitions(page)[index]!;
+  const path = net.transitions[flat]?.name ?? transition.name;
+  const never = transition.condition?.truth === "never";
+  const wide = box.width > 80;
+  const at = wide ? { ...box, x: box.x + box.width / 2 - 14, width: 28 } : box;
+  return (
+    <g
+      className={`element bar${never ? " never" : ""}${selected ? " selected" : ""}`}
+      id={idOf(path)}
+      data-path={path}
+      data-transition={flat}
+      role="img"
+      aria-label={spoken(net, path)}
+    >
+      <rect className="reach" x={box.x - 6} y={box.y - 6} width={box.width + 12} height={box.height + 12} />
+      <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={1.5} />
+      {!wide && (
+        <Labels
+          box={at}
+          direction={direction}
+          lines={[
+            { text: transition.name, kind: "name" },
+            { text: conditionText(transition), kind: "condition" },
+          ]}
+        />
+      )}
+      <text
+        className="label firings"
+        x={wide ? box.x + box.width + 5 : box.x - 5}
+        y={box.y + (direction === "down" ? 5 : -4)}
+        textAnchor={wide ? "start" : "end"}
+      />
+    </g>
+  );
+});
+
+interface PageSymbolProps extends PartProps {
+  folded: boolean;
+  /** Its net is drawn in it by a sheet of its own. */
+  open: boolean;
+  /** So far away that a folded page is a dot. */
+  far: boolean;
+  flagged: "error" | "warning" | null;
+  onFold: (path: string, folded: boolean) => void;
+}
+
+export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
+  const { net, page, index, box, direction, selected, folded, open, far, flagged } = props;
+  const child = net.page(page).nodes[index]!.page!;
+  const of: Page = net.page(child);
+  const group = (
+    <>
+      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} />}
+      {folded && !far && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
+      {flagged && (
+        <circle className={`flag ${flagged}`} cx={box.x + box.width - (folded ? 4 : 14)} cy={box.y + (folded ? 4 : 11)} r={4.5} />
+      )}
+    </>
+  );
+  return (
+    <g
+      className={`element page ${of.layer}${folded ? " folded" : ""}${selected ? " selected" : ""}`}
+      id={idOf(of.path)}
+      data-path={of.path}
+      data-page={child}
+      role="img"
+      aria-label={spoken(net, of.path)}
+    >
+      {group}
+    </g>
+  );
+});
+
+function FoldedPage({ box, far }: { box: Box; far: boolean }) {
+  const [cx, cy] = [box.x + box.width / 2, box.y + box.height / 2];
+  return (
+    <>
+      <circle className="shape" cx={cx} cy={cy} r={foldedPage / 2} />
+      {!far && <circle className="ring" cx={cx} cy={cy} r={foldedPage / 2 - 4} />}
+      {!far && <circle className="token inside" cx={cx} cy={cy} r={6} />}
+    </>
+  );
+}
+
+/** A double circle drawn out to a frame: its name above, its net inside, or its name large when that is too small. */
+function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: boolean; child: number }) {
+  const size = Math.min(34, (box.width - 30) / Math.max(4, page.name.length * 0.62));
+  return (
+    <>
+      <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
+      <rect className="ring" x={box.x + 3.5} y={box.y + 3.5} width={box.width - 7} height={box.height - 7} rx={13} />
+      <text className="label frame-name" x={box.x + 14} y={box.y + header - 6} visibility={open ? "visible" : "hidden"}>
+        {pageName(page)}
+      </text>
+      {open && (
+        <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />
+      )}
+      {!open && (
+        <g className="closed-name">
+          <text
+            className="label large"
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3}
+            textAnchor="middle"
+            style={{ fontSize: size }}
+          >
+            {pageName(page)}
+          </text>
+          <text
+            className="label layer"
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3 + size * 0.75}
+            textAnchor="middle"
+            style={{ fontSize: size * 0.52 }}
+          >
+            {page.layer}
+          </text>
+          <text
+            className="label running"
+            data-running={child}
+            x={box.x + box.width / 2}
+            y={box.y + box.height / 2 + size / 3 + size * 1.75}
+            textAnchor="middle"
+            style={{ fontSize: size * 0.75 }}
+          />
+        </g>
+      )}
+    </>
+  );
+}
+
+interface ArcsProps {
+  net: NetModel;
+  page: number;
+  sheet: Sheet;
+  /** So far away that tips cannot be seen: all in one line. */
+  far: boolean;
+}
+
+export const Arcs = memo(function Arcs({ net, page, sheet, far }: ArcsProps) {
+  const { nodes, transitions } = net.page(page);
+  if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
+  return sheet.routes.map((route, at) => {
+    const never = transitions[route.transition]?.condition?.truth === "never";
+    const fused = nodes[route.node]?.fusion !== null;
+    return (
+      <path
+        key={at}
+        className={`arc${never ? " never" : ""}${fused ? " memory" : ""}`}
+        d={roundedPath(route.points)}
+        markerEnd={`url(#tip${never ? "-never" : ""})`}
+      />
+    );
+  });
+});
+
+export function ArrowTips() {
+  return (
+    <svg width="0" height="0" aria-hidden="true" style={{ position: "absolute" }}>
+      <defs>
+        {["", "-never"].map((kind) => (
+          <marker
+            key={kind}
+            id={`tip${kind}`}
+            viewBox="0 0 10 8"
+            refX="9.5"
+            refY="4"
+            markerWidth="8"
+            markerHeight="6.4"
+            markerUnits="userSpaceOnUse"
+            orient="auto"
+          >
+            <path className={`tip${kind}`} d="M0 0L10 4L0 8L2.5 4Z" />
+          </marker>
+        ))}
+      </defs>
+    </svg>
+  );
+}

@@ -1,0 +1,109 @@
+import type {
+  Analysis,
+  ControlRequest,
+  Project,
+  Recording,
+  RecordingInfo,
+  RunInfo,
+  RunRequest,
+  SpecAnswer,
+  VerifyEvent,
+} from "./protocol";
+
+/** An answer of the server that is not what was asked for; status 0: there was no answer. */
+export class ApiError extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+    readonly hint = "",
+    readonly body: Record<string, unknown> = {},
+  ) {
+    super(message);
+  }
+}
+
+const key = "tessera.token";
+
+/** The token of the address (`#token=...`) or of this browser tab; it leaves the address bar at once. */
+export function takeToken(): string {
+  const given = /(?:^#|&)token=([0-9a-f]+)/i.exec(location.hash)?.[1];
+  if (given) {
+    sessionStorage.setItem(key, given);
+    history.replaceState(null, "", location.pathname + location.search);
+  }
+  return sessionStorage.getItem(key) ?? "";
+}
+
+/** Another tab was opened with the key of a server that was started anew: this one can use it too. */
+export function shareToken(token: string, taken: (token: string) => void): void {
+  const tabs = new BroadcastChannel(key);
+  tabs.onmessage = (event: MessageEvent<string>) => {
+    if (event.data === sessionStorage.getItem(key)) return;
+    sessionStorage.setItem(key, event.data);
+    taken(event.data);
+  };
+  tabs.postMessage(token);
+  // The new address in the old tab changes only what stands behind the #.
+  addEventListener("hashchange", () => {
+    if (location.hash.includes("token=")) location.reload();
+  });
+}
+
+export class Api {
+  constructor(public token: string) {}
+
+  private async ask<T>(method: string, path: string, body?: unknown): Promise<T> {
+    const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
+    if (body !== undefined) headers["Content-Type"] = "application/json";
+    let answer: Response;
+    try {
+      answer = await fetch(path, { method, headers, ...(body === undefined ? {} : { body: JSON.stringify(body) }) });
+    } catch {
+      throw new ApiError(0, "The server does not answer.");
+    }
+    let json: Record<string, unknown>;
+    try {
+      json = answer.headers.get("Content-Length") === "0" ? {} : ((await answer.json()) as Record<string, unknown>);
+    } catch {
+      throw new ApiError(answer.status || 500, `The server answered ${path} with something that is not JSON.`);
+    }
+    if (!answer.ok)
+      throw new ApiError(
+        answer.status,
+        String(json.error ?? `The server answered ${answer.status}.`),
+        String(json.hint ?? ""),
+        json,
+      );
+    return json as T;
+  }
+
+  project = () => this.ask<Project>("GET", "/api/project");
+  spec = () => this.ask<SpecAnswer>("GET", "/api/spec");
+  save = (text: string, revision: string) =>
+    this.ask<{ revision: string; analysis: Analysis }>("PUT", "/api/spec", { text, revision });
+  check = (text: string) => this.ask<Analysis>("POST", "/api/check", { text });
+  verify = (text: string, properties?: string[], timeout = "30s") =>
+    this.ask<{ job: string }>("POST", "/api/verify", { text, timeout, ...(properties ? { properties } : {}) });
+  verifyState = (job: string) => this.ask<VerifyEvent>("GET", `/api/verify/${encodeURIComponent(job)}`);
+  stopVerify = (job: string) => this.ask<object>("DELETE", `/api/verify/${encodeURIComponent(job)}`);
+  start = (request: RunRequest) => this.ask<{ run: string }>("POST", "/api/runs", request);
+  control = (run: string, request: ControlRequest) =>
+    this.ask<object>("POST", `/api/runs/${encodeURIComponent(run)}/control`, request);
+  runs = () =>
+    this.ask<RunInfo[] | { runs: RunInfo[] }>("GET", "/api/runs").then((answer) =>
+      Array.isArray(answer) ? answer : answer.runs,
+    );
+  run = (run: string) => this.ask<RunInfo>("GET", `/api/runs/${encodeURIComponent(run)}`);
+  recordings = () =>
+    this.ask<RecordingInfo[] | { recordings: RecordingInfo[] }>("GET", "/api/recordings").then((answer) =>
+      Array.isArray(answer) ? answer : answer.recordings,
+    );
+  recording = (name: string) => this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}`);
+  /** The floor picture of that name. */
+  async track(name: string): Promise<ImageBitmap> {
+    const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, { headers: { Authorization: `Bearer ${this.token}` } });
+    if (!answer.ok) throw new ApiError(answer.status, `There is no floor picture ${name}.`);
+    return createImageBitmap(await answer.blob());
+  }
+  eventsAddress = () => `/api/events?token=${encodeURIComponent(this.token)}`;
+}

@@ -1,0 +1,64 @@
+import { Api, ApiError } from "./api";
+import { Store } from "./store";
+
+export interface ConnectionState {
+  /** refused: the token is not the server's (it was started anew). */
+  state: "connecting" | "open" | "lost" | "refused";
+  attempt: number;
+}
+type Handler = (data: never) => void;
+const names = ["hello", "spec", "verify", "build", "log", "run", "firings", "values", "pose"] as const;
+export type EventName = (typeof names)[number];
+
+/** The event stream, opened again whenever it breaks. */
+export class Connection {
+  readonly store = new Store<ConnectionState>({ state: "connecting", attempt: 0 });
+  private readonly handlers = new Map<EventName, Set<Handler>>();
+  private source: EventSource | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(private readonly api: Api) {}
+
+  on<T>(name: EventName, handler: (data: T) => void): void {
+    const set = this.handlers.get(name) ?? new Set();
+    set.add(handler as Handler);
+    this.handlers.set(name, set);
+  }
+
+  /** With another key, when the one there was did not do. */
+  openWith(token: string): void {
+    if (this.store.get().state !== "refused") return;
+    this.api.token = token;
+    this.open();
+  }
+
+  open(): void {
+    clearTimeout(this.timer);
+    this.source?.close();
+    const source = new EventSource(this.api.eventsAddress());
+    this.source = source;
+    source.onopen = () => this.store.set({ state: "open", attempt: 0 });
+    source.onerror = () => void this.broken();
+    for (const name of names)
+      source.addEventListener(name, (event) => {
+        const data = JSON.parse((event as MessageEvent<string>).data) as never;
+        this.handlers.get(name)?.forEach((handler) => handler(data));
+      });
+  }
+
+  /** A stream that breaks says nothing of why; a plain request does. */
+  private async broken(): Promise<void> {
+    this.source?.close();
+    const attempt = this.store.get().attempt + 1;
+    this.store.set({ state: "lost", attempt });
+    try {
+      await this.api.project();
+    } catch (error) {
+      if (error instanceof ApiError && error.status === 401) {
+        this.store.set({ state: "refused" });
+        return;
+      }
+    }
+    this.timer = setTimeout(() => this.open(), Math.min(3000, 250 * 2 ** Math.min(attempt, 4)));
+  }
+}

@@ -1,0 +1,182 @@
+import { History } from "../model/history";
+import { merge } from "../model/merge";
+import { NetModel } from "../model/net";
+import { Api, ApiError } from "./api";
+import type { Analysis, Diagnostic, SpecAnswer } from "./protocol";
+import { Store } from "./store";
+
+export interface DraftState {
+  text: string;
+  /** The text on disk as far as we know, and its revision. */
+  saved: string;
+  revision: string;
+  diagnostics: Diagnostic[];
+  /** Of the last text that had a net. */
+  net: NetModel | null;
+  /** The net is that of the present text. */
+  current: boolean;
+  checking: boolean;
+  loaded: boolean;
+  canUndo: boolean;
+  canRedo: boolean;
+  /** The file on disk, when it changed where we changed it too. */
+  conflict: { text: string; revision: string } | null;
+  notice: string;
+}
+
+const kept = "tessera.draft";
+
+const netOf = ({ net, net_hash }: Analysis) => (net ? new NetModel(net, net_hash ?? "") : null);
+
+/** The specification being edited: one text, its history, what the server says of it, and the file behind it. */
+export class Draft {
+  readonly store = new Store<DraftState>({
+    text: "",
+    saved: "",
+    revision: "",
+    diagnostics: [],
+    net: null,
+    current: false,
+    checking: false,
+    loaded: false,
+    canUndo: false,
+    canRedo: false,
+    conflict: null,
+    notice: "",
+  });
+  private history = new History("");
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private asked = 0;
+
+  constructor(private readonly api: Api) {}
+
+  get dirty(): boolean {
+    return this.store.get().text !== this.store.get().saved;
+  }
+
+  /** Reads the file; text that this tab had not saved before a reload is there again. */
+  async load(): Promise<void> {
+    const answer = await this.api.spec();
+    this.history = new History(answer.text);
+    this.onDisk(answer);
+    const { text, base } = JSON.parse(sessionStorage.getItem(kept) ?? "{}") as { text?: string; base?: string };
+    this.store.set({ text: answer.text, loaded: true });
+    this.analysed(answer.analysis.diagnostics, netOf(answer.analysis));
+    if (text === undefined || text === answer.text) return;
+    const merged = merge(base ?? answer.text, text, answer.text);
+    this.edit(merged ?? text, "reload");
+    if (merged === null) this.store.set({ conflict: { text: answer.text, revision: answer.revision } });
+  }
+
+  private onDisk(answer: { text: string; revision: string }): void {
+    this.store.set({ saved: answer.text, revision: answer.revision });
+  }
+
+  private analysed(diagnostics: Diagnostic[], net: NetModel | null): void {
+    this.store.set({ diagnostics, current: net !== null, checking: false, ...(net ? { net } : {}) });
+  }
+
+  /** A new text; `kind` is "typing" for what should be undone together. */
+  edit(text: string, kind: string): void {
+    if (text === this.store.get().text) return;
+    this.history.change(text, kind, performance.now());
+    this.show(text);
+  }
+
+  undo(): void {
+    this.show(this.history.undo());
+  }
+  redo(): void {
+    this.show(this.history.redo());
+  }
+
+  private show(text: string | undefined): void {
+    if (text === undefined) return;
+    this.store.set({ text, canUndo: this.history.canUndo, canRedo: this.history.canRedo, checking: true });
+    this.keep();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => void this.check(), 120);
+  }
+
+  private keep(): void {
+    const { text, saved } = this.store.get();
+    if (text === saved) sessionStorage.removeItem(kept);
+    else sessionStorage.setItem(kept, JSON.stringify({ text, base: saved }));
+  }
+
+  private async check(): Promise<void> {
+    const { text } = this.store.get();
+    const asked = ++this.asked;
+    try {
+      const analysis = await this.api.check(text);
+      if (asked === this.asked) this.analysed(analysis.diagnostics, netOf(analysis));
+    } catch (error) {
+      if (asked === this.asked) this.store.set({ checking: false, notice: message(error) });
+    }
+  }
+
+  async save(): Promise<boolean> {
+    const { text, revision } = this.store.get();
+    try {
+      const answer = await this.api.save(text, revision);
+      this.onDisk({ text, revision: answer.revision });
+      this.keep();
+      this.store.set({ notice: "Saved" });
+      return true;
+    } catch (error) {
+      if (error instanceof ApiError && error.status === 409)
+        this.disk({ text: String(error.body.text ?? ""), revision: String(error.body.revision ?? "") });
+      else this.store.set({ notice: message(error) });
+      return false;
+    }
+  }
+
+  /** The file changed on disk, said the server. */
+  async changedOnDisk(revision: string): Promise<void> {
+    if (revision === this.store.get().revision) return;
+    let answer: SpecAnswer;
+    try {
+      answer = await this.api.spec();
+    } catch (error) {
+      this.store.set({ notice: message(error) });
+      return;
+    }
+    if (answer.revision !== this.store.get().revision) this.disk(answer);
+  }
+
+  /** Takes what is on disk, merges it with what was changed here, or asks. */
+  private disk(file: { text: string; revision: string }): void {
+    const { text, saved } = this.store.get();
+    if (file.text === text) {
+      this.onDisk(file);
+      this.keep();
+      return;
+    }
+    const merged = merge(saved, text, file.text);
+    if (merged === null) {
+      this.store.set({ conflict: file });
+      return;
+    }
+    const unsaved = text !== saved;
+    this.onDisk(file);
+    this.edit(merged, "disk");
+    this.store.set({
+      notice: unsaved ? "The file changed on disk; both changes were merged" : "The file changed on disk; reloaded",
+    });
+  }
+
+  /** The answer to a conflict. Whatever is chosen, undo leads back to the other text of this page. */
+  resolve(choice: "mine" | "theirs"): void {
+    const { conflict } = this.store.get();
+    if (!conflict) return;
+    this.store.set({ conflict: null });
+    this.onDisk(conflict);
+    if (choice === "theirs") this.edit(conflict.text, "disk");
+    this.keep();
+  }
+}
+
+export function message(error: unknown): string {
+  if (error instanceof ApiError) return error.hint ? `${error.message} ${error.hint}` : error.message;
+  return error instanceof Error ? error.message : String(error);
+}

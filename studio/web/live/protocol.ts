@@ -1,0 +1,127 @@
+import type { NetJson } from "../model/net";
+
+/** What server and page say to each other; docs/studio.md describes it. */
+
+export interface Diagnostic {
+  severity: "error" | "warning" | "hint" | "note";
+  code: string;
+  message: string;
+  hint: string;
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+}
+export interface Analysis {
+  diagnostics: Diagnostic[];
+  net: NetJson | null;
+  /** Names the net: runs and recordings say which they are of. */
+  net_hash?: string | null;
+}
+export interface Project {
+  name: string;
+  folder: string;
+  file: string;
+  version: string;
+  worlds: { name: string; tracks: string[] }[];
+  simulation?: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
+}
+export interface SpecAnswer {
+  text: string;
+  revision: string;
+  analysis: Analysis;
+}
+export interface Verdict {
+  name: string;
+  verdict: "holds" | "violated" | "unknown";
+  asks?: string;
+  method?: string;
+  meaning?: string;
+  explanation?: string;
+  why?: string;
+  warning?: boolean;
+  states?: number;
+  seconds?: number;
+  trace?: { transition: string; line?: number }[] | null;
+  steps?: number[] | null;
+  waits?: string[];
+  narrative?: string;
+}
+export interface VerifyResult {
+  net_hash?: string;
+  properties?: Verdict[];
+  error?: string;
+}
+export type VerifyState = "running" | "done" | "stopped" | "failed";
+export interface VerifyEvent {
+  job: string;
+  state: VerifyState;
+  property?: string;
+  states?: number;
+  rate?: number;
+  result?: VerifyResult;
+  error?: string;
+}
+export type RunState = "building" | "running" | "paused" | "ended" | "failed";
+export interface RunInfo {
+  run: string;
+  kind?: RunRequest["kind"];
+  /** The floor picture, when it is another than that of the specification. */
+  track?: string | null;
+  state: RunState;
+  why?: string;
+  outcome?: unknown;
+  marking?: number[];
+  net_hash?: string;
+}
+export type FiringRow = [time_ns: number, transition: number];
+export interface FiringsEvent {
+  run: string;
+  t: number;
+  dropped: number;
+  firings: FiringRow[];
+  /** Places that hold a token after the batch. */
+  marking?: number[];
+}
+export interface ValuesEvent {
+  run: string;
+  t: number;
+  values: Record<string, unknown>;
+}
+export interface PoseEvent {
+  run: string;
+  t: number;
+  x: number;
+  y: number;
+  heading: number;
+}
+export interface RecordingInfo {
+  name: string;
+  bytes: number;
+  modified: number | string;
+  system?: string;
+  duration?: number;
+}
+export interface Recording {
+  net_hash?: string;
+  subsystems?: string[];
+  firings: FiringRow[];
+  values?: Record<string, [number, unknown][]>;
+  dropped?: number;
+  truncated?: boolean;
+}
+export interface RunRequest {
+  kind: "simulate" | "run";
+  world?: string;
+  track?: string;
+  for?: string;
+  seed?: number;
+  speed?: number;
+  paused?: boolean;
+}
+export interface ControlRequest {
+  command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";
+  value?: number;
+  subsystem?: string;
+  breakpoints?: { place: number }[];
+}

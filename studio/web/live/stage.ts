@@ -1,0 +1,84 @@
+import { fire, initialMarking, isEnabled, type Marking } from "../model/game";
+import type { NetModel } from "../model/net";
+import { Store } from "./store";
+
+export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
+
+/**
+ * What the drawing shows: the marking, and what just fired. Edited net, token game, counterexample, live run and recording
+ * all show through it. Listeners are told once per frame, however many events came.
+ */
+export class Stage {
+  mode: StageMode = "edit";
+  marking: Marking = new Int32Array();
+  /** Per transition how often it fired, and when last (performance.now). */
+  counts = new Uint32Array();
+  firedAt = new Float64Array();
+  /** Per page, whether a token is somewhere inside. */
+  occupied = new Uint8Array();
+  /** The net that is shown, and how it came there. */
+  readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
+  private net: NetModel | null = null;
+  private readonly listeners = new Set<() => void>();
+  private frame = 0;
+
+  /** Shows the initial marking of a net. */
+  reset(net: NetModel, mode: StageMode): void {
+    this.net = net;
+    this.mode = mode;
+    this.marking = initialMarking(net);
+    this.counts = new Uint32Array(net.transitions.length);
+    this.firedAt = new Float64Array(net.transitions.length).fill(-Infinity);
+    this.shown.set({ net, mode });
+    this.touch();
+  }
+
+  is(net: NetModel): boolean {
+    return this.net === net;
+  }
+
+  setMarking(marking: Marking): void {
+    this.marking.set(marking);
+    this.touch();
+  }
+
+  /** Places that hold a token each; all others are empty. */
+  setMarked(places: readonly number[]): void {
+    this.marking.fill(0);
+    for (const place of places) if (place < this.marking.length) this.marking[place] = 1;
+    this.touch();
+  }
+
+  /** Counts and shows a firing; the marking follows unless it will be told anew. */
+  fired(transition: number, move = true): void {
+    if (!this.net || transition >= this.counts.length) return;
+    if (move && isEnabled(this.net, this.marking, transition)) fire(this.net, this.marking, transition);
+    this.counts[transition]! += 1;
+    this.firedAt[transition] = performance.now();
+    this.touch();
+  }
+
+  subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  private touch(): void {
+    if (this.frame) return;
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0;
+      this.occupy();
+      this.listeners.forEach((listener) => listener());
+    });
+  }
+
+  private occupy(): void {
+    const { net } = this;
+    if (!net || this.mode === "edit") return;
+    const occupied = (this.occupied = new Uint8Array(net.pages.length));
+    net.places.forEach((place, index) => {
+      if (this.marking[index] === 0) return;
+      for (let page = place.page; page !== null && occupied[page] === 0; page = net.page(page).parent) occupied[page] = 1;
+    });
+  }
+}

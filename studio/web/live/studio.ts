@@ -1,0 +1,141 @@
+import { Api, shareToken, takeToken } from "./api";
+import { Connection } from "./connection";
+import { Draft, message } from "./draft";
+import type { Project } from "./protocol";
+import { Play } from "./play";
+import { findThing, type Structure } from "../model/structure";
+import { Recordings } from "./recordings";
+import { Runner } from "./runner";
+import { Stage } from "./stage";
+import { Store } from "./store";
+import { Verifier } from "./verifier";
+
+export type View = "net" | "structure";
+export type PanelName = "inspect" | "verify" | "play" | "run" | "recordings";
+
+export interface ViewState {
+  view: View;
+  panel: PanelName;
+  text: boolean;
+  theme: "light" | "dark";
+  /** Path of the selected element. */
+  selected: string | null;
+  /** Line of the specification to show in the text pane, with a number that makes each request new. */
+  line: { line: number; request: number } | null;
+  /** Path to fly to, with a number that makes each request new. */
+  flight: { path: string; request: number } | null;
+  /** Pages that the reader folded or opened, against the rule. */
+  folds: ReadonlyMap<string, boolean>;
+  searching: boolean;
+}
+
+const kept = "tessera.view";
+
+function keptView(): Partial<ViewState> {
+  try {
+    return JSON.parse(sessionStorage.getItem(kept) ?? "{}") as Partial<ViewState>;
+  } catch {
+    return {};
+  }
+}
+
+/** Everything the page knows, outside React. */
+export class Studio {
+  readonly api = new Api(takeToken());
+  readonly connection = new Connection(this.api);
+  readonly draft = new Draft(this.api);
+  readonly stage = new Stage();
+  readonly play = new Play(this.stage);
+  readonly verifier = new Verifier(this.api, this.draft, this.connection);
+  readonly runner = new Runner(this.api, this.draft, this.stage, this.connection);
+  readonly recordings = new Recordings(this.api, this.draft, this.stage);
+  readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
+  readonly view = new Store<ViewState>({
+    view: "net",
+    panel: "inspect",
+    text: true,
+    theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+    ...keptView(),
+    selected: null,
+    line: null,
+    flight: null,
+    folds: new Map(),
+    searching: false,
+  });
+  private serverStart: string | undefined;
+
+  constructor() {
+    this.view.subscribe(() => {
+      const { view, panel, text, theme } = this.view.get();
+      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+    });
+    this.draft.store.subscribe(() => {
+      const { net } = this.draft.store.get();
+      if (net && this.stage.mode === "edit" && !this.stage.is(net)) this.stage.reset(net, "edit");
+    });
+    this.connection.on<{ revision: string }>("spec", (event) => void this.draft.changedOnDisk(event.revision));
+    this.connection.on<{ server_start: string | number }>("hello", (event) => void this.greeted(String(event.server_start)));
+  }
+
+  async open(): Promise<void> {
+    try {
+      const [project] = await Promise.all([this.api.project(), this.draft.load()]);
+      this.project.set({ project, problem: "" });
+    } catch (error) {
+      this.project.set({ problem: message(error) });
+    }
+    this.connection.open();
+    if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
+  }
+
+  /** Another server than before: what it knows of the file may be new. */
+  private async greeted(start: string): Promise<void> {
+    const known = this.serverStart;
+    this.serverStart = start;
+    if (!this.project.get().project) {
+      this.project.set({ project: await this.api.project(), problem: "" });
+      await this.draft.load();
+    } else if (known !== undefined && known !== start) {
+      await this.draft.changedOnDisk("");
+      this.draft.store.set({ notice: "The server was restarted; connected again" });
+    }
+  }
+
+  select(path: string | null, showLine = true): void {
+    const span = path === null ? undefined : this.draft.store.get().net?.find(path)?.span;
+    this.view.set({ selected: path });
+    if (showLine && span && span.line > 0) this.showLine(span.line);
+  }
+
+  /** Selects something of the structure, with its line and its form. */
+  choose(path: string | null, structure: Structure): void {
+    const line = path === null ? undefined : findThing(structure, path)?.of.line;
+    this.view.set({ selected: path, ...(path === null ? {} : { panel: "inspect" }) });
+    if (line) this.showLine(line);
+  }
+
+  showLine(line: number): void {
+    this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
+  }
+
+  /** Moves the drawing of the net to an element. */
+  fly(path: string): void {
+    this.view.set({ view: "net", flight: { path, request: (this.view.get().flight?.request ?? 0) + 1 } });
+  }
+
+  /** The same, and selects it. */
+  flyTo(path: string): void {
+    this.fly(path);
+    this.select(path);
+  }
+
+  fold(path: string, folded: boolean): void {
+    this.foldMany([path], folded);
+  }
+
+  foldMany(paths: readonly string[], folded: boolean): void {
+    const folds = new Map(this.view.get().folds);
+    for (const path of paths) folds.set(path, folded);
+    this.view.set({ folds });
+  }
+}

@@ -1,0 +1,88 @@
+import type { NetModel } from "./net";
+
+/** How the free conditions of a net fall: by transition; absent means either way. */
+export type Conditions = ReadonlyMap<number, boolean>;
+
+/** A marking of the flat net: tokens per place. */
+export type Marking = Int32Array;
+
+export const initialMarking = (net: NetModel): Marking => Int32Array.from(net.places, (place) => place.tokens);
+
+/** Every input place holds enough tokens. Says nothing of conditions. */
+export function isEnabled(net: NetModel, marking: Marking, transition: number): boolean {
+  return net.transitions[transition]!.inputs.every((arc) => marking[arc.place]! >= arc.weight);
+}
+
+/** Enabled, and its condition can hold. */
+export function isActive(net: NetModel, marking: Marking, transition: number, conditions?: Conditions): boolean {
+  const condition = net.transitions[transition]!.condition;
+  if (condition?.truth === "never" || conditions?.get(transition) === false) return false;
+  return isEnabled(net, marking, transition);
+}
+
+/** Takes the tokens of the input places and puts those of the output places; `times` -1 takes it back. */
+export function fire(net: NetModel, marking: Marking, transition: number, times: 1 | -1 = 1): void {
+  const { inputs, outputs } = net.transitions[transition]!;
+  for (const arc of inputs) marking[arc.place]! -= times * arc.weight;
+  for (const arc of outputs) marking[arc.place]! += times * arc.weight;
+}
+
+export function activeTransitions(net: NetModel, marking: Marking, conditions?: Conditions): number[] {
+  return net.transitions.flatMap((_, index) => (isActive(net, marking, index, conditions) ? [index] : []));
+}
+
+/** The behaviours that hold a token, by subsystem index: what is running now. */
+export function runningBehaviours(net: NetModel, marking: Marking): Map<number, string> {
+  const running = new Map<number, string>();
+  net.places.forEach((place, index) => {
+    if (marking[index] === 0 || place.subsystem === null) return;
+    const behaviour = net.behaviourOf(place.page);
+    if (behaviour) running.set(place.subsystem, behaviour.name);
+  });
+  return running;
+}
+
+/** A run of firings that can be gone through in both directions. */
+export class Walk {
+  readonly steps: number[];
+  position = 0;
+  readonly marking: Marking;
+
+  constructor(
+    private readonly net: NetModel,
+    steps: readonly number[] = [],
+  ) {
+    this.steps = [...steps];
+    this.marking = initialMarking(net);
+  }
+
+  /** False when the next step cannot be fired: the run is not one of this net. */
+  forward(): boolean {
+    const next = this.steps[this.position];
+    if (next === undefined || !isEnabled(this.net, this.marking, next)) return false;
+    fire(this.net, this.marking, next);
+    this.position += 1;
+    return true;
+  }
+
+  back(): boolean {
+    if (this.position === 0) return false;
+    this.position -= 1;
+    fire(this.net, this.marking, this.steps[this.position]!, -1);
+    return true;
+  }
+
+  /** To the marking after `position` steps. */
+  seek(position: number): void {
+    while (this.position < position && this.forward());
+    while (this.position > position && this.back());
+  }
+
+  /** Fires something new here; what came after is forgotten. */
+  choose(transition: number): boolean {
+    if (!isEnabled(this.net, this.marking, transition)) return false;
+    this.steps.length = this.position;
+    this.steps.push(transition);
+    return this.forward();
+  }
+}

@@ -1,0 +1,60 @@
+import type { NetModel, Operation, Page, PageNode, PageTransition } from "./net";
+
+/** What is written beside the symbols. */
+
+export const layerTitle: Record<Page["layer"], string> = {
+  system: "multi-agent system",
+  agent: "agent",
+  subsystem: "subsystem",
+  behaviour: "behaviour",
+  communication: "communication",
+};
+
+export const pageName = (page: Page) => (page.parent === null ? "system" : page.name);
+
+export function operationText(page: Page, operation: Operation | null): string {
+  switch (operation?.kind) {
+    case "transition_function":
+      return `${page.name}()`;
+    case "next_iteration":
+      return "i := i + 1";
+    case "write":
+      return "write";
+    case "read":
+      return "read";
+    default:
+      return "";
+  }
+}
+
+/** The condition in brackets, or nothing when it always holds. */
+export function conditionText(transition: PageTransition, limit = 26): string {
+  const text = transition.condition?.text ?? "";
+  if (!text) return "";
+  return `[${text.length > limit ? `${text.slice(0, limit - 1)}…` : text}]`;
+}
+
+/** The local name: of a fused place its last part, with its buffer. */
+export const nodeName = (node: PageNode) => node.name;
+
+/** What a screen reader says of an element. */
+export function spoken(net: NetModel, path: string): string {
+  const asPage = net.pageByPath.get(path);
+  if (asPage !== undefined) return `${layerTitle[net.page(asPage).layer]} ${path || "system"}`;
+  const element = net.find(path);
+  if (!element) return path || "system";
+  if (element.kind === "transition") {
+    const transition = net.page(element.page).transitions[element.index]!;
+    const condition = transition.condition?.text;
+    return `transition ${path}${condition ? `, condition ${condition}` : ""}`;
+  }
+  const operation = operationText(net.page(element.page), net.page(element.page).nodes[element.index]!.operation);
+  return `place ${path}${operation ? `, ${operation}` : ""}`;
+}
+
+/** The same text, which breaks between the parts of its paths; an arrow is one sign. */
+export const breakable = (text: string) => text.replaceAll("->", " → ").replace(/\.(?=\w)/g, ".\u200b");
+
+/** A sentence as a server says it: begins with a capital unless with a path. */
+export const sentence = (text: string) =>
+  breakable(/^[\w[\]]+\./.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));

@@ -1,0 +1,272 @@
+/** The hierarchical net as `tessera show --json` writes it, and an index over it. No React here. */
+
+export type Layer = "system" | "agent" | "subsystem" | "behaviour" | "communication";
+
+export interface Span {
+  line: number;
+  column: number;
+  length: number;
+}
+export interface Operation {
+  kind: "transition_function" | "next_iteration" | "write" | "read";
+  subject: number | null;
+}
+export interface Condition {
+  kind: "go_on" | "terminal" | "error" | "next" | "elapsed";
+  truth: "free" | "always" | "never";
+  subject: number | null;
+  text: string;
+}
+export interface PageNode {
+  name: string;
+  page: number | null;
+  fusion: number | null;
+  tokens: number;
+  operation: Operation | null;
+}
+export interface PageTransition {
+  name: string;
+  inputs: number[];
+  outputs: number[];
+  condition: Condition | null;
+  span: Span;
+}
+export interface Page {
+  path: string;
+  name: string;
+  layer: Layer;
+  parent: number | null;
+  subsystem: number | null;
+  input: number;
+  output: number;
+  span: Span;
+  nodes: PageNode[];
+  transitions: PageTransition[];
+}
+export interface FlatArc {
+  place: number;
+  weight: number;
+}
+export interface FlatPlace {
+  name: string;
+  tokens: number;
+  operation: Operation | null;
+  layer: Layer;
+  page: number | null;
+  subsystem: number | null;
+  channel: number | null;
+  span: Span;
+}
+export interface FlatTransition {
+  name: string;
+  inputs: FlatArc[];
+  outputs: FlatArc[];
+  condition: Condition | null;
+  layer: Layer;
+  page: number | null;
+  subsystem: number | null;
+  span: Span;
+}
+export interface NetJson {
+  pages: Page[];
+  fusions: { name: string; tokens: number; channel: number | null; span: Span }[];
+  flat: { places: FlatPlace[]; transitions: FlatTransition[] };
+}
+
+/** One thing that can be looked for, selected and flown to. */
+export interface Element {
+  path: string;
+  kind: "page" | "place" | "transition";
+  page: number;
+  /** Index within the page's nodes or transitions; of a page: within its parent (-1: the root). */
+  index: number;
+  span: Span;
+}
+
+const join = (path: string, name: string) => (path ? `${path}.${name}` : name);
+
+/** Which of a list belong to each page, without a list per page: the last one of it, and for each the one before. */
+class ByPage {
+  private readonly last: Int32Array;
+  private readonly before: Int32Array;
+
+  constructor(all: readonly { page: number | null }[], pages: number) {
+    this.last = new Int32Array(pages).fill(-1);
+    this.before = new Int32Array(all.length);
+    all.forEach(({ page }, index) => {
+      if (page === null) return;
+      this.before[index] = this.last[page]!;
+      this.last[page] = index;
+    });
+  }
+
+  find(page: number, is: (index: number) => boolean): number {
+    for (let at = this.last[page]!; at >= 0; at = this.before[at]!) if (is(at)) return at;
+    return -1;
+  }
+}
+
+const indexByName = (all: readonly { name: string }[]) => new Map(all.map(({ name }, index) => [name, index]));
+
+/**
+ * The net with the ways through it: by path, from drawn elements to flat ones and back. Large nets open without being
+ * looked through: what only some views ask for is made when they do.
+ */
+export class NetModel {
+  readonly pages: Page[];
+  readonly places: FlatPlace[];
+  readonly transitions: FlatTransition[];
+  private paths: Map<string, number> | undefined;
+  private placeNames: Map<string, number> | undefined;
+  private transitionNames: Map<string, number> | undefined;
+  private fused: Map<string, number> | undefined;
+  private placesByPage: ByPage | undefined;
+  private transitionsByPage: ByPage | undefined;
+  private readonly flatPlacesOf = new Map<number, Int32Array>();
+  private readonly flatTransitionsOf = new Map<number, Int32Array>();
+
+  constructor(
+    readonly json: NetJson,
+    /** Its name among nets, where one is known. */
+    readonly hash = "",
+  ) {
+    this.pages = json.pages;
+    this.places = json.flat.places;
+    this.transitions = json.flat.transitions;
+  }
+
+  /** Page index by path; the system is "". */
+  get pageByPath(): ReadonlyMap<string, number> {
+    return (this.paths ??= new Map(this.pages.map(({ path }, index) => [path, index])));
+  }
+  get placeByName(): ReadonlyMap<string, number> {
+    return (this.placeNames ??= indexByName(this.places));
+  }
+  get transitionByName(): ReadonlyMap<string, number> {
+    return (this.transitionNames ??= indexByName(this.transitions));
+  }
+
+  /** The flat place behind each node of a page; -1: a page. */
+  flatPlaces(index: number): Int32Array {
+    let known = this.flatPlacesOf.get(index);
+    if (!known) {
+      const page = this.page(index);
+      known = Int32Array.from(page.nodes, (node) => this.flatPlace(index, page, node));
+      this.flatPlacesOf.set(index, known);
+    }
+    return known;
+  }
+
+  /** The flat transition behind each bar of a page. */
+  flatTransitions(index: number): Int32Array {
+    let known = this.flatTransitionsOf.get(index);
+    if (!known) {
+      const of = (this.transitionsByPage ??= new ByPage(this.transitions, this.pages.length));
+      const { path, transitions } = this.page(index);
+      known = Int32Array.from(transitions, ({ name }) => {
+        const whole = join(path, name);
+        return of.find(index, (at) => this.transitions[at]!.name === whole);
+      });
+      this.flatTransitionsOf.set(index, known);
+    }
+    return known;
+  }
+
+  private flatPlace(index: number, page: Page, node: PageNode): number {
+    if (node.page !== null) return -1;
+    if (node.fusion !== null) return this.fusedPlaces.get(this.json.fusions[node.fusion]!.name) ?? -1;
+    const of = (this.placesByPage ??= new ByPage(this.places, this.pages.length));
+    const name = join(page.path, node.name);
+    return of.find(index, (at) => this.places[at]!.name === name);
+  }
+
+  /** Places that are on no page of their own, by name. */
+  private get fusedPlaces(): ReadonlyMap<string, number> {
+    return (this.fused ??= new Map(
+      this.places.flatMap(({ name, page }, index) => (page === null ? [[name, index] as const] : [])),
+    ));
+  }
+
+  /** Whether something that was made of the net of that name belongs to this one. */
+  isNamed(hash: string | null | undefined): boolean {
+    return !hash || !this.hash || hash === this.hash;
+  }
+
+  page(index: number): Page {
+    return this.pages[index]!;
+  }
+
+  /** Pages drawn inside a page, in drawing order. */
+  children(index: number): number[] {
+    return this.page(index).nodes.flatMap((node) => (node.page === null ? [] : [node.page]));
+  }
+
+  /** From the system down to the page. */
+  ancestry(index: number): number[] {
+    const chain: number[] = [];
+    for (let at: number | null = index; at !== null; at = this.page(at).parent) chain.unshift(at);
+    return chain;
+  }
+
+  /** The element with that path, drawn on the page that owns it. A fused place is drawn on several; the first is meant. */
+  find(path: string): Element | undefined {
+    const page = this.pageByPath.get(path);
+    if (page !== undefined) return this.pageElement(page);
+    return this.elementsOf(this.ownerOf(path)).find((element) => element.path === path);
+  }
+
+  private ownerOf(path: string): number {
+    const flat = this.placeByName.get(path);
+    if (flat !== undefined && this.places[flat]!.page === null)
+      return Math.max(
+        0,
+        this.pages.findIndex((_, page) => this.flatPlaces(page).includes(flat)),
+      );
+    for (let end = path.length; end > 0; end = path.lastIndexOf(".", end - 1)) {
+      const page = this.pageByPath.get(path.slice(0, end));
+      if (page !== undefined) return page;
+    }
+    return 0;
+  }
+
+  pageElement(index: number): Element {
+    const { parent, path, span } = this.page(index);
+    const at = parent === null ? -1 : this.page(parent).nodes.findIndex((node) => node.page === index);
+    return { path, kind: "page", page: parent ?? 0, index: at, span };
+  }
+
+  /** What is drawn on one page. */
+  elementsOf(index: number): Element[] {
+    const page = this.page(index);
+    const nodes = page.nodes.map((node, at): Element => {
+      if (node.page !== null) return this.pageElement(node.page);
+      const flat = this.places[this.flatPlaces(index)[at]!];
+      return {
+        path: flat?.name ?? join(page.path, node.name),
+        kind: "place",
+        page: index,
+        index: at,
+        span: flat?.span ?? page.span,
+      };
+    });
+    const bars = page.transitions.map((t, at): Element => ({
+      path: join(page.path, t.name),
+      kind: "transition",
+      page: index,
+      index: at,
+      span: t.span,
+    }));
+    return [...nodes, ...bars];
+  }
+
+  /** The behaviour page that each page lies in, or null above the behaviours. */
+  behaviourOf(page: number | null): Page | null {
+    for (let at = page; at !== null; at = this.page(at).parent) if (this.page(at).layer === "behaviour") return this.page(at);
+    return null;
+  }
+
+  /** The subsystem pages, in the order of the specification. */
+  subsystemPages(): number[] {
+    return this.pages.flatMap((page, index) => (page.layer === "subsystem" ? [index] : []));
+  }
+}

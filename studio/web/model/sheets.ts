@@ -1,0 +1,123 @@
+import { intersects, type Box, type Sheet } from "./geometry";
+import { inset, layoutPage, signature, type Elk, type Folded } from "./layout";
+import type { NetModel } from "./net";
+
+/** A sheet in the coordinates of the whole drawing. */
+export interface Placed {
+  page: number;
+  sheet: Sheet;
+  x: number;
+  y: number;
+  /** Size of a unit of the sheet in units of the drawing. */
+  scale: number;
+}
+
+/** What the window shows: a box of the drawing, and pixels per unit. */
+export interface Window extends Box {
+  zoom: number;
+}
+
+/** The inside of a page is drawn when a unit of it takes at least so many pixels. */
+export const legible = 0.24;
+
+/**
+ * The sheets of a net, laid out when they are first looked at. A net that differs little keeps the sheets of all
+ * pages that did not change.
+ */
+export class Sheets {
+  private readonly bySignature: Map<string, Sheet>;
+  private readonly waiting = new Set<string>();
+  private readonly signatures = new Map<number, string>();
+
+  /** `changed` is called when a sheet that was asked for has arrived. */
+  constructor(
+    readonly net: NetModel,
+    readonly folded: Folded,
+    private readonly elk: Elk,
+    private readonly changed: () => void,
+    before?: Sheets,
+  ) {
+    this.bySignature = before?.bySignature ?? new Map();
+  }
+
+  private signature(page: number): string {
+    let known = this.signatures.get(page);
+    if (known === undefined) this.signatures.set(page, (known = signature(this.net, page, this.folded)));
+    return known;
+  }
+
+  /** The sheet, or nothing yet: then it is being made. */
+  get(page: number): Sheet | undefined {
+    const key = this.signature(page);
+    const sheet = this.bySignature.get(key);
+    if (!sheet && !this.waiting.has(key)) {
+      this.waiting.add(key);
+      void layoutPage(this.net, page, this.folded, this.elk).then((made) => {
+        this.bySignature.set(key, made);
+        this.changed();
+      });
+    }
+    return sheet;
+  }
+
+  /** Where a page's sheet lies, asking for every sheet on the way; nothing as long as one is missing. */
+  placed(page: number): Placed | undefined {
+    const parent = this.net.page(page).parent;
+    const sheet = this.get(page);
+    if (parent === null) return sheet && { page, sheet, x: 0, y: 0, scale: 1 };
+    const above = this.placed(parent);
+    if (!sheet || !above) return undefined;
+    const node = this.net.page(parent).nodes.findIndex((candidate) => candidate.page === page);
+    return this.within(above, page, node, sheet);
+  }
+
+  private within(above: Placed, page: number, node: number, sheet: Sheet): Placed {
+    const inner = inset(above.sheet.nodes[node]!, sheet);
+    return {
+      page,
+      sheet,
+      x: above.x + inner.x * above.scale,
+      y: above.y + inner.y * above.scale,
+      scale: above.scale * inner.scale,
+    };
+  }
+
+  /** The sheets to be drawn for a window, parents first: those that are in it and large enough to be read. */
+  visible(window: Window): Placed[] {
+    const found: Placed[] = [];
+    const visit = (at: Placed) => {
+      found.push(at);
+      const inside = this.net.page(at.page).nodes.flatMap((node, index) => {
+        if (node.page === null || this.folded(node.page)) return [];
+        const box = boxWithin(at, at.sheet.nodes[index]!);
+        if (!intersects(box, window) || box.width * window.zoom < 60) return [];
+        const sheet = this.get(node.page);
+        return sheet ? [this.within(at, node.page, index, sheet)] : [];
+      });
+      // Where one can be read, its neighbours are shown too if they nearly can.
+      const enough = inside.some((one) => one.scale * window.zoom >= legible) ? 0.8 * legible : legible;
+      for (const one of inside) if (one.scale * window.zoom >= enough) visit(one);
+    };
+    const root = this.placed(0);
+    if (root) visit(root);
+    return found;
+  }
+
+  /** The box of a page, place or transition in the drawing. */
+  boxOf(path: string): Box | undefined {
+    const element = this.net.find(path);
+    if (!element) return undefined;
+    const on = this.placed(element.page);
+    if (!on) return undefined;
+    if (element.index < 0) return { x: 0, y: 0, width: on.sheet.width, height: on.sheet.height };
+    const box = element.kind === "transition" ? on.sheet.transitions[element.index] : on.sheet.nodes[element.index];
+    return box && boxWithin(on, box);
+  }
+}
+
+export const boxWithin = (at: Placed, box: Box): Box => ({
+  x: at.x + box.x * at.scale,
+  y: at.y + box.y * at.scale,
+  width: box.width * at.scale,
+  height: box.height * at.scale,
+});

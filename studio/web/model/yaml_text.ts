@@ -1,0 +1,249 @@
+import {
+  isCollection,
+  isMap,
+  isPair,
+  isScalar,
+  isSeq,
+  LineCounter,
+  parseDocument,
+  stringify,
+  type Document,
+  type Node,
+  type Pair,
+  type YAMLMap,
+  type YAMLSeq,
+} from "yaml";
+
+/**
+ * The specification as text that is edited in place: the parsed document says where things stand, and an edit replaces
+ * just those characters. Comments, order, alignment and quotes of everything else stay as they are.
+ */
+
+export type YamlPath = readonly (string | number)[];
+/** What is put in: a scalar or flow text as it shall stand in the file, or a map of such. */
+export type Value = string | { [key: string]: Value };
+export interface TextEdit {
+  from: number;
+  to: number;
+  insert: string;
+}
+
+export function apply(text: string, edits: readonly TextEdit[]): string {
+  return [...edits]
+    .sort((a, b) => b.from - a.from || b.to - a.to)
+    .reduce((now, edit) => now.slice(0, edit.from) + edit.insert + now.slice(edit.to), text);
+}
+
+/** How a text is written as a scalar: in quotes only where YAML needs them. Flow collections and numbers stay as they are. */
+export function scalarText(text: string): string {
+  const trimmed = text.trim();
+  if (/^(true|false|-?\d+(\.\d+)?)$/.test(trimmed)) return trimmed;
+  if (/^[[{]/.test(trimmed) && parseDocument(trimmed).errors.length === 0) return trimmed;
+  return stringify([trimmed], { collectionStyle: "flow", lineWidth: 0 }).trim().slice(1, -1).trim();
+}
+
+type PairOf = Pair<Node, Node | null>;
+
+export class YamlText {
+  readonly document: Document;
+  private readonly lines = new LineCounter();
+
+  constructor(readonly text: string) {
+    this.document = parseDocument(text, { lineCounter: this.lines, keepSourceTokens: false });
+  }
+
+  /** The node at a path, through aliases no; nothing when there is none. */
+  node(path: YamlPath): Node | undefined {
+    const found = path.length === 0 ? this.document.contents : this.document.getIn(path as (string | number)[], true);
+    return (found as Node | null | undefined) ?? undefined;
+  }
+
+  map(path: YamlPath): YAMLMap<Node, Node | null> | undefined {
+    const node = this.node(path);
+    return isMap(node) ? (node as unknown as YAMLMap<Node, Node | null>) : undefined;
+  }
+
+  seq(path: YamlPath): YAMLSeq<Node> | undefined {
+    const node = this.node(path);
+    return isSeq(node) ? (node as YAMLSeq<Node>) : undefined;
+  }
+
+  keys(path: YamlPath): string[] {
+    return this.map(path)?.items.map((pair) => keyText(pair)) ?? [];
+  }
+
+  /** The text of a scalar as it means, or of anything else as it stands in the file. */
+  valueText(path: YamlPath): string | undefined {
+    const node = this.node(path);
+    if (!node || !node.range) return undefined;
+    if (isScalar(node))
+      return node.value === null ? "" : typeof node.value === "string" ? node.value : (node.source ?? String(node.value));
+    return this.text.slice(node.range[0], node.range[1]).trim();
+  }
+
+  pair(path: YamlPath): PairOf | undefined {
+    const map = this.map(path.slice(0, -1));
+    return map?.items.find((pair) => keyText(pair) === path.at(-1));
+  }
+
+  /** Line of the key or item at a path, from 1; 0: not there. */
+  line(path: YamlPath): number {
+    const at = this.pair(path)?.key.range?.[0] ?? this.node(path)?.range?.[0];
+    return at === undefined ? 0 : this.lines.linePos(at).line;
+  }
+
+  endLine(path: YamlPath): number {
+    const pair = this.pair(path);
+    const end = pair ? endOf(pair) : (this.node(path)?.range?.[1] ?? 0);
+    return this.lines.linePos(Math.max(0, end - 1)).line;
+  }
+
+  // ---------------------------------------------------------------------------------------------- edits
+
+  /** Puts `key: value` at the end of the map at `path`, making the map when it is not there. */
+  insert(path: YamlPath, key: string, value: Value): TextEdit[] {
+    const map = this.map(path);
+    if (!map) return this.insertMap(path, key, value);
+    if (map.items.length === 0) return this.replaceWith(path, { [key]: value });
+    if (map.flow) {
+      const at = endOf(map.items.at(-1)!);
+      return [{ from: at, to: at, insert: `, ${key}: ${flow(value)}` }];
+    }
+    const indent = this.columnOf(map.items[0]!.key.range![0]);
+    return [this.afterLine(endOf(map.items.at(-1)!), `${" ".repeat(indent)}${key}:${block(value, indent)}`)];
+  }
+
+  private insertMap(path: YamlPath, key: string, value: Value): TextEdit[] {
+    const inside = { [key]: value };
+    if (this.pair(path)) return this.replaceWith(path, inside);
+    return this.insert(path.slice(0, -1), String(path.at(-1)), inside);
+  }
+
+  /** Puts another value where one stands; in flow style where it stands within flow style. */
+  private replaceWith(path: YamlPath, value: Value): TextEdit[] {
+    const pair = this.pair(path);
+    if (!pair) return [];
+    const inFlow = this.map(path.slice(0, -1))?.flow === true;
+    const [from, to] = this.valueRange(pair);
+    const indent = this.columnOf(pair.key.range![0]);
+    const insert = inFlow || typeof value === "string" ? ` ${flow(value)}` : block(value, indent);
+    return [{ from, to, insert }];
+  }
+
+  /** From after the colon to the end of the value. */
+  private valueRange(pair: PairOf): [number, number] {
+    const colon = this.text.indexOf(":", pair.key.range![1]) + 1;
+    return [colon, Math.max(colon, pair.value?.range ? endOf(pair) : colon)];
+  }
+
+  /** Sets a scalar of the map at `path`; an empty text takes the key away. Spaces before the value stay. */
+  set(path: YamlPath, key: string, text: string): TextEdit[] {
+    const at = [...path, key];
+    const pair = this.pair(at);
+    if (text.trim() === "") return pair ? this.remove(at) : [];
+    if (!pair) return this.insert(path, key, scalarText(text));
+    if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, scalarText(text));
+    return [{ from: pair.value.range[0], to: endOf(pair), insert: scalarText(text) }];
+  }
+
+  /** Replaces the scalar or collection at a path. */
+  replace(path: YamlPath, text: string): TextEdit[] {
+    const node = this.node(path);
+    return node?.range ? [{ from: node.range[0], to: endOfNode(node), insert: text }] : [];
+  }
+
+  renameKey(path: YamlPath, name: string): TextEdit[] {
+    const range = this.pair(path)?.key.range;
+    return range ? [{ from: range[0], to: range[1], insert: name }] : [];
+  }
+
+  /** Takes away an entry of a map or an item of a list, with its line when it has one of its own. */
+  remove(path: YamlPath): TextEdit[] {
+    const parent = this.node(path.slice(0, -1));
+    if (!isCollection(parent)) return [];
+    const last = path.at(-1)!;
+    const items = parent.items as (PairOf | Node)[];
+    const at = isMap(parent) ? items.findIndex((item) => isPair(item) && keyText(item as PairOf) === last) : Number(last);
+    const item = items[at];
+    if (!item) return [];
+    if (items.length === 1 && !parent.flow) return path.length > 1 ? this.remove(path.slice(0, -1)) : [];
+    if (parent.flow) return [this.removeFromFlow(items, at, parent as Node)];
+    const start = this.text.lastIndexOf("\n", startOf(item) - 1) + 1;
+    const end = this.text.indexOf("\n", endOf(item));
+    return [{ from: start, to: end < 0 ? this.text.length : end + 1, insert: "" }];
+  }
+
+  private removeFromFlow(items: (PairOf | Node)[], at: number, parent: Node): TextEdit {
+    if (items.length === 1) return { from: parent.range![0], to: parent.range![1], insert: isMap(parent) ? "{}" : "[]" };
+    if (at > 0) return { from: endOf(items[at - 1]!), to: endOf(items[at]!), insert: "" };
+    return { from: startOf(items[0]!), to: startOf(items[1]!), insert: "" };
+  }
+
+  /** Puts an item at the end of the list at `path`. */
+  append(path: YamlPath, item: string): TextEdit[] {
+    const list = this.seq(path);
+    if (!list || list.items.length === 0) {
+      const pair = this.pair(path);
+      if (pair) return [{ from: this.valueRange(pair)[0], to: this.valueRange(pair)[1], insert: `\n  - ${item}` }];
+      const end = this.text.length;
+      const gap = this.text.endsWith("\n") ? "\n" : "\n\n";
+      return [{ from: end, to: end, insert: `${gap}${String(path.at(-1))}:\n  - ${item}\n` }];
+    }
+    const last = list.items.at(-1)!;
+    if (list.flow) return [{ from: endOf(last), to: endOf(last), insert: `, ${item}` }];
+    const dash = this.text.lastIndexOf("-", startOf(last));
+    return [this.afterLine(endOf(last), `${" ".repeat(this.columnOf(dash))}- ${item}`)];
+  }
+
+  /** Replaces parts of a scalar that match, where it stands. */
+  replaceWithin(node: Node | null | undefined, pattern: RegExp, by: string): TextEdit[] {
+    if (!node?.range) return [];
+    const [from, to] = [node.range[0], node.range[1]];
+    const now = this.text.slice(from, to);
+    const then = now.replace(pattern, by);
+    return now === then ? [] : [{ from, to, insert: then }];
+  }
+
+  private columnOf(offset: number): number {
+    return offset - (this.text.lastIndexOf("\n", offset - 1) + 1);
+  }
+
+  private afterLine(offset: number, line: string): TextEdit {
+    const end = this.text.indexOf("\n", offset);
+    if (end < 0) return { from: this.text.length, to: this.text.length, insert: `\n${line}\n` };
+    return { from: end, to: end, insert: `\n${line}` };
+  }
+}
+
+export const keyText = (pair: { key: unknown }): string => (isScalar(pair.key) ? String(pair.key.value) : String(pair.key));
+
+function startOf(item: PairOf | Node): number {
+  return isPair(item) ? (item as PairOf).key.range![0] : (item as Node).range![0];
+}
+
+/** Where the last thing of an entry ends, without the comments and empty lines after it. */
+function endOf(item: PairOf | Node): number {
+  if (!isPair(item)) return endOfNode(item as Node);
+  const { key, value } = item as PairOf;
+  if (value?.range && value.range[1] > key.range![1]) return endOfNode(value);
+  return key.range![1] + 1;
+}
+
+function endOfNode(node: Node): number {
+  if (isCollection(node) && !node.flow && node.items.length > 0) return endOf(node.items.at(-1) as PairOf | Node);
+  return node.range![1];
+}
+
+function flow(value: Value): string {
+  if (typeof value === "string") return value;
+  const entries = Object.entries(value).map(([key, one]) => `${key}: ${flow(one)}`);
+  return entries.length === 0 ? "{}" : `{ ${entries.join(", ")} }`;
+}
+
+/** What stands after the colon: maps that hold maps as blocks, others in one line. */
+function block(value: Value, indent: number): string {
+  if (typeof value === "string") return ` ${value}`;
+  const entries = Object.entries(value);
+  if (entries.length === 0) return " {}";
+  return entries.map(([key, one]) => `\n${" ".repeat(indent + 2)}${key}:${block(one, indent + 2)}`).join("");
+}

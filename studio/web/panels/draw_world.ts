@@ -1,0 +1,98 @@
+import type { Track } from "../live/runner";
+import { niceStep } from "./draw_timeline";
+import type { Colours, Size } from "./watch";
+
+/** The path of the robot over the floor, x to the right and y up, with a scale in metres. */
+export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, none: string): void {
+  const { path } = track;
+  context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  if (path.length === 0) {
+    context.fillStyle = colours.faint;
+    context.fillText(none, 10, 20);
+    return;
+  }
+  const box = boundsOf(path, track.floor);
+  const scale = Math.min((size.width - 30) / (box.right - box.left), (size.height - 34) / (box.top - box.bottom));
+  const x = (at: number) => size.width / 2 + (at - (box.left + box.right) / 2) * scale;
+  const y = (at: number) => (size.height - 10) / 2 - (at - (box.top + box.bottom) / 2) * scale;
+  drawFloor(context, track.floor, x, y, scale);
+  context.strokeStyle = colours.accent;
+  context.lineWidth = 1.5;
+  context.beginPath();
+  const every = Math.max(1, Math.floor(path.length / 4000));
+  path.forEach((point, at) => {
+    if (at % every === 0 || at === path.length - 1) context.lineTo(x(point.x), y(point.y));
+  });
+  context.stroke();
+  const robot = path[path.length - 1]!;
+  drawRobot(context, colours, x(robot.x), y(robot.y), robot.heading);
+  drawScale(context, size, colours, scale);
+}
+
+/** The picture's lower left corner is the floor's origin. */
+function drawFloor(
+  context: CanvasRenderingContext2D,
+  floor: Track["floor"],
+  x: (at: number) => number,
+  y: (at: number) => number,
+  scale: number,
+): void {
+  if (!floor) return;
+  const [width, height] = [floor.image.width * floor.metresPerPixel, floor.image.height * floor.metresPerPixel];
+  context.save();
+  context.globalAlpha = 0.35;
+  context.drawImage(floor.image, x(0), y(height), width * scale, height * scale);
+  context.restore();
+}
+
+function boundsOf(path: Track["path"], floor: Track["floor"]) {
+  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  if (floor)
+    Object.assign(box, {
+      left: 0,
+      bottom: 0,
+      right: floor.image.width * floor.metresPerPixel,
+      top: floor.image.height * floor.metresPerPixel,
+    });
+  for (const { x, y } of path) {
+    box.left = Math.min(box.left, x);
+    box.right = Math.max(box.right, x);
+    box.bottom = Math.min(box.bottom, y);
+    box.top = Math.max(box.top, y);
+  }
+  // At least half a metre, or a robot that stands still fills the window.
+  if (floor) return box;
+  const grow = (low: number, high: number) => Math.max(0, 0.5 - (high - low)) / 2 + 0.05;
+  const [across, along] = [grow(box.left, box.right), grow(box.bottom, box.top)];
+  return { left: box.left - across, right: box.right + across, bottom: box.bottom - along, top: box.top + along };
+}
+
+function drawRobot(context: CanvasRenderingContext2D, colours: Colours, x: number, y: number, heading: number): void {
+  context.save();
+  context.translate(x, y);
+  context.rotate(-heading);
+  context.beginPath();
+  context.moveTo(9, 0);
+  context.lineTo(-6, 5.5);
+  context.lineTo(-3.5, 0);
+  context.lineTo(-6, -5.5);
+  context.closePath();
+  context.fillStyle = colours.text;
+  context.fill();
+  context.restore();
+}
+
+function drawScale(context: CanvasRenderingContext2D, size: Size, colours: Colours, scale: number): void {
+  const metres = niceStep(50 / scale);
+  const y = size.height - 8.5;
+  context.strokeStyle = colours.faint;
+  context.fillStyle = colours.faint;
+  context.lineWidth = 1;
+  context.beginPath();
+  context.moveTo(10, y - 3);
+  context.lineTo(10, y);
+  context.lineTo(10 + metres * scale, y);
+  context.lineTo(10 + metres * scale, y - 3);
+  context.stroke();
+  context.fillText(`${Number(metres.toPrecision(2))} m`, 16 + metres * scale, y + 3);
+}

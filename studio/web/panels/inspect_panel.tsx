@@ -1,0 +1,117 @@
+import { useStore, useStudio } from "../app/use";
+import { useComplaints, useStructure } from "../app/use_structure";
+import { layerTitle, operationText } from "../model/labels";
+import type { Element, NetModel } from "../model/net";
+import { findThing, type Thing } from "../model/structure";
+import { EditForm } from "./edit_forms";
+
+/** What the selected element is, and what can be changed about it. */
+export function InspectPanel() {
+  const studio = useStudio();
+  const structure = useStructure();
+  const complaints = useComplaints(structure);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const view = useStore(studio.view, (all) => all.view);
+  const selected = useStore(studio.view, (all) => all.selected);
+  if (selected === null) return <p className="faint">Select something in the drawing to see what it is and to change it.</p>;
+  const thing = findThing(structure, selected);
+  const element = net?.find(selected);
+  if (!thing && !element) return <p className="faint">{selected} is not there any more.</p>;
+  const line = thing?.of.line ?? element!.span.line;
+  return (
+    <div className="inspect">
+      <h2>{title(thing, selected)}</h2>
+      <p className="path">{thing?.kind === "channel" ? "" : selected || "system"}</p>
+      {(thing ? (complaints.get(selected)?.messages ?? []) : []).map((text) => (
+        <p key={text} className="problem-hint">
+          {text}
+        </p>
+      ))}
+      {thing && <EditForm key={selected} structure={structure} thing={thing} />}
+      {net && element && (
+        <>
+          {thing && <h3>Its net</h3>}
+          <dl>{facts(net, element).map(([term, value]) => [<dt key={term}>{term}</dt>, <dd key={`${term}.`}>{value}</dd>])}</dl>
+        </>
+      )}
+      {net && element?.kind === "place" && <Breakpoint place={net.placeByName.get(selected)!} />}
+      <div className="links">
+        {line > 0 && (
+          <button className="link" onClick={() => studio.showLine(line)}>
+            Line {line} of the specification
+          </button>
+        )}
+        {view === "structure" && element && (
+          <button className="link" onClick={() => studio.flyTo(selected)}>
+            Show its net
+          </button>
+        )}
+        {view === "net" && thing && (
+          <button className="link" onClick={() => studio.view.set({ view: "structure" })}>
+            Show it in the structure
+          </button>
+        )}
+      </div>
+    </div>
+  );
+}
+
+/** A run under simulated time pauses when a token arrives here. */
+function Breakpoint({ place }: { place: number }) {
+  const studio = useStudio();
+  const set = useStore(studio.runner.store, (all) => all.breakpoints.includes(place));
+  return (
+    <div className="buttons">
+      <button aria-pressed={set} onClick={() => studio.runner.toggleBreakpoint(place)}>
+        {set ? "Remove the breakpoint" : "Pause a run here"}
+      </button>
+    </div>
+  );
+}
+
+const kinds: Record<Thing["kind"], string> = {
+  agent: "Agent",
+  subsystem: "Subsystem",
+  behaviour: "Behaviour",
+  buffer: "Buffer",
+  channel: "Channel",
+};
+
+function title(thing: Thing | undefined, selected: string): string {
+  if (thing?.kind === "channel") return "Channel";
+  const name = selected.split(".").at(-1) || "system";
+  return thing ? `${kinds[thing.kind]} ${name}` : name;
+}
+
+function facts(net: NetModel, element: Element): [string, string][] {
+  const page = net.page(element.page);
+  if (element.kind === "page") {
+    const of = net.page(net.pageByPath.get(element.path)!);
+    const pages = of.nodes.filter((node) => node.page !== null).length;
+    return [
+      ["Layer", layerTitle[of.layer]],
+      ["Net", `${of.nodes.length - pages} places, ${pages} pages, ${of.transitions.length} transitions`],
+    ];
+  }
+  if (element.kind === "place") {
+    const node = page.nodes[element.index]!;
+    const operation = operationText(page, node.operation);
+    const fused: [string, string][] =
+      node.fusion === null ? [] : [["Fused", "one place seen in several nets: memory of a channel"]];
+    return [
+      ["Kind", "place"],
+      ...(operation ? [["Operation", operation] as [string, string]] : []),
+      ...fused,
+      ["At start", node.tokens ? `${node.tokens} token` : "empty"],
+    ];
+  }
+  const transition = page.transitions[element.index]!;
+  const names = (nodes: number[]) => nodes.map((at) => page.nodes[at]!.name).join(", ");
+  const { condition } = transition;
+  return [
+    ["Kind", "transition"],
+    ["From", names(transition.inputs)],
+    ["To", names(transition.outputs)],
+    ["Condition", condition === null || condition.truth === "always" ? "none" : condition.text],
+  ];
+}

@@ -1,0 +1,60 @@
+import { useState } from "react";
+import { useStore, useStudio } from "../app/use";
+
+/** The complaints of the parser, and where they are. */
+export function Problems() {
+  const studio = useStudio();
+  const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);
+  const checking = useStore(studio.draft.store, (draft) => draft.checking);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const [open, setOpen] = useState(true);
+  const errors = diagnostics.filter((one) => one.severity === "error").length;
+  const warnings = diagnostics.filter((one) => one.severity === "warning").length;
+  const go = (line: number) => {
+    studio.view.set({ text: true });
+    studio.showLine(line);
+  };
+  return (
+    <footer className="problems">
+      <div className="status">
+        <button
+          className="quiet"
+          aria-expanded={open && diagnostics.length > 0}
+          onClick={() => setOpen(!open)}
+          data-testid="problem-count"
+        >
+          <span className={`dot ${errors ? "error" : warnings ? "warning" : "good"}`} />
+          {[count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "No problems"}
+        </button>
+        <span className="faint">{checking ? "checking…" : ""}</span>
+        <span className="spring" />
+        {net && (
+          <span className="faint">
+            {net.places.length} places · {net.transitions.length} transitions · {net.pages.length} pages
+          </span>
+        )}
+      </div>
+      {open && diagnostics.length > 0 && (
+        <ul className="problem-list" aria-label="Problems">
+          {diagnostics.map((one, at) => (
+            <li key={at}>
+              <button className="problem" onClick={() => go(one.line)}>
+                <span className={`dot ${one.severity}`} />
+                <span className="where">
+                  {one.line}:{one.column}
+                </span>
+                <span className="what">
+                  {one.message}
+                  {one.hint && <span className="hint"> — {one.hint}</span>}
+                </span>
+                <span className="code">{one.code}</span>
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </footer>
+  );
+}
+
+const count = (number: number, what: string) => (number === 0 ? "" : `${number} ${what}${number === 1 ? "" : "s"}`);

@@ -1,0 +1,92 @@
+import { useStore, useStudio } from "../app/use";
+import type { View } from "../live/studio";
+import { Icon } from "./icons";
+
+export function Toolbar() {
+  const studio = useStudio();
+  const project = useStore(studio.project, (all) => all.project);
+  const { view, text, theme } = useStore(studio.view, (all) => all);
+  const draft = useStore(studio.draft.store, (all) => all);
+  const dirty = draft.text !== draft.saved;
+  const choose = (next: View) => studio.view.set({ view: next });
+  return (
+    <header className="toolbar">
+      <span className="brand">
+        <Icon name="logo" /> Tessera
+      </span>
+      <h1 className="project" title={project ? `${project.folder}/${project.file}` : ""}>
+        {project?.name ?? "…"}
+        {dirty && <span className="unsaved" title="Not saved yet" aria-label="not saved" role="img" />}
+      </h1>
+      <div className="segmented" role="tablist" aria-label="View">
+        {(["net", "structure"] as const).map((name) => (
+          <button key={name} role="tab" aria-selected={view === name} onClick={() => choose(name)}>
+            {name === "net" ? "Net" : "Structure"}
+          </button>
+        ))}
+      </div>
+      <span className="spring" />
+      <button className="search-button" onClick={() => studio.view.set({ searching: true })}>
+        <Icon name="search" /> Find by path <kbd>Ctrl K</kbd>
+      </button>
+      <span className="spring" />
+      <Verdicts />
+      <button
+        className="icon"
+        aria-label="Undo"
+        title="Undo (Ctrl Z)"
+        disabled={!draft.canUndo}
+        onClick={() => studio.draft.undo()}
+      >
+        <Icon name="undo" />
+      </button>
+      <button
+        className="icon"
+        aria-label="Redo"
+        title="Redo (Ctrl Shift Z)"
+        disabled={!draft.canRedo}
+        onClick={() => studio.draft.redo()}
+      >
+        <Icon name="redo" />
+      </button>
+      <button
+        className="icon"
+        aria-label="Text of the specification"
+        aria-pressed={text}
+        title="Text of the specification"
+        onClick={() => studio.view.set({ text: !text })}
+      >
+        <Icon name="text" />
+      </button>
+      <button
+        className="icon"
+        aria-label="Dark colours"
+        aria-pressed={theme === "dark"}
+        title="Light or dark"
+        onClick={() => studio.view.set({ theme: theme === "dark" ? "light" : "dark" })}
+      >
+        <Icon name="theme" />
+      </button>
+      <button className="primary" disabled={!dirty} onClick={() => void studio.draft.save()} title="Save (Ctrl S)">
+        Save
+      </button>
+    </header>
+  );
+}
+
+/** What the last verification said of the text as it is, in one look. */
+function Verdicts() {
+  const studio = useStudio();
+  const { verdicts, text, state } = useStore(studio.verifier.store, (all) => all);
+  const now = useStore(studio.draft.store, (draft) => draft.text);
+  if (state === "running") return <span className="faint">verifying…</span>;
+  if (verdicts.length === 0 || text !== now) return null;
+  const violated = verdicts.filter((one) => one.verdict === "violated" && !one.warning).length;
+  const unknown = verdicts.filter((one) => one.verdict === "unknown").length;
+  const said = violated > 0 ? `${violated} violated` : unknown > 0 ? `${unknown} unknown` : "verified";
+  return (
+    <button className="quiet" onClick={() => studio.view.set({ panel: "verify" })}>
+      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said}
+    </button>
+  );
+}

@@ -1,0 +1,109 @@
+import { useStore, useStudio } from "../app/use";
+import type { Verdict } from "../live/protocol";
+import { stepsOf } from "../live/verifier";
+import { sentence } from "../model/labels";
+import type { NetModel } from "../model/net";
+import { Icon } from "./icons";
+
+/** What each property asks, in words. */
+const asks: Record<string, string> = {
+  safe: "no place ever holds two tokens",
+  exclusive_channels: "one side at a time uses a channel's memory",
+  deadlock_free: "the system never stops by itself",
+  goes_on: "every subsystem goes on for ever",
+  channels_flow: "every channel keeps carrying values",
+  sound_pages: "every page ends what it began",
+  live_behaviours: "every behaviour can run again and again",
+  survives_exceptions: "errors stop nobody else",
+};
+
+export function VerifyPanel() {
+  const studio = useStudio();
+  const verifier = useStore(studio.verifier.store, (all) => all);
+  const text = useStore(studio.draft.store, (draft) => draft.text);
+  const current = useStore(studio.draft.store, (draft) => draft.current);
+  const running = verifier.state === "running";
+  const old = verifier.verdicts.length > 0 && verifier.text !== text;
+  return (
+    <div>
+      <div className="buttons" style={{ marginTop: 0 }}>
+        {running ? (
+          <button onClick={() => studio.verifier.stop()}>Stop</button>
+        ) : (
+          <button className="primary" disabled={!current} onClick={() => void studio.verifier.start()}>
+            Verify
+          </button>
+        )}
+      </div>
+      {running && (
+        <div role="status">
+          <div className="progress">
+            <i />
+          </div>
+          <p className="faint">
+            {verifier.property || "reading the net"}
+            {verifier.states > 0 && ` · ${verifier.states.toLocaleString("en")} markings`}
+            {verifier.rate > 0 && ` · ${Math.round(verifier.rate).toLocaleString("en")}/s`}
+          </p>
+        </div>
+      )}
+      {verifier.state === "stopped" && <p className="faint">Stopped before all was known.</p>}
+      {verifier.problem && <p className="problem-hint">{verifier.problem}</p>}
+      {old && <p className="problem-hint">The specification changed since; these verdicts are of the text before.</p>}
+      {verifier.state === "idle" && (
+        <p className="faint">
+          Proves that nothing can go wrong in the net, or shows the run in which it does. The text is verified as it is here,
+          saved or not.
+        </p>
+      )}
+      <div className="verdicts">
+        {verifier.verdicts.map((verdict) => (
+          <VerdictRow key={verdict.name} verdict={verdict} net={verifier.net} />
+        ))}
+      </div>
+    </div>
+  );
+}
+
+const marks = { holds: "check", violated: "cross", unknown: "question" } as const;
+
+function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }) {
+  const studio = useStudio();
+  const steps = net && stepsOf(verdict, net);
+  const show = () => {
+    if (!net || !steps) return;
+    studio.play.trace(net, steps, verdict.name, verdict.waits ?? []);
+    studio.view.set({ view: "net", panel: "play" });
+  };
+  const bad = verdict.verdict !== "holds" && !verdict.warning;
+  return (
+    <details className="verdict" open={bad}>
+      <summary>
+        <span
+          className={`mark ${verdict.verdict === "violated" && verdict.warning ? "unknown" : verdict.verdict}`}
+          role="img"
+          aria-label={verdict.verdict}
+        >
+          <Icon name={marks[verdict.verdict]} />
+        </span>
+        <span className="name">{verdict.name.replaceAll("_", " ")}</span>
+        <span className="method">{verdict.verdict}</span>
+      </summary>
+      <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
+      {verdict.why && <p>{sentence(verdict.why)}</p>}
+      {(verdict.waits ?? []).map((wait) => (
+        <p key={wait}>{sentence(wait)}</p>
+      ))}
+      <p>
+        By {verdict.method || "nothing yet"}
+        {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
+      </p>
+      {verdict.meaning && <p>{sentence(verdict.meaning)}</p>}
+      {steps && (
+        <div className="buttons">
+          <button onClick={show}>Show the run ({steps.length} firings)</button>
+        </div>
+      )}
+    </details>
+  );
+}

@@ -1,0 +1,74 @@
+// What the end-to-end tests share: a server for a copy of an example, a page on it, and what may never happen.
+import assert from "node:assert/strict";
+import { fileURLToPath } from "node:url";
+import { launch } from "./browser.mjs";
+import { serve } from "./server.mjs";
+
+export { serve };
+
+export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
+export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, import.meta.url));
+
+/** Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere. */
+export async function onPage(project, test, options = {}) {
+  const server = await serve(project, options.server);
+  const browser = await launch();
+  const context = await browser.newContext({
+    viewport: { width: 1440, height: 900 },
+    reducedMotion: "reduce",
+  });
+  const problems = [];
+  const open = async () => {
+    const page = await context.newPage();
+    page.setDefaultTimeout(60_000);
+    page.on("pageerror", (error) => problems.push(error.stack));
+    page.on("request", (request) => {
+      const { protocol, host } = new URL(request.url());
+      if (protocol.startsWith("http") && host !== new URL(server.address).host) problems.push(`request to ${request.url()}`);
+    });
+    return page;
+  };
+  try {
+    const page = await open();
+    await page.goto(server.url);
+    await page.getByText("Opening…").waitFor({ state: "detached" });
+    await test(page, server, open);
+    assert.deepEqual(problems, []);
+  } finally {
+    await browser.close();
+    await server.close();
+  }
+}
+
+/** Goes to an element by the search. */
+export async function find(page, path) {
+  await page.keyboard.press("Control+k");
+  await page.getByRole("combobox", { name: "Path" }).fill(path);
+  await page.keyboard.press("Enter");
+}
+
+export const element = (page, path) => page.locator(`.sheet [data-path="${path}"]`).first();
+export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
+export const button = (page, name) => page.getByRole("button", { name, exact: true });
+
+/** The text of the specification as the page has it. */
+export const draftText = (page) => page.evaluate(() => JSON.parse(sessionStorage.getItem("tessera.draft") ?? "{}").text);
+
+/** Lines that differ, as `diff` shows them; for changes that keep the order of lines. */
+export function changes(before, after) {
+  const [old, fresh] = [before.split("\n"), after.split("\n")];
+  return [
+    ...old.filter((line) => !fresh.includes(line)).map((line) => `-${line}`),
+    ...fresh.filter((line) => !old.includes(line)).map((line) => `+${line}`),
+  ];
+}
+
+/** Waits until `look` gives something that is not undefined, null or false. */
+export async function until(page, look, what) {
+  for (let turn = 0; turn < 1000; turn += 1) {
+    const found = await look();
+    if (found !== undefined && found !== null && found !== false) return found;
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 30))));
+  }
+  return assert.fail(`never happened: ${what}`);
+}

@@ -1,0 +1,396 @@
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { readFileSync, writeFileSync } from "node:fs";
+import { test } from "node:test";
+import { gzipSync } from "node:zlib";
+import { button, changes, draftText, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
+
+const lineFollower = example("01_line_follower");
+
+test("zooming goes through the five layers", () =>
+  onPage(lineFollower, async (page) => {
+    const here = page.getByRole("navigation", { name: "Layers" });
+    for (const [path, layer] of [
+      ["robot", "agent"],
+      ["robot.control", "subsystem"],
+      ["robot.control.follow", "behaviour"],
+      ["robot.control.follow.snd", "communication"],
+    ]) {
+      await element(page, path).dblclick({ position: { x: 20, y: 12 } });
+      await here.getByText(layer, { exact: true }).waitFor();
+      assert.equal(await page.locator(`[data-sheet="${path}"]`).count(), 1);
+    }
+    await here.getByRole("button", { name: "system" }).click();
+    await here.getByText("multi-agent system").waitFor();
+    assert.equal(await page.locator('[data-sheet="robot.control.follow.snd"]').count(), 0);
+  }));
+
+test("keys alone lead from the system to a transition and back", () =>
+  onPage(lineFollower, async (page) => {
+    await page.getByRole("application", { name: /Drawing of the net/ }).focus();
+    const said = page.locator(".canvas [aria-live]");
+    const here = page.getByRole("navigation", { name: "Layers" });
+    for (const [key, name] of [
+      ["ArrowDown", "place in"],
+      ["ArrowDown", "transition t_in"],
+      ["ArrowDown", "agent robot"],
+      ["Enter", "place robot.in"],
+      ["ArrowDown", "transition robot.t_in"],
+    ]) {
+      await page.keyboard.press(key);
+      await said.getByText(name, { exact: true }).waitFor();
+    }
+    await here.getByText("agent", { exact: true }).waitFor();
+    await page.keyboard.press("Escape");
+    await here.getByText("multi-agent system", { exact: true }).waitFor();
+  }));
+
+test("a folded page is a double circle, and opens again", () =>
+  onPage(lineFollower, async (page) => {
+    await find(page, "robot.control");
+    await page.locator('[data-sheet="robot.control"]').waitFor();
+    await button(page, "Fold control").click();
+    await page.locator('.page.folded[data-path="robot.control"]').waitFor();
+    assert.equal(await page.locator('[data-sheet="robot.control"]').count(), 0);
+    await element(page, "robot.control").dblclick();
+    await page.locator('[data-sheet="robot.control"]').waitFor();
+  }));
+
+test("an edit in the drawing is a clean diff, in the text too, and is undone", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.control"]').click();
+    await button(page, "Add behaviour").click();
+    await page.getByRole("textbox", { name: "Name" }).fill("stop");
+    await page.keyboard.press("Enter");
+    await page.locator('.chip[data-path="robot.control.stop"]').waitFor();
+    await page.getByRole("textbox", { name: "Terminal condition" }).fill("in.line.left");
+    await page.keyboard.press("Enter");
+    const expected = ["+        stop:", "+          terminal: in.line.left"];
+    assert.deepEqual(changes(before, await draftText(page)), expected);
+    await page.getByTestId("editor").getByText("terminal: in.line.left").waitFor();
+    await button(page, "Save").click();
+    await page.getByText("Saved").waitFor();
+    assert.deepEqual(changes(before, server.text()), expected);
+    for (let step = 0; step < 3; step += 1) await button(page, "Undo").click();
+    assert.equal(await draftText(page), before);
+    await tab(page, "Net").click();
+    await find(page, "robot.control.follow");
+    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
+  }));
+
+test("renaming an agent changes its name everywhere and nothing else", () =>
+  onPage(lineFollower, async (page, server) => {
+    await tab(page, "Structure").click();
+    await page.locator('.agent-name[data-path="robot"]').click();
+    await page.getByRole("textbox", { name: "Name" }).fill("rover");
+    await page.keyboard.press("Enter");
+    await page.locator('.agent-name[data-path="rover"]').waitFor();
+    await page.getByText("No problems").waitFor();
+    assert.equal((await draftText(page)).replaceAll("rover", "robot"), server.text());
+  }));
+
+test("a channel is dragged from an output to an input, and its modes are chosen", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await button(page, "Add input").click();
+    await page.locator('[data-handle="robot.motor.input"]').waitFor();
+    await page.locator('[data-handle="robot.sensor.line"]').dragTo(page.locator('[data-handle="robot.motor.input"]'));
+    await page.locator('[data-path="channel:2"]').waitFor();
+    await page.getByLabel("The receiver").selectOption("blocking");
+    await page.locator('.channel-label[data-path="channel:2"]').getByText("N → B").waitFor();
+    assert.deepEqual(
+      changes(before, await draftText(page)).at(-1),
+      "+  - { from: robot.sensor.line, to: robot.motor.input, receive: blocking }",
+    );
+  }));
+
+test("a broken file says where, keeps its drawing, and is repaired", () =>
+  onPage(lineFollower, async (page) => {
+    const editor = page.getByTestId("editor").locator(".cm-content");
+    await editor.getByText("start: [1.2").count();
+    await find(page, "robot.control.init");
+    await editor.focus();
+    await page.keyboard.press("End");
+    await page.keyboard.type(" ]");
+    await page
+      .getByTestId("problem-count")
+      .getByText(/\d+ error/)
+      .waitFor();
+    await page.getByText("this is the drawing of the last version without").waitFor();
+    assert.ok((await page.locator(".sheet").count()) > 0);
+    assert.ok((await page.locator(".problem-list .problem").count()) > 0);
+    await page.keyboard.press("Backspace");
+    await page.keyboard.press("Backspace");
+    await page.getByText("No problems").waitFor();
+  }));
+
+test("a file that is broken on disk opens with its errors", () =>
+  onPage(folder("broken"), async (page) => {
+    await page.getByText("No drawing yet").waitFor();
+    assert.ok((await page.locator(".problem-list .problem").count()) > 0);
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.control"]').waitFor();
+  }));
+
+test("a change on disk is taken, merged, or asked about", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    writeFileSync(server.file, before.replace("rate: 20 Hz", "rate: 25 Hz"));
+    await page.getByTestId("editor").getByText("25 Hz").waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
+    await page.keyboard.press("Enter");
+    writeFileSync(server.file, server.text().replace("rate: 25 Hz", "rate: 30 Hz"));
+    await page.getByText("both changes were merged").waitFor();
+    assert.match(await draftText(page), /rate: 30 Hz[\s\S]*rate: 40 Hz/);
+    writeFileSync(server.file, server.text().replace(/(motor:\n\s+rate:) 50 Hz/, "$1 60 Hz"));
+    const dialog = page.getByRole("dialog");
+    await dialog.getByText("60 Hz").waitFor();
+    await dialog.getByRole("button", { name: "Keep mine" }).click();
+    assert.match(await draftText(page), /rate: 40 Hz/);
+    await page.keyboard.press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.match(server.text(), /rate: 40 Hz/);
+  }));
+
+test("a violation is shown as a run that steps back and forth", () =>
+  onPage(folder("standoff"), async (page) => {
+    await tab(page, "Verify").click();
+    await button(page, "Verify").click();
+    await page
+      .getByRole("button", { name: /Show the run/ })
+      .first()
+      .click();
+    await page.getByText("Who waits for whom").waitFor();
+    await find(page, "left.control.talk.snd");
+    const tokens = (name) => page.locator(`[data-sheet="left.control.talk.snd"] .place[data-path="${name}"] .tokens`);
+    await tokens("left.control.talk.snd.said.wait").waitFor({ state: "visible" });
+    await button(page, "Step back").click();
+    await tokens("left.control.talk.snd.said.2").waitFor({ state: "visible" });
+    await tokens("left.control.talk.snd.said.wait").waitFor({ state: "hidden" });
+    await button(page, "Step forward").click();
+    await tokens("left.control.talk.snd.said.wait").waitFor({ state: "visible" });
+    await button(page, "Close").click();
+    await page.getByText("Play the token game").waitFor();
+  }));
+
+test("the token game fires what is clicked, and conditions fall as chosen", () =>
+  onPage(folder("standoff"), async (page) => {
+    await tab(page, "Play").click();
+    await button(page, "Play the token game").click();
+    await element(page, "t_in").click();
+    await page.getByText("1 / 1").waitFor();
+    const choices = page.locator(".choice-list").first();
+    await choices.getByText("left.t_in").click();
+    await choices.getByText("left.control.t_in").waitFor();
+    await page.getByLabel("Condition of right.control.listen.t5").selectOption("false");
+    await button(page, "Let it run").click();
+    await page.getByText("Nothing: the net has stopped.").waitFor();
+  }));
+
+test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    const facts = () => page.getByTestId("run-facts").innerText();
+    const before = await facts();
+    await until(page, async () => (await facts()) !== before, "more firings");
+    await page.getByText("robot.control.motion.angular").waitFor();
+    const painted = () => page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => canvas.toDataURL());
+    const path = await painted();
+    await until(page, async () => (await painted()) !== path, "a longer path");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    const count = async () => Number(/([\d,]+) firings/.exec(await facts())[1].replaceAll(",", ""));
+    await until(page, async () => (await count()) === (await count()), "a pause");
+    const paused = await count();
+    await button(page, "Step one firing").click();
+    await until(page, async () => (await count()) === paused + 1, "one more firing");
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    await page.getByRole("slider", { name: "Time" }).waitFor();
+    await button(page, "Play").click();
+    await until(
+      page,
+      async () => Number((await page.locator(".player .position").innerText()).split(" ")[0]) > 0.05,
+      "the recording plays",
+    );
+    await button(page, "Close").click();
+  }));
+
+test("after a reload the run and the unsaved text are there again", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
+    await page.keyboard.press("Enter");
+    await page.reload();
+    await page.getByTestId("editor").getByText("40 Hz").waitFor();
+    await tab(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+  }));
+
+test("two browsers see each other's saves", () =>
+  onPage(lineFollower, async (page, server, open) => {
+    const other = await open();
+    await other.goto(server.url);
+    await other.getByTestId("editor").getByText("20 Hz").waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.control"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("33 Hz");
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("Control+s");
+    await other.getByTestId("editor").getByText("33 Hz").waitFor();
+  }));
+
+test("a server that is killed and started again is noticed, and found again with its new key", () =>
+  onPage(lineFollower, async (page, server, open) => {
+    await page.locator(".sheet").first().waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
+    await page.keyboard.press("Enter");
+    await server.close({ keep: true });
+    await page.getByRole("alert").getByText("The server does not answer").waitFor();
+    const again = await serve(server.root, { port: server.port, copy: false });
+    try {
+      await page.getByRole("alert").getByText("The server was started anew").waitFor();
+      // `tessera studio` opens its new address; the old tab hears of it.
+      const other = await open();
+      await other.goto(again.url);
+      await page.getByRole("alert").getByText("The server was started anew").waitFor({ state: "detached" });
+      await page.getByText("connected again").waitFor();
+      await page.keyboard.press("Control+s");
+      await page.getByText("Saved").waitFor();
+      assert.match(again.text(), /rate: 40 Hz/);
+    } finally {
+      await again.close();
+    }
+  }));
+
+test("a wrong key is said to be wrong, not a blank page", () =>
+  onPage(lineFollower, async (page, server, open) => {
+    const other = await open();
+    await other.goto(`${server.address}/#token=00`);
+    await other.getByRole("alert").getByText("The server was started anew").waitFor();
+  }));
+
+test("a view is exported as a drawing that stands on its own", () =>
+  onPage(lineFollower, async (page) => {
+    await find(page, "robot.control.follow");
+    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
+    const [svg] = await Promise.all([page.waitForEvent("download"), button(page, "SVG").click()]);
+    const text = readFileSync(await svg.path(), "utf8");
+    assert.equal(svg.suggestedFilename(), "robot.control.follow.svg");
+    assert.match(text, /follow\(\)/);
+    assert.doesNotMatch(text, /var\(|class=|https?:\/\/(?!www\.w3\.org)/);
+    const [png] = await Promise.all([page.waitForEvent("download"), button(page, "PNG").click()]);
+    assert.equal(
+      readFileSync(await png.path())
+        .subarray(1, 4)
+        .toString(),
+      "PNG",
+    );
+  }));
+
+test("axe finds nothing to object to, light and dark, in every view and panel", () =>
+  onPage(lineFollower, async (page) => {
+    const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+    await page.evaluate(axe);
+    const found = [];
+    const judge = async (where) => {
+      const { violations } = await page.evaluate(() => axe.run());
+      found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
+    };
+    await page.locator(".sheet").first().waitFor();
+    for (const theme of ["light", "dark"]) {
+      for (const name of ["Element", "Verify", "Play", "Run", "Recordings"]) {
+        await tab(page, name).click();
+        await judge(`${theme} ${name}`);
+      }
+      await tab(page, "Structure").click();
+      await page.locator('[data-path="robot.control.follow"]').click();
+      await judge(`${theme} Structure`);
+      await page.keyboard.press("Control+k");
+      await page.getByRole("combobox", { name: "Path" }).waitFor();
+      await judge(`${theme} search`);
+      await page.keyboard.press("Escape");
+      await tab(page, "Net").click();
+      await button(page, "Dark colours").click();
+    }
+    assert.deepEqual(found, []);
+  }));
+
+test("without a mouse: a behaviour is added, the text verified, undone and saved", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    const press = async (...keys) => {
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    /** Goes on with the tabulator key to what has that name. */
+    const tabTo = async (role, name) => {
+      for (let turn = 0; turn < 120; turn += 1) {
+        const there = await page
+          .getByRole(role, { name, exact: true })
+          .evaluateAll((all) => all.includes(document.activeElement));
+        if (there) return;
+        await press("Tab");
+      }
+      assert.fail(`the tabulator key never came to the ${role} ${name}`);
+    };
+    await tabTo("tab", "Structure");
+    await press("Enter");
+    await page.locator('[data-path="robot.control"]').waitFor();
+    await page.locator('.subsystem-head[data-path="robot.control"]').focus();
+    await press("Enter");
+    await button(page, "Add behaviour").waitFor();
+    await tabTo("button", "Add behaviour");
+    await press("Enter");
+    await page.locator('.chip[data-path="robot.control.act"]').waitFor();
+    await tabTo("textbox", "Name");
+    await press("Control+a");
+    await page.keyboard.type("wait");
+    await press("Enter");
+    await page.locator('.chip[data-path="robot.control.wait"]').waitFor();
+    await tabTo("tab", "Verify");
+    await press("Enter");
+    await tabTo("button", "Verify");
+    await press("Enter");
+    await page.locator(".verdict").first().waitFor();
+    await press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.deepEqual(changes(before, server.text()), ["+        wait: {}"]);
+    // Its name, and itself.
+    await press("Control+z", "Control+z");
+    await press("Control+s");
+    await until(page, async () => server.text() === before, "the text of before on disk");
+  }));
+
+test("all that is loaded packs into less than a megabyte, and nothing moves for those who asked for stillness", () =>
+  onPage(lineFollower, async (page) => {
+    const asked = new Set();
+    page.on("request", (request) => asked.add(request.url()));
+    await page.reload();
+    await page.locator(".sheet").first().waitFor();
+    await page.getByTestId("editor").getByText("tessera").first().waitFor();
+    const files = [...asked].filter((address) => address.startsWith("http") && !address.includes("/api/"));
+    assert.ok(files.some((address) => address.includes("elk-worker")) && files.length > 4, files.join());
+    let bytes = 0;
+    for (const file of files) bytes += gzipSync(Buffer.from(await (await fetch(file)).arrayBuffer())).length;
+    assert.ok(bytes < 1_000_000, `${bytes} bytes`);
+    await find(page, "robot.control.follow.snd");
+    await page.locator('[data-sheet="robot.control.follow.snd"]').waitFor();
+    const moving = await page.evaluate(() => document.getAnimations().filter((one) => one.playState === "running").length);
+    assert.equal(moving, 0);
+  }));

@@ -1,0 +1,253 @@
+import { readFileSync } from "node:fs";
+import { describe, expect, it } from "vitest";
+import * as edits from "../../model/edits";
+import { diff } from "../../model/merge";
+import { findThing, readStructure, thingAt, type Structure, type Subsystem } from "../../model/structure";
+import { scalarText } from "../../model/yaml_text";
+
+const example = readFileSync(new URL("../../../../examples/01_line_follower/spec.yaml", import.meta.url), "utf8");
+const structure = readStructure(example);
+const subsystem = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem }).of;
+const behaviour = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["behaviours"][number] }).of;
+const buffer = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["buffers"][number] }).of;
+
+/** What changed, as a reader of the commit would see it. */
+function changes(before: string, after: string): string[] {
+  const lines = before.split("\n");
+  return diff(lines, after.split("\n")).flatMap((hunk) => [
+    ...lines.slice(hunk.from, hunk.to).map((line) => `-${line}`),
+    ...hunk.lines.map((line) => `+${line}`),
+  ]);
+}
+const changed = (after: string) => changes(example, after);
+
+describe("readStructure", () => {
+  it("reads agents, subsystems, buffers and channels", () => {
+    expect(structure.agents[0]!.subsystems.map((one) => `${one.kind} ${one.path} ${one.rate}`)).toEqual([
+      "control robot.control 20 Hz",
+      "receptor robot.sensor 50 Hz",
+      "effector robot.motor 50 Hz",
+    ]);
+    expect(structure.channels[1]).toMatchObject({
+      from: "robot.control.motion",
+      to: "robot.motor.velocity",
+      send: "non_blocking",
+      receive: "blocking",
+      timeout: "200 ms",
+    });
+  });
+  it("says what is on a line", () => {
+    expect(thingAt(structure, 19)).toBe("robot.control.follow");
+    expect(thingAt(structure, 22)).toBe("robot.sensor");
+    expect(thingAt(structure, 38)).toBe("channel:0");
+  });
+  it("shows what there is of a broken file", () => {
+    const broken = readStructure(example.replace("      outputs: { motion: Velocity }", "      outputs: { motion: Velocity"));
+    expect(broken.agents.map((agent) => agent.name)).toContain("robot");
+    expect(readStructure("").agents).toEqual([]);
+    expect(readStructure("agents: [1").agents).toEqual([]);
+  });
+  it("finds the subsystems of a template behind its agents", () => {
+    const fleet = readStructure(
+      "templates: { t: { control: { rate: 1 Hz, behaviours: { a: {} } } }, u: { use: t } }\nagents: { robot: { use: u, count: 3 } }\n",
+    );
+    expect(findThing(fleet, "robot[2].control.a")).toMatchObject({
+      kind: "behaviour",
+      of: { yaml: ["templates", "t", "control", "behaviours", "a"] },
+    });
+  });
+});
+
+describe("adding changes only the lines it must", () => {
+  it("adds a behaviour to a block", () => {
+    expect(changed(edits.addBehaviour(structure, subsystem(structure, "robot.control"), "stop"))).toEqual(["+        stop: {}"]);
+  });
+  it("adds a behaviour to a map in one line, before the comment", () => {
+    expect(changed(edits.addBehaviour(structure, subsystem(structure, "robot.sensor"), "rest"))).toEqual([
+      "-        behaviours: { watch: {} }",
+      "+        behaviours: { watch: {}, rest: {} }",
+    ]);
+  });
+  it("adds an agent, a receptor and an effector", () => {
+    expect(changed(edits.addAgent(structure, "other"))).toEqual([
+      "+  other:",
+      "+    control:",
+      "+      rate: 10 Hz",
+      "+      behaviours:",
+      "+        run: {}",
+    ]);
+    const receptor = edits.addSubsystem(structure, structure.agents[0]!, "receptor", "bumper");
+    expect(changed(receptor)).toEqual(["+      bumper:", "+        rate: 50 Hz", "+        behaviours:", "+          run: {}"]);
+  });
+  it("makes the section that was not there", () => {
+    const text = "tessera: 1\nagents:\n  a:\n    control:\n      behaviours: { run: {} }\n";
+    const after = edits.addBuffer(readStructure(text), subsystem(readStructure(text), "a.control"), "input", "x", "float64[3] m");
+    expect(changes(text, after)).toEqual(["+      inputs:", '+        x: "float64[3] m"']);
+    const channel = edits.addChannel(readStructure(after), "b.control.y", "a.control.x", {
+      send: "non_blocking",
+      receive: "non_blocking",
+      timeout: "",
+    });
+    expect(readStructure(channel).channels[0]).toMatchObject({ from: "b.control.y", to: "a.control.x" });
+  });
+  it("adds a channel in the short form, or with its modes", () => {
+    const ends = ["robot.control.motion", "robot.motor.more"] as const;
+    expect(changed(edits.addChannel(structure, ...ends, { send: "non_blocking", receive: "non_blocking", timeout: "" }))).toEqual(
+      ["+  - robot.control.motion -> robot.motor.more"],
+    );
+    expect(changed(edits.addChannel(structure, ...ends, { send: "blocking", receive: "non_blocking", timeout: "1 s" }))).toEqual([
+      "+  - { from: robot.control.motion, to: robot.motor.more, send: blocking, timeout: 1 s }",
+    ]);
+  });
+});
+
+describe("changing", () => {
+  const control = subsystem(structure, "robot.control");
+  it("keeps spaces and comments around a value", () => {
+    expect(changed(edits.setField(structure, subsystem(structure, "robot.motor").yaml, "stale", "1 s"))).toEqual([
+      "-        stale:   500 ms",
+      "+        stale:   1 s",
+    ]);
+    expect(changed(edits.setField(structure, control.yaml, "rate", "25 Hz"))).toEqual([
+      "-      rate: 20 Hz",
+      "+      rate: 25 Hz",
+    ]);
+  });
+  it("quotes a condition only where YAML asks for it", () => {
+    expect(scalarText("in.line.left")).toBe("in.line.left");
+    expect(scalarText("true")).toBe("true");
+    expect(scalarText("!in.order.go")).toBe('"!in.order.go"');
+    expect(scalarText("{ a: memory.n > 2 }")).toBe("{ a: memory.n > 2 }");
+    const after = edits.setField(structure, behaviour(structure, "robot.control.follow").yaml, "terminal", "in.line.left, or so");
+    expect(readStructure(after).agents[0]!.subsystems[0]!.behaviours[1]!.terminal).toBe("in.line.left, or so");
+  });
+  it("takes a field away when it is emptied", () => {
+    expect(changed(edits.setField(structure, control.yaml, "rate", ""))).toEqual(["-      rate: 20 Hz"]);
+    expect(changed(edits.setField(structure, behaviour(structure, "robot.control.init").yaml, "terminal", ""))).toEqual([
+      "-        init:   { terminal: true, next: follow }",
+      "+        init:   { next: follow }",
+    ]);
+  });
+  it("changes the modes of a channel, whichever form it has", () => {
+    const [short, long] = structure.channels;
+    expect(changed(edits.setChannel(structure, short!, { receive: "blocking" }))[1]).toContain(
+      "{ from: robot.sensor.line, to: robot.control.line, receive: blocking }",
+    );
+    expect(changed(edits.setChannel(structure, short!, { receive: "blocking" }))[1]).toContain("# non-blocking at both ends");
+    expect(changed(edits.setChannel(structure, long!, { receive: "non_blocking" }))[1]).toBe(
+      "+  - { from: robot.control.motion, to: robot.motor.velocity, timeout: 200 ms }",
+    );
+    expect(changed(edits.setChannel(structure, long!, { send: "blocking" }))[1]).toContain("timeout: 200 ms, send: blocking }");
+  });
+  it("writes what follows a behaviour", () => {
+    const follow = behaviour(structure, "robot.control.follow");
+    expect(changed(edits.setNext(structure, follow, [{ to: "init", when: "" }]))).toEqual([
+      "-        follow: {}",
+      "+        follow:",
+      "+          next: init",
+    ]);
+    const both = edits.setNext(structure, follow, [
+      { to: "init", when: "in.line.age > 1s" },
+      { to: "end", when: "" },
+    ]);
+    expect(readStructure(both).agents[0]!.subsystems[0]!.behaviours[1]!.next).toEqual([
+      { to: "init", when: "in.line.age > 1s" },
+      { to: "end", when: "" },
+    ]);
+  });
+});
+
+describe("renaming changes the name wherever it stands, and nothing else", () => {
+  it("renames an agent", () => {
+    const after = edits.renameAgent(structure, structure.agents[0]!, "rover");
+    expect(after.match(/\brobot\b/g)).toEqual(["robot"]); // the comment in the first line
+    expect(changed(after).length).toBe(2 * 9);
+    expect(changed(after)).toContain(
+      "+  - rover.sensor.line -> rover.control.line                           # non-blocking at both ends",
+    );
+  });
+  it("renames a subsystem in channels, drivers and properties", () => {
+    const after = edits.renameSubsystem(structure, subsystem(structure, "robot.motor"), "wheels");
+    expect(changed(after).filter((line) => line.startsWith("+")).length).toBe(5);
+    expect(after).toContain("robot.wheels.drive");
+    expect(after).toContain("robot.wheels.left:");
+  });
+  it("renames a behaviour where it follows another", () => {
+    const after = edits.renameBehaviour(
+      structure,
+      subsystem(structure, "robot.control"),
+      behaviour(structure, "robot.control.follow"),
+      "trail",
+    );
+    expect(changed(after)).toEqual([
+      "-        init:   { terminal: true, next: follow }",
+      "-        follow: {}",
+      "+        init:   { terminal: true, next: trail }",
+      "+        trail: {}",
+    ]);
+  });
+  it("renames a buffer in conditions, lists and channels", () => {
+    const text = example.replace(
+      "follow: {}",
+      'follow: { terminal: "in.line.left && in.liner", receive: [line], send: [motion] }',
+    );
+    const now = readStructure(text);
+    const after = edits.renameBuffer(now, subsystem(now, "robot.control"), buffer(now, "robot.control.line"), "seen");
+    expect(after).toContain('{ terminal: "in.seen.left && in.liner", receive: [seen], send: [motion] }');
+    expect(after).toContain("robot.sensor.line -> robot.control.seen");
+  });
+  it("renames the real buffer of an effector with its safe value and driver", () => {
+    const after = edits.renameBuffer(
+      structure,
+      subsystem(structure, "robot.motor"),
+      buffer(structure, "robot.motor.left"),
+      "port",
+    );
+    expect(changed(after).filter((line) => line.startsWith("+"))).toEqual([
+      "+        real:    { port: float64 rad/s, right: float64 rad/s }",
+      "+        safe:    { port: 0, right: 0 }",
+      "+    robot.motor.port:    { velocity: wheel_left }",
+    ]);
+  });
+});
+
+describe("removing", () => {
+  it("takes the channels and drivers of a subsystem with it", () => {
+    const after = readStructure(edits.removeSubsystem(structure, subsystem(structure, "robot.sensor"), readStructure));
+    expect(after.agents[0]!.subsystems.map((one) => one.name)).toEqual(["control", "motor"]);
+    expect(after.channels.map((one) => one.to)).toEqual(["robot.motor.velocity"]);
+    expect(after.yaml.keys(["simulation", "drivers"])).toEqual(["robot.motor.left", "robot.motor.right"]);
+    expect(after.yaml.pair(["agents", "robot", "receptors"])).toBeUndefined();
+  });
+  it("takes what leads to a behaviour with it", () => {
+    const after = edits.removeBehaviour(
+      structure,
+      subsystem(structure, "robot.control"),
+      behaviour(structure, "robot.control.follow"),
+      readStructure,
+    );
+    expect(changed(after)).toEqual([
+      "-        init:   { terminal: true, next: follow }",
+      "-        follow: {}",
+      "+        init:   { terminal: true }",
+    ]);
+  });
+  it("removes the last channel with its section, and a buffer from the middle of a line", () => {
+    expect(readStructure(edits.removeChannel(structure, structure.channels[0]!)).channels.length).toBe(1);
+    const after = edits.removeBuffer(
+      structure,
+      subsystem(structure, "robot.sensor"),
+      buffer(structure, "robot.sensor.middle"),
+      readStructure,
+    );
+    expect(after).toContain("real:    { left: float64, right: float64 }   # reflected light");
+  });
+});
+
+describe("names", () => {
+  it("are those of C++", () => {
+    expect(["follow", "a1", "a_b"].every(edits.isName)).toBe(true);
+    expect(["", "1a", "a__b", "a_", "a b", "ä"].some(edits.isName)).toBe(false);
+    expect(edits.freeName("run", ["run", "run_2"])).toBe("run_3");
+  });
+});

@@ -1,0 +1,147 @@
+import { describe, expect, it } from "vitest";
+import { stepsOf, stuck } from "../../live/verifier";
+import { flagsOf } from "../../model/flags";
+import { niceStep } from "../../panels/draw_timeline";
+import { Series, shown } from "../../model/series";
+import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
+import { readStructure } from "../../model/structure";
+import { Timeline } from "../../model/timeline";
+import { intersects } from "../../model/geometry";
+import { lineFollower } from "./line_follower";
+
+const net = lineFollower();
+const named = (name: string) => net.transitionByName.get(name)!;
+
+describe("Timeline", () => {
+  it("says which behaviour ran from when", () => {
+    const timeline = new Timeline(net);
+    const run = [
+      "robot.control.t_in",
+      "robot.control.init.t1",
+      "robot.control.t_init_1",
+      "robot.control.follow.t1",
+      "robot.control.t_follow_1",
+    ];
+    run.forEach((name, at) => timeline.add(at * 10, named(name)));
+    const [control] = timeline.lanes;
+    expect(control!.segments).toEqual([
+      { start: 0, behaviour: "init" },
+      { start: 20, behaviour: "follow" },
+      { start: 40, behaviour: "" },
+    ]);
+    expect(control!.firings).toEqual([0, 10, 20, 30, 40]);
+    expect(timeline.lanes[1]!.firings).toEqual([]);
+  });
+  it("finds the first firing of a span", () => {
+    expect(Timeline.from([1, 3, 3, 7], 3)).toBe(1);
+    expect(Timeline.from([1, 3, 3, 7], 8)).toBe(4);
+  });
+  it("keeps a bounded part of an endless run", () => {
+    const timeline = new Timeline(net);
+    for (let at = 0; at < 50_000; at += 1) timeline.add(at, named("robot.control.follow.t1"));
+    expect(timeline.lanes[0]!.firings.length).toBeLessThanOrEqual(20_000);
+    expect(timeline.lanes[0]!.firings.at(-1)).toBe(49_999);
+  });
+});
+
+describe("Series", () => {
+  it("takes structures, arrays and numbers apart", () => {
+    const series = new Series();
+    series.add(5, "a", { left: true, ranges: [1, 2], name: "x", big: new Array(40).fill(0) });
+    expect([...series.latest]).toEqual([
+      ["a.left", true],
+      ["a.ranges[0]", 1],
+      ["a.ranges[1]", 2],
+      ["a.name", "x"],
+      ["a.big", "40 values"],
+    ]);
+    expect(series.samples.get("a.left")).toEqual({ times: [5], values: [1] });
+    expect(series.samples.has("a.name")).toBe(false);
+  });
+  it("shows numbers short", () => {
+    expect([0.2, 3, 1234567.5, 0.00001, true].map(shown)).toEqual(["0.2000", "3", "1.23e+6", "1.00e-5", "true"]);
+  });
+});
+
+describe("niceStep", () => {
+  it("is 1, 2 or 5 times a power of ten", () => {
+    expect([0.3, 1.2, 4, 70].map(niceStep)).toEqual([0.5, 2, 5, 100]);
+  });
+});
+
+describe("flagsOf", () => {
+  it("marks the innermost page that begins on the line, errors before warnings", () => {
+    const flags = flagsOf(net, [
+      { severity: "warning", line: 19 },
+      { severity: "error", line: 19 },
+      { severity: "warning", line: 22 },
+      { severity: "hint", line: 13 },
+    ]);
+    expect([...flags]).toEqual([
+      ["robot.control.follow", "error"],
+      ["robot.sensor", "warning"],
+    ]);
+  });
+});
+
+describe("stepsOf", () => {
+  it("leaves out the step that stands for no net's transition", () => {
+    const verdict = { name: "x", verdict: "violated" as const, steps: [0, 2, net.transitions.length] };
+    expect(stepsOf(verdict, net)).toEqual([0, 2]);
+  });
+  it("goes by names where there are no numbers, and not at all for another net", () => {
+    expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "t_in" }] }, net)).toEqual([named("t_in")]);
+    expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "other" }] }, net)).toBeNull();
+    expect(stepsOf({ name: "x", verdict: "violated", trace: null }, net)).toBeNull();
+  });
+});
+
+describe("stuck", () => {
+  it("names who waits in a violation, once", () => {
+    const waits = ["a.control waits for the acknowledgement of x from b", "b waits for y"];
+    const verdicts = [
+      { name: "p", verdict: "violated" as const, waits },
+      { name: "q", verdict: "violated" as const, waits: waits.slice(0, 1) },
+      { name: "r", verdict: "holds" as const, waits: ["c waits for z"] },
+    ];
+    expect(stuck(verdicts)).toEqual(["a.control", "b"]);
+  });
+});
+
+describe("layoutStructure", () => {
+  const text = (behaviours: string) =>
+    `agents:\n  a:\n    control: { inputs: { i: bool }, behaviours: { ${behaviours} } }\n    receptors:\n      r: { real: { x: bool }, outputs: { o: bool }, behaviours: { w: {} } }\n      s: { outputs: { o: bool }, behaviours: { w: {} } }\n    effectors: { e: { inputs: { m: bool }, behaviours: { d: {} } } }\n  b: { control: { behaviours: { run: {} } } }\n`;
+  it("puts nothing over anything else", () => {
+    const agents = layoutStructure(
+      readStructure(text("one: {}, two: {}, three: {}, a_rather_long_name: {}, another_long_name: {}")),
+    );
+    const boxes = agents.flatMap((agent) => [...agent.subsystems, ...agent.devices]);
+    expect(boxes.length).toBe(6);
+    boxes.forEach((one, at) => boxes.slice(at + 1).forEach((other) => expect(intersects(one, other)).toBe(false)));
+    for (const agent of agents)
+      for (const one of [...agent.subsystems, ...agent.devices])
+        expect(
+          one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height,
+        ).toBe(true);
+    expect(intersects(agents[0]!, agents[1]!)).toBe(false);
+  });
+  it("makes room for many behaviours", () => {
+    const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;
+    expect(chipLines(control("one: {}"))).toBe(1);
+    expect(chipLines(control("a_rather_long_name: {}, another_long_name: {}, one: {}"))).toBeGreaterThan(1);
+  });
+  it("leads channels that go back below the boxes of their agent, each in its own lane", () => {
+    const back = readStructure(
+      text("one: {}") +
+        "channels:\n  - a.e.m -> a.control.i\n  - { from: a.control.o, to: a.control.i }\n  - { from: a.control.o, to: a.s.x }\n",
+    );
+    const agents = layoutStructure(back);
+    const heights = [...lanes(back, agents).values()];
+    const lowest = Math.max(...[...agents[0]!.subsystems, ...agents[0]!.devices].map((one) => one.y + one.height));
+    expect(new Set(heights).size).toBe(3);
+    for (const height of heights) {
+      expect(height).toBeGreaterThan(lowest);
+      expect(height).toBeLessThan(agents[0]!.y + agents[0]!.height);
+    }
+  });
+});

@@ -86,6 +86,8 @@ std::string RemoteControl::step_iteration(const json& command) {
 std::string RemoteControl::set_breakpoints(const json& command) {
   using When = Breakpoint::When;
   std::vector<Breakpoint> wanted;
+  if (assembly_.recorder == nullptr && !command.value("transitions", json::array()).empty())
+    return "a breakpoint on a transition needs a run that is recorded";
   for (const auto& [list, when] : {std::pair{"places", When::marked}, std::pair{"transitions", When::fires},
                                    std::pair{"conditions", When::enabled}})
     for (const json& name : command.value(list, json::array())) {

@@ -166,6 +166,7 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
   if (lane_ != nullptr) {
     renew_time();
     lane_->firing(now_, first_transition_ + transition.index, version);
+    last_fired_ = transition.index;
   }
   if (transition.tells_of_timeout) tell_of_timeout(transition);
   return true;

@@ -92,7 +92,7 @@ class SubsystemExecutor {
   /// A token is in that place of the table.
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
-  /// The transition of the table that fired last. Precondition: one has.
+  /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
   [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
   /// Its tokens in this subsystem are there, and its condition holds; channels may still be in its way.
   [[nodiscard]] bool wants_to_fire(std::uint32_t transition) const;

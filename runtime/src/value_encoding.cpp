@@ -31,6 +31,15 @@ constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // of the golden ratio
 }  // namespace
 
 /// What does not fit is hashed block by block, with what was kept before it.
+// Not inline: where the limit and the size of the value are known, the compiler warns of the copy that is
+// never made.
+void ValueSink::put(const void* bytes, std::size_t count) {
+  total_ += count;
+  if (count > limit_ - filled_) return spill(bytes, count);
+  std::memcpy(bytes_.get() + filled_, bytes, count);
+  filled_ += count;
+}
+
 void ValueSink::spill(const void* bytes, std::size_t count) {
   const auto* next = static_cast<const std::byte*>(bytes);
   if (filled_ > 0) hash_ = hash_of(bytes_.get(), filled_, hash_);

@@ -48,12 +48,7 @@ class ValueSink {
   explicit ValueSink(std::size_t limit) : limit_(limit), bytes_(std::make_unique<std::byte[]>(limit)) {}
 
   void clear() { filled_ = total_ = hash_ = 0; }
-  void put(const void* bytes, std::size_t count) {
-    total_ += count;
-    if (count > limit_ - filled_) return spill(bytes, count);
-    std::memcpy(bytes_.get() + filled_, bytes, count);
-    filled_ += count;
-  }
+  void put(const void* bytes, std::size_t count);
 
   [[nodiscard]] bool whole() const { return total_ <= limit_; }
   [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), filled_}; }  ///< if whole

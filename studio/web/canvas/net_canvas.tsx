@@ -94,16 +94,13 @@ function Drawing({ net }: { net: NetModel }) {
     return marked;
   }, [net, diagnostics, verified]);
   useFlight(sheets, version);
+  const shown = useFirstView(sheets, version, width);
   const visible = useMemo(
-    () =>
-      width > 0
-        ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom })
-        : sheets.visible({ x: -1e6, y: -1e6, width: 2e6, height: 2e6, zoom: 1 }),
-    [sheets, version, x, y, zoom, width, height],
+    () => (shown ? sheets.visible({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom }) : []),
+    [sheets, version, shown, x, y, zoom, width, height],
   );
   const nodes = useNodes(net, sheets, visible, zoom, selected, flags);
   const current = currentPage(visible, { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom });
-  useFirstView(sheets, version, width);
   const root = sheets.placed(0)?.sheet;
   useSteadyView(useMemo(() => root && { x: 0, y: 0, width: root.width, height: root.height }, [root]));
 
@@ -240,16 +237,19 @@ function currentPage(visible: Placed[], window: Box): number {
   return current;
 }
 
-/** Shows the whole drawing once, when it is there. */
-function useFirstView(sheets: Sheets, version: number, width: number): void {
+/** Shows the whole drawing once, when it is there; before that nothing is drawn, for it would be drawn twice. */
+function useFirstView(sheets: Sheets, version: number, width: number): boolean {
   const flow = useReactFlow();
-  const done = useRef(false);
+  const asked = useRef(false);
+  const [shown, setShown] = useState(false);
   useEffect(() => {
     const root = sheets.placed(0);
-    if (done.current || !root || width === 0) return;
-    done.current = true;
-    void flow.fitBounds({ x: 0, y: 0, width: root.sheet.width, height: root.sheet.height }, { duration: 0, padding: 0.03 });
+    if (asked.current || !root || width === 0) return;
+    asked.current = true;
+    const whole = { x: 0, y: 0, width: root.sheet.width, height: root.sheet.height };
+    void flow.fitBounds(whole, { duration: 0, padding: 0.03 }).then(() => setShown(true));
   }, [sheets, version, width, flow]);
+  return shown;
 }
 
 interface KeyContext {

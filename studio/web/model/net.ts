@@ -239,7 +239,10 @@ export class NetModel {
   elementsOf(index: number): Element[] {
     const page = this.page(index);
     const nodes = page.nodes.map((node, at): Element => {
-      if (node.page !== null) return this.pageElement(node.page);
+      if (node.page !== null) {
+        const { path, span } = this.page(node.page);
+        return { path, kind: "page", page: index, index: at, span };
+      }
       const flat = this.places[this.flatPlaces(index)[at]!];
       return {
         path: flat?.name ?? join(page.path, node.name),

@@ -81,7 +81,8 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   const project::Exit made = tessera(again.substr(8));
   EXPECT_EQ(made.code, 1) << made.text;
   EXPECT_NE(made.text.find("blind in iteration 1"), std::string::npos) << made.text;
-  const project::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
+  const project::Exit printed =
+      tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
   EXPECT_NE(printed.text.find("fault (assertion): robot.control.follow.in: blind in iteration 1"),
             std::string::npos)
       << printed.text;
@@ -92,7 +93,8 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
   const project::Exit thrown =
       tessera("simulate 01_line_follower --for 5s --inject robot.control.follow:throw@2.5s");
   EXPECT_EQ(thrown.code, 1) << thrown.text;
-  const project::Exit printed = tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
+  const project::Exit printed =
+      tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --from 2.4");
   for (const char* line : {"robot.control: injected: robot.control.follow:throw@2.5s",
                            "robot.control: fault (exception): robot.control.follow.in: injected",
                            "ended by an error that no `next` leads to another behaviour"})
@@ -108,7 +110,8 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
                 .text.find("robot.control.follow.in: output 'motion' is not finite"),
             std::string::npos);
 
-  const project::Exit wrong = tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
+  const project::Exit wrong =
+      tessera("simulate 01_line_follower --for 1s --inject robot.control.folow:throw@1s");
   EXPECT_EQ(wrong.code, 1) << wrong.text;
   EXPECT_NE(wrong.text.find("unknown 'robot.control.folow'; did you mean 'robot.control.follow'?"),
             std::string::npos)

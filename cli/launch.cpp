@@ -22,6 +22,14 @@ void declare(CLI::App& command, project::LaunchOptions& options) {
   command.add_option("--parameters", options.parameters,
                      "YAML file of parameters (default: params.yaml of the project)");
   command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
+  command.add_option(
+      "--record-limit", options.record_limit,
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
+  command
+      .add_option("--record-values", options.record_values,
+                  "Which values of buffers to record: none, small (up to 4 KiB; of larger ones a hash), all")
+      ->check(CLI::IsMember({"none", "small", "all"}))
+      ->capture_default_str();
   command
       .add_option("--inject", options.inject,
                   "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "

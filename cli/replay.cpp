@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/diagnostics.hpp"
 #include "project/walk.hpp"
+#include "replay/events.hpp"
 #include "replay/legality.hpp"
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
@@ -29,103 +31,36 @@ using nlohmann::json;
 using replay::Distribution;
 using Legal = replay::Legality::Verdict;
 
+constexpr const char* all_values = "*";
+
 struct Options {
   std::string recording = ".tessera/last/recording.tsr", spec, subsystem, transition, csv, perfetto, json;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
   bool check = false, print = false;
+  std::string values;  ///< of buffers whose path contains this; all_values; empty: none
 };
 
 // ---------------------------------------------------------------------------------------------- the events
 
-const char* kind_of(const Event& event) {
-  switch (event.kind()) {
-    case Event::Kind::firing:
-      return "firing";
-    case Event::Kind::log:
-      return "log";
-    case Event::Kind::stop:
-      return "stop";
-    case Event::Kind::fault:
-      return "fault";
-    case Event::Kind::overrun:
-      return "overrun";
-  }
-  return "";
-}
-
-std::string path_of(const Recording& recording, const Event& event) {
-  return event.instance() < recording.instances.size() ? recording.instances[event.instance()] : "system";
-}
-
-std::string text_of(const Recording& recording, const Recording::Entry& entry) {
-  switch (entry.event.kind()) {
-    case Event::Kind::firing:
-      return recording.transitions[entry.event.subject].name;
-    case Event::Kind::overrun:
-      return fmt::format("{} instants of its rate missed", entry.event.subject);
-    default:
-      return entry.text;
-  }
-}
-
-/// Those that the options ask for, in the order of their times.
-std::vector<const Recording::Entry*> chosen(const Recording& recording, const Options& options) {
-  std::vector<const Recording::Entry*> entries;
-  for (const Recording::Entry& entry : recording.entries) {
-    const double at_s = static_cast<double>(entry.event.time_ns) * 1e-9;
-    if (at_s < options.from_s || at_s > options.to_s) continue;
-    if (!options.subsystem.empty() && path_of(recording, entry.event) != options.subsystem) continue;
-    const bool named = text_of(recording, entry).find(options.transition) != std::string::npos;
-    if (named) entries.push_back(&entry);
-  }
-  std::ranges::stable_sort(entries, {}, [](const auto* entry) { return entry->event.time_ns; });
-  if (options.last > 0 && entries.size() > options.last)
-    entries.erase(entries.begin(), entries.end() - static_cast<std::ptrdiff_t>(options.last));
-  return entries;
-}
-
-/// In front of the text of an event that is no firing.
-std::string prefix_of(const Event& event) {
-  switch (event.kind()) {
-    case Event::Kind::firing:
-    case Event::Kind::log:
-      return "";
-    case Event::Kind::stop:
-      return "stop: ";
-    case Event::Kind::overrun:
-      return "overrun: ";
-    case Event::Kind::fault:
-      return fmt::format("fault ({}): ", name_of(static_cast<Fault>(event.version)));
-  }
-  return "";
-}
-
-void print_events(const Recording& recording, const Options& options) {
-  for (const Recording::Entry* entry : chosen(recording, options)) {
-    const Event& event = entry->event;
-    const bool firing = event.kind() == Event::Kind::firing;
-    fmt::print("{:14.6f} {}{}{}{}\n", static_cast<double>(event.time_ns) * 1e-9,
-               firing ? "" : path_of(recording, event) + ": ", prefix_of(event), text_of(recording, *entry),
-               firing && event.version != 0 ? fmt::format("  (version {})", event.version) : "");
-  }
-}
-
-/// RFC 4180.
-std::string quoted_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
+replay::Selection selection_of(const Options& options) {
+  replay::Selection selection{options.from_s,    options.to_s,       options.last,
+                              options.subsystem, options.transition, options.print || options.values.empty(),
+                              std::nullopt};
+  if (!options.values.empty()) selection.values = options.values == all_values ? "" : options.values;
+  return selection;
 }
 
 void write_csv(const Recording& recording, const Options& options) {
-  std::string text = "time_ns,sequence,kind,subsystem,version,text\n";
-  for (const Recording::Entry* entry : chosen(recording, options))
-    text += fmt::format("{},{},{},{},{},{}\n", entry->event.time_ns, entry->event.sequence,
-                        kind_of(entry->event), path_of(recording, entry->event), entry->event.version,
-                        quoted_field(text_of(recording, *entry)));
-  write_output(options.csv, text);
+  std::ostringstream text;
+  if (!options.values.empty() && !options.print) {
+    replay::write_values_csv(recording, selection_of(options), text);
+  } else {
+    replay::Selection selection = selection_of(options);
+    if (options.values.empty()) selection.values = "";
+    replay::write_csv(recording, selection, text);
+  }
+  write_output(options.csv, text.str());
 }
 
 void write_perfetto_file(const Recording& recording, const std::string& file) {
@@ -170,6 +105,8 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
       recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
   fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", recording.system, recording.clock,
              recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
+  if (recording.segment.value_or(0) > 0)
+    fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
@@ -180,6 +117,7 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
     if (one.iterations > 0)
       fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
     print_distribution("period", one.period);
+    print_distribution("transition function", one.call);
     print_distribution("communication", one.iteration);
     for (std::size_t wait = 0; wait < std::min(shown_waits, one.waits.size()); ++wait)
       if (one.waits[wait].time.most > 0)
@@ -211,6 +149,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
                           {"skips", one.skips},
                           {"overwrites", one.overwrites},
                           {"period", to_json(one.period)},
+                          {"transition_function", to_json(one.call)},
                           {"communication", to_json(one.iteration)},
                           {"waits", std::move(waits)}});
   }
@@ -288,10 +227,14 @@ int replay_command(const Options& options) {
   json result;
   int exit_code = ok;
   const bool to_output = options.json == "-" || options.csv == "-" || options.perfetto == "-";
-  const bool other = options.check || options.print || !options.csv.empty() || !options.perfetto.empty();
+  const bool show =
+      options.print || (!options.values.empty() && options.csv.empty() && options.perfetto.empty());
+  const bool other = options.check || show || !options.csv.empty() || !options.perfetto.empty();
+  if (!options.values.empty() && recording->buffers.empty())
+    return complain("the recording holds no values of buffers; record with --record-values small or all");
   if (!options.csv.empty()) write_csv(*recording, options);
   if (!options.perfetto.empty()) write_perfetto_file(*recording, options.perfetto);
-  if (options.print) print_events(*recording, options);
+  if (show) replay::print_events(*recording, selection_of(options), std::cout);
   if (!other || !options.json.empty()) {
     const std::vector<replay::SubsystemStatistics> all = replay::statistics_of(*recording);
     result = to_json(*recording, all);
@@ -322,6 +265,9 @@ void add_replay(CLI::App& app, int& exit_code) {
                     "Play it on the net of its specification: is it a legal firing sequence?");
   command->add_option("--spec", options->spec, "That specification (default: beside the recording or above)");
   command->add_flag("--print", options->print, "Print the events");
+  command->add_flag("--values{*}", options->values,
+                    "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
+                    "--csv a row per change and a column per field");
   command->add_option("--from", options->from_s, "Events from this time on, in seconds");
   command->add_option("--to", options->to_s, "Events up to this time, in seconds");
   command->add_option("--last", options->last, "The last so many of the events");
@@ -337,6 +283,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       "are missing.\n"
       "Example: tessera replay --check\n"
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
+      "         tessera replay --values=control.motion --csv motion.csv\n"
       "         tessera replay --to-perfetto run.json");
   command->callback([options, &exit_code] { exit_code = replay_command(*options); });
 }

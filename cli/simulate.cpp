@@ -18,7 +18,7 @@ using namespace project;
 namespace {
 
 struct SimulateOptions : LaunchOptions {
-  std::string json, report, scenario;
+  std::string json, report, scenario, from;
   bool realtime = false, interleave = false;
   std::uint64_t schedules = 0;
   std::uint64_t steps = PlayOptions{}.steps;
@@ -88,6 +88,24 @@ int launch_schedules(const Controller& controller, const SimulateOptions& option
   return exit.code;
 }
 
+// User code again on what a recording says it was given: no world, no recording.
+int run_again(const Controller& controller, const SimulateOptions& options) {
+  const RunFiles files = run_files(controller.specification, options);
+  std::filesystem::remove(files.summary);
+  Command command{controller.program.string(),
+                  "simulate",
+                  "--from",
+                  std::filesystem::absolute(options.from).string(),
+                  "--summary",
+                  files.summary.string()};
+  for (const std::string& value : options.set) command.insert(command.end(), {"--set", value});
+  if (options.debug) return print_debugger(command);
+  const Exit exit = run(command);
+  if (!options.json.empty() && std::filesystem::exists(files.summary))
+    write_output(options.json, nlohmann::json::parse(std::ifstream(files.summary)).dump(2) + "\n");
+  return exit.code;
+}
+
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
@@ -96,6 +114,7 @@ int simulate_command(SimulateOptions options) {
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return failed;
+  if (!options.from.empty()) return run_again(*controller, options);
   const bool with_world = controller->specification.model.simulation.has_value();
   if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
   Command command = controller_command(*controller, options, "simulate", with_world);
@@ -157,6 +176,12 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->add_option("--scenario", options->scenario,
                    "Drive the controller through this run first (tessera verify --scenario)")
       ->check(CLI::ExistingFile);
+  CLI::Option* from =
+      command
+          ->add_option(
+              "--from", options->from,
+              "Run the code again on what this recording says it was given, and compare what it does")
+          ->check(CLI::ExistingFile);
   CLI::Option* schedules = command->add_option(
       "--schedules", options->schedules,
       "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
@@ -170,11 +195,16 @@ void add_simulate(CLI::App& app, int& exit_code) {
   command->add_option("--report", options->report, "Folder for a page and a picture of the run")
       ->excludes(schedules);
   command->get_option("--record")->excludes(schedules);
+  for (const char* other :
+       {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
+        "--scenario", "--schedules", "--interleave", "--realtime", "--report"})
+    from->excludes(command->get_option(other));
   command->footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
       "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
+      "  tessera simulate --from field.tsr               would this code have done the same there?\n"
       "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
   command->callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }

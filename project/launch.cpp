@@ -142,11 +142,14 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   mode,
                   "--record",
                   files.recording.string(),
+                  "--record-values",
+                  options.record_values,
                   "--summary",
                   files.summary.string(),
                   "--seed",
                   std::to_string(options.seed)};
   if (options.progress) command.push_back("--progress");
+  if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameters_of(specification, options)) append(command, {"--set", value});
   for (const std::string& value : options.set) append(command, {"--set", value});

@@ -17,7 +17,7 @@ struct LaunchOptions {
   std::string duration;  ///< "60s"; empty: until stopped
   std::vector<std::string> set, inject;
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
-  std::string record;
+  std::string record, record_values = "small", record_limit;
   std::string folder;                                            ///< of the run's files; empty: .tessera/last
   std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
   bool debug = false;

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 
@@ -24,7 +26,8 @@ std::string seconds(std::int64_t time_ns) {
 struct Lane {
   std::deque<const Event*> events;
   std::uint32_t next_sequence = 0;
-  bool gap = false;  ///< events are missing before the first of `events`
+  bool gap = false;    ///< events are missing before the first of `events`
+  bool begun = false;  ///< `next_sequence` is known
 };
 
 class Play {
@@ -34,8 +37,8 @@ class Play {
   }
 
   Legality result() {
-    if (match_transitions()) {
-      if (recording_.clock == "simulated")
+    if (match_transitions() && begin()) {
+      if (recording_.ordered())
         play_as_written();
       else
         play_merged();
@@ -67,7 +70,43 @@ class Play {
       if (channels_.back() != none) channels = std::max(channels, channels_.back() + 1);
     }
     versions_.resize(channels, 0);
+    version_known_.resize(channels, !inside_);
     return true;
+  }
+
+  /// Of a recording whose first segments are gone the marking is written where the first that is left begins.
+  bool begin() {
+    if (!inside_) return true;
+    const auto first = std::ranges::find_if(recording_.entries, [](const Recording::Entry& entry) {
+      return entry.event.kind() == Event::Kind::marking;
+    });
+    if (first == recording_.entries.end() || first->event.version != 0) {
+      end(Verdict::incomplete, "its beginning is gone, and the marking after that is not known");
+      return false;
+    }
+    const std::optional<std::vector<std::uint32_t>> marking = read_marking(*first);
+    if (marking) result_.marking = *marking;
+    return marking.has_value();
+  }
+
+  /// nullopt after that has ended the check.
+  std::optional<std::vector<std::uint32_t>> read_marking(const Recording::Entry& entry) {
+    if (places_.empty())
+      for (std::uint32_t index = 0; index < net_.places().size(); ++index)
+        places_.emplace(net_.places()[index].name, index);
+    std::vector<std::uint32_t> marking(net_.places().size(), 0);
+    for (std::string_view left = entry.text; !left.empty();) {
+      const std::string_view name = left.substr(0, left.find('\n'));
+      left.remove_prefix(std::min(left.size(), name.size() + 1));
+      const auto found = places_.find(name);
+      if (found == places_.end()) {
+        end(Verdict::illegal, fmt::format("{}: the marking names '{}', which is no place of the net",
+                                          seconds(entry.event.time_ns), name));
+        return std::nullopt;
+      }
+      marking[found->second] = 1;
+    }
+    return marking;
   }
 
   [[nodiscard]] std::uint32_t channel_of(TransitionId id) const {
@@ -85,7 +124,7 @@ class Play {
   [[nodiscard]] std::string obstacle(const Event& event) const {
     const std::uint32_t channel = channels_[event.subject];
     if ((event.version != 0) != (channel != none)) return "it is recorded with the wrong kind of version";
-    if (channel != none && event.version != next_version(channel))
+    if (channel != none && version_known_[channel] && event.version != next_version(channel))
       return fmt::format("it is version {} of its channel, of which {} is due", event.version,
                          next_version(channel));
     for (const Arc& arc : net_.preset(transitions_[event.subject]))
@@ -97,7 +136,10 @@ class Play {
   /// false: the firing puts a second token into a place, and that ends the play.
   bool fire(const Event& event) {
     const TransitionId id = transitions_[event.subject];
-    if (channels_[event.subject] != none) versions_[channels_[event.subject]] = event.version;
+    if (const std::uint32_t channel = channels_[event.subject]; channel != none) {
+      versions_[channel] = event.version;
+      version_known_[channel] = true;
+    }
     for (const Arc& arc : net_.preset(id)) result_.marking[arc.place.value] -= arc.weight;
     for (const Arc& arc : net_.postset(id)) {
       result_.marking[arc.place.value] += arc.weight;
@@ -116,8 +158,9 @@ class Play {
   }
 
   /// Keeps count of the events of an instance: false if some are missing before this one.
-  static bool in_sequence(Lane& lane, const Event& event) {
-    const bool whole = event.sequence == lane.next_sequence;
+  bool in_sequence(Lane& lane, const Event& event) const {
+    const bool whole = event.sequence == lane.next_sequence || (inside_ && !lane.begun);
+    lane.begun = true;
     lane.next_sequence = event.sequence + 1;
     return whole;
   }
@@ -134,15 +177,50 @@ class Play {
     std::int64_t last = INT64_MIN;
     for (const Recording::Entry& entry : recording_.entries) {
       const Event& event = entry.event;
+      if (event.kind() == Event::Kind::marking) {
+        if (!agrees_with(entry)) return;
+        continue;
+      }
       if (!in_sequence(lanes[event.instance()], event)) return end(Verdict::incomplete, gap(event));
       if (event.kind() != Event::Kind::firing) continue;
-      if (event.time_ns < last) return end(Verdict::illegal, complaint(event, "time went back"));
+      if (event.time_ns < last && recording_.clock == "simulated")
+        return end(Verdict::illegal, complaint(event, "time went back"));
       last = event.time_ns;
-      if (const std::string lacks = obstacle(event); !lacks.empty())
+      if (const std::string lacks = obstacle(event); !lacks.empty()) {
+        // Of threads, what it follows from may be among what is missing further on.
+        if (const std::string missing = first_gap(); !missing.empty())
+          return end(Verdict::incomplete, missing);
         return end(Verdict::illegal, complaint(event, lacks));
+      }
       if (!fire(event)) return;
     }
     if (recording_.truncated) end(Verdict::incomplete, "the recording is cut off at its end");
+  }
+
+  /// The marking where a segment begins; false after that has ended the check.
+  bool agrees_with(const Recording::Entry& entry) {
+    if (entry.event.version != 0) return true;  // not known
+    const std::optional<std::vector<std::uint32_t>> marking = read_marking(entry);
+    if (!marking) return false;
+    for (std::uint32_t place = 0; place < marking->size(); ++place) {
+      if ((*marking)[place] == result_.marking[place]) continue;
+      end(Verdict::illegal,
+          fmt::format(
+              "{}: a segment begins with another marking than the one before it ends with: '{}' holds "
+              "{} tokens there",
+              seconds(entry.event.time_ns), net_.places()[place].name, (*marking)[place]));
+      return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string first_gap() const {
+    std::unordered_map<std::uint32_t, Lane> lanes;
+    for (const Recording::Entry& entry : recording_.entries)
+      if (entry.event.kind() != Event::Kind::marking &&
+          !in_sequence(lanes[entry.event.instance()], entry.event))
+        return gap(entry.event);
+    return "";
   }
 
   // ------------------------------------------------------------------------------------------- threads
@@ -215,11 +293,15 @@ class Play {
   const Recording& recording_;
   const net::Net& net_;
   Legality result_;
-  std::vector<TransitionId> transitions_;  // per transition of the recording
-  std::vector<std::uint32_t> channels_;    // per transition of the recording; none
-  std::vector<std::uint32_t> versions_;    // per channel, of the last firing
-  std::vector<Lane> lanes_;                // per instance; the last of the upper layers
-  std::string missing_;                    // empty: nothing is
+  std::vector<TransitionId> transitions_;                       // per transition of the recording
+  std::vector<std::uint32_t> channels_;                         // per transition of the recording; none
+  std::vector<std::uint32_t> versions_;                         // per channel, of the last firing
+  std::vector<bool> version_known_;                             // per channel
+  std::unordered_map<std::string_view, std::uint32_t> places_;  // by name; empty: not needed yet
+  /// The recording begins with a later segment than the first.
+  const bool inside_ = recording_.segment.value_or(0) > 0;
+  std::vector<Lane> lanes_;  // per instance; the last of the upper layers
+  std::string missing_;      // empty: nothing is
 };
 
 }  // namespace

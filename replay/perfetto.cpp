@@ -1,11 +1,13 @@
 #include "replay/perfetto.hpp"
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "replay/timeline.hpp"
+#include "replay/values.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -31,6 +33,7 @@ class Writing {
     for (const Lane& lane : timeline_of(recording_).lanes) write_lane(lane);
     write_iterations();
     write_log();
+    write_values();
     to_ << "\n]}\n";
   }
 
@@ -96,7 +99,8 @@ class Writing {
 
   void write_log() {
     for (const auto& [event, text] : recording_.entries) {
-      if (!event.has_text()) continue;
+      if (!event.has_text() || event.kind() == Event::Kind::value || event.kind() == Event::Kind::marking)
+        continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
       const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
       write({{"ph", "i"},
@@ -108,6 +112,31 @@ class Writing {
              {"s", of_subsystem ? "t" : "g"}});
     }
   }
+
+  /// Every number and bool of what subsystems read and make, as a counter of its agent.
+  void write_values() {
+    ValueTrack values(recording_);
+    for (const Recording::Entry& entry : recording_.entries) {
+      const auto change = values.follow(entry);
+      if (!change || change->hashed || change->layout == nullptr) continue;
+      const double at_us = static_cast<double>(entry.event.time_ns) * 1e-3;
+      const std::string agent = change->buffer.path.substr(0, change->buffer.path.find('.'));
+      const std::string name = change->buffer.path.substr(agent.size() + 1);
+      const Row row = rows_.at(recording_.instances[change->buffer.instance]);
+      std::size_t shown = 0;
+      static_cast<void>(
+          change->layout->visit(change->bytes, [&](const std::string& path, const auto& scalar) {
+            if (scalar.kind == ValueLayout::Scalar::Kind::text || !std::isfinite(scalar.number)) return;
+            if (++shown > most_counters) return;
+            write({{"ph", "C"},
+                   {"name", path.empty() ? name : name + (path.front() == '[' ? "" : ".") + path},
+                   {"pid", row.process},
+                   {"ts", at_us},
+                   {"args", {{"value", scalar.number}}}});
+          }));
+    }
+  }
+  static constexpr std::size_t most_counters = 16;  // per buffer: nobody looks at the curves of an image
 
   const Recording& recording_;
   std::ostream& to_;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace tessera::replay {
 namespace {
@@ -75,11 +76,13 @@ class Counting {
     last_ = at_ns;
   }
 
+  void call(std::int64_t at_ns) { called_ = at_ns; }
   void overrun(std::uint32_t missed) { statistics_.overruns += missed; }
   void fault() { ++statistics_.faults; }
 
   SubsystemStatistics finish() {
     statistics_.period = distribution_of(std::move(periods_));
+    statistics_.call = distribution_of(std::move(calls_));
     statistics_.iteration = distribution_of(std::move(iterations_));
     for (auto& [name, times] : waits_) statistics_.waits.push_back({name, distribution_of(std::move(times))});
     std::ranges::stable_sort(statistics_.waits, std::greater<>(),
@@ -91,6 +94,7 @@ class Counting {
   void of_behaviour(std::string_view name, std::int64_t at_ns) {
     if (name == "t1") {
       ++statistics_.iterations;
+      if (called_) calls_.push_back(seconds(at_ns - *std::exchange(called_, std::nullopt)));
       if (begun_) periods_.push_back(seconds(at_ns - *begun_));
       begun_ = at_ns;
       open_ = true;
@@ -103,9 +107,9 @@ class Counting {
   }
 
   SubsystemStatistics statistics_;
-  std::vector<double> periods_, iterations_;
+  std::vector<double> periods_, calls_, iterations_;
   std::map<std::string, std::vector<double>> waits_;
-  std::optional<std::int64_t> last_, begun_;
+  std::optional<std::int64_t> last_, called_, begun_;
   bool open_ = false;
 };
 
@@ -117,6 +121,7 @@ std::vector<SubsystemStatistics> statistics_of(const Recording& recording) {
   for (const auto& [event, text] : recording.entries) {
     if (event.instance() >= counting.size()) continue;
     if (event.kind() == Event::Kind::overrun) counting[event.instance()].overrun(event.subject);
+    if (event.kind() == Event::Kind::call) counting[event.instance()].call(event.time_ns);
     if (event.kind() == Event::Kind::fault) counting[event.instance()].fault();
     if (event.kind() != Event::Kind::firing) continue;
     std::string_view name = recording.transitions[event.subject].name;

@@ -22,6 +22,7 @@ struct SubsystemStatistics {
   std::uint64_t overruns = 0;  ///< instants of its rate that its work made it miss
   std::uint64_t faults = 0;    ///< of any kind
   Distribution period;         ///< from one end of a transition function (t1) to the next
+  Distribution call;           ///< from the beginning of a transition function to t1; of none without values
   Distribution iteration;      ///< from t1 to t4, t5 or t6: what communication took
   struct Wait {
     std::string channel;  ///< path of the block's transition without the path of the subsystem

@@ -16,13 +16,26 @@ namespace {
 /// Builds in the order in which things depend on each other; stops at the first step that fails.
 class Assembler {
  public:
-  Assembler(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error)
+  /// waker: nullptr: nobody is woken.
+  Assembler(Assembly& assembly, const Clock& clock, Waker* waker, std::string& error)
       : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
 
   bool run() {
     return check_version() && read_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
            read_script() && set_values() && open_devices() && make_channels() && open_recording() &&
            make_executors();
+  }
+
+  bool run(LooseParts& loose) {
+    if (!check_version() || !read_faults() || !bind() || !link_ports() || !compile_plans() || !check_hash() ||
+        !set_values())
+      return false;
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      for (std::uint32_t port = 0; port < parts_[index].ports.size(); ++port)
+        if (!make_loose_channel(index, port, loose)) return false;
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      loose.parts.push_back({std::move(parts_[index]), plans_[index], net_.first_of_instance[index]});
+    return true;
   }
 
  private:
@@ -213,6 +226,17 @@ class Assembler {
     return true;
   }
 
+  bool make_loose_channel(std::uint32_t instance, std::uint32_t port, LooseParts& loose) {
+    const Channel& channel = *channel_of_[instance][port];
+    const bool sends = parts_[instance].ports[port].side == Side::send;
+    loose.channels.push_back(std::make_unique<SharedChannel>(
+        0, value_size(sends ? channel.from : channel.to, parts_[instance].ports[port].side),
+        std::max<std::size_t>(channel.slots, 1), value_type(channel)));
+    parts_[instance].ports[port].channel = loose.channels.back().get();
+    return has_its_slots(instance, port) ||
+           fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
+  }
+
   /// 0: that end is not used.
   [[nodiscard]] std::size_t value_size(const End& end, Side side) const {
     if (end.port.empty()) return 0;
@@ -238,13 +262,17 @@ class Assembler {
     if (end.port.empty()) return true;
     const std::uint32_t port = ports_[end.instance].at(end.port);
     parts_[end.instance].ports[port].channel = assembly_.channels.back().get();
-    assembly_.channels.back()->connect(side, &waker_, end.instance, plans_[end.instance]->ports[port].needs);
-    const Does::Kind kind = side == Side::send ? Does::Kind::write : Does::Kind::read;
-    return std::none_of(plans_[end.instance]->places.begin(), plans_[end.instance]->places.end(),
-                        [&](const Plan::PlaceEntry& place) {
-                          return place.does == kind && place.subject == port &&
-                                 place.slot >= assembly_.channels.back()->slots();
-                        });
+    assembly_.channels.back()->connect(side, waker_, end.instance, plans_[end.instance]->ports[port].needs);
+    return has_its_slots(end.instance, port);
+  }
+
+  [[nodiscard]] bool has_its_slots(std::uint32_t instance, std::uint32_t port) const {
+    const PortLink& link = parts_[instance].ports[port];
+    const Does::Kind kind = link.side == Side::send ? Does::Kind::write : Does::Kind::read;
+    return std::none_of(
+        plans_[instance]->places.begin(), plans_[instance]->places.end(), [&](const Plan::PlaceEntry& place) {
+          return place.does == kind && place.subject == port && place.slot >= link.channel->slots();
+        });
   }
 
   bool open_recording() {
@@ -254,8 +282,50 @@ class Assembler {
     assembly_.recorder =
         Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
                        static_cast<std::uint32_t>(parts_.size()),
-                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_);
-    return assembly_.recorder != nullptr;
+                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_, longest_value(),
+                       options.record_limit,
+                       options.record_limit.segment_bytes == 0
+                           ? nullptr
+                           : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
+    if (assembly_.recorder == nullptr) return false;
+    if (options.values != RunOptions::Values::none) record_values();
+    return true;
+  }
+
+  /// As MarkingTrack wants them.
+  [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
+    std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      for (const Plan::TransitionEntry& transition : plans_[index]->transitions)
+        if (transition.port != Plan::none)
+          channels[net_.first_of_instance[index] + transition.index] =
+              static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
+    return channels;
+  }
+
+  /// Larger values are not recorded whole.
+  [[nodiscard]] std::uint64_t value_limit() const {
+    return assembly_.options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
+  }
+
+  [[nodiscard]] std::size_t longest_value() const {
+    std::size_t longest = 0;
+    if (assembly_.options.values == RunOptions::Values::none) return longest;
+    for (const SubsystemParts& parts : parts_)
+      for_buffers(parts.bindings, [&](Recording::Direction, const auto& buffer) {
+        if (buffer.encoding != nullptr)
+          longest = std::max(longest, std::min<std::size_t>(buffer.encoding->most, value_limit()));
+      });
+    return longest;
+  }
+
+  void record_values() {
+    std::uint32_t first = 0;
+    for (SubsystemParts& parts : parts_) {
+      parts.values = std::make_unique<ValueRecorder>(parts.bindings, first, value_limit(),
+                                                     *assembly_.recorder->lane(parts.index));
+      first += count_buffers(parts.bindings);
+    }
   }
 
   [[nodiscard]] std::string header(const char* clock) const {
@@ -274,7 +344,26 @@ class Assembler {
     header["transitions"] = nlohmann::ordered_json::array();
     for (const FlatNet::FlatTransition& transition : net_.transitions)
       header["transitions"].push_back(nlohmann::ordered_json::array({transition.name, transition.instance}));
+    if (assembly_.options.values != RunOptions::Values::none) describe_values(header);
     return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
+  /// And what else `simulate --from` needs to know.
+  void describe_values(nlohmann::ordered_json& header) const {
+    header["parameters"] = assembly_.options.parameters;
+    if (assembly_.options.duration) header["duration_ns"] = assembly_.options.duration->count();
+    header["behaviours"] = nlohmann::ordered_json::array();
+    nlohmann::ordered_json buffers = nlohmann::ordered_json::array();
+    for (const SubsystemParts& parts : parts_) {
+      nlohmann::ordered_json& behaviours = header["behaviours"].emplace_back(nlohmann::ordered_json::array());
+      for (const Behaviour& behaviour : parts.instance->net->behaviours) behaviours.push_back(behaviour.name);
+      for_buffers(parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
+        buffers.push_back(nlohmann::ordered_json::array(
+            {fmt::format("{}.{}", parts.path, buffer.name), parts.index, name_of(direction),
+             buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
+      });
+    }
+    header["values"] = {{"limit", value_limit()}, {"buffers", std::move(buffers)}};
   }
 
   bool make_executors() {
@@ -282,7 +371,7 @@ class Assembler {
       RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
       assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
           index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
-          SubsystemExecutor::Shared{assembly_.control, clock_, waker_, assembly_.options.monitor}, lane));
+          SubsystemExecutor::Shared{assembly_.control, clock_, *waker_, assembly_.options.monitor}, lane));
       if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
     }
     return true;
@@ -291,7 +380,7 @@ class Assembler {
   Assembly& assembly_;
   const System& system_;
   const Clock& clock_;
-  Waker& waker_;
+  Waker* waker_;
   std::string& error_;
   std::vector<SubsystemParts> parts_;                             // per instance
   std::vector<std::map<std::string_view, std::uint32_t>> ports_;  // per instance: by name
@@ -303,8 +392,15 @@ class Assembler {
 }  // namespace
 
 bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error) try {
-  return Assembler(assembly, clock, waker, error).run();
+  return Assembler(assembly, clock, &waker, error).run();
 } catch (const std::exception& exception) {  // of constructors of the user's: memory, drivers
+  error = exception.what();
+  return false;
+}
+
+bool take_apart(Assembly& assembly, const Clock& clock, LooseParts& parts, std::string& error) try {
+  return Assembler(assembly, clock, nullptr, error).run(parts);
+} catch (const std::exception& exception) {
   error = exception.what();
   return false;
 }

@@ -44,4 +44,20 @@ struct Assembly {
 ///         without a driver, a world, recording or scenario that cannot be opened: false and `error`.
 [[nodiscard]] bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error);
 
+/// A subsystem by itself.
+struct LoosePart {
+  SubsystemParts parts;  ///< each port has a channel of its own; no devices
+  std::shared_ptr<const Plan> plan;
+  std::uint32_t first_transition = 0;  ///< how recordings number those of its plan
+};
+struct LooseParts {
+  std::vector<std::unique_ptr<SharedChannel>> channels;
+  std::vector<LoosePart> parts;  ///< per instance
+};
+
+/// Puts the subsystems together one by one, for user code to be run without the system around it.
+///
+/// Errors: as assemble.
+[[nodiscard]] bool take_apart(Assembly& assembly, const Clock& clock, LooseParts& parts, std::string& error);
+
 }  // namespace tessera

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <string_view>
@@ -27,7 +28,7 @@ namespace {
 
 /// As the user wrote it, before it means anything.
 struct Words {
-  std::string duration, parameter_file;
+  std::string duration, parameter_file, record_limit;
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   WorldOptions world;
@@ -44,7 +45,18 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->allow_extra_args(false);
   command.add_option("--parameters", words.parameter_file,
                      "File of 'path = value' lines, applied before --set");
-  command.add_option("--record", options.recording, "Write every firing and log line to this file");
+  command.add_option("--record", options.recording,
+                     "Write every firing, log line and value of a buffer to this file");
+  command.add_option(
+      "--record-limit", words.record_limit,
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
+  using Values = RunOptions::Values;
+  command
+      .add_option("--record-values", options.values,
+                  "Which values of buffers: none, small (up to 4 KiB; of larger ones a hash), all")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Values>{
+          {"none", Values::none}, {"small", Values::small}, {"all", Values::all}}))
+      ->default_str("small");
   command.add_option("--world", words.world.world, "World of the simulated robot (MJCF)");
   command.add_option("--world-library", options.world_library, "Library that simulates the world");
   command.add_option("--track", words.world.track, "Floor picture (PNG), dark is line");
@@ -80,6 +92,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
     options.duration = parse_duration(words.duration);
     if (!options.duration)
       return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+  }
+  if (!words.record_limit.empty()) {
+    const auto limit = parse_record_limit(words.record_limit);
+    if (!limit)
+      return fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit);
+    options.record_limit = *limit;
   }
   for (const std::string& assignment : words.parameters) {
     const std::size_t equals = assignment.find('=');
@@ -136,6 +154,35 @@ std::optional<Duration> parse_duration(std::string text) {
   return std::nullopt;
 }
 
+std::optional<RunOptions::Limit> parse_record_limit(std::string text) {
+  constexpr std::uint32_t segments_of_all = 4;
+  std::erase(text, ' ');
+  RunOptions::Limit limit{.segment_bytes = 0, .segments = segments_of_all};
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const std::optional<double> count = parse_number(std::string_view(text).substr(times + 1));
+    if (!count || *count < 2 || *count > 1e6 || *count != std::floor(*count)) return std::nullopt;
+    limit.segments = static_cast<std::uint32_t>(*count);
+    text.resize(times);
+  }
+  const std::size_t unit_at = text.find_first_not_of("0123456789.");
+  const std::string_view unit = unit_at == std::string::npos ? "B" : std::string_view(text).substr(unit_at);
+  const std::optional<double> number = parse_number(std::string_view(text).substr(0, unit_at));
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  for (const Unit& known :
+       {Unit{"B", 1}, Unit{"kB", 1e3}, Unit{"MB", 1e6}, Unit{"GB", 1e9}, Unit{"TB", 1e12}}) {
+    if (known.name != unit || !number || *number <= 0) continue;
+    const double bytes = *number * known.bytes / (times == std::string::npos ? segments_of_all : 1);
+    if (bytes < 1 || bytes > 1e18) return std::nullopt;
+    limit.segment_bytes = static_cast<std::uint64_t>(bytes);
+    return limit;
+  }
+  return std::nullopt;
+}
+
 std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error) {
   const std::size_t equals = text.find('=');
   const std::size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
@@ -188,6 +235,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                      "Subsystems take turns after every firing, drawn from the seed");
   simulate->add_option("--schedules", line.schedules,
                        "Try so many seeds from --seed on, interleaved; report the first whose run fails");
+  simulate->add_option("--from", line.from,
+                       "Run user code again on what this recording says it was given; compare what it does");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   simulate->add_flag("--controlled", words.controlled,
                      "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");

@@ -12,6 +12,7 @@ namespace tessera {
 struct CommandLine {
   RunOptions options;
   std::string summary;          ///< file; "-": standard output; empty: none
+  std::string from;             ///< recording to run user code again from; empty: none
   std::uint64_t schedules = 0;  ///< how many to try; 0: one run
 };
 
@@ -21,6 +22,9 @@ struct CommandLine {
 
 /// "60s", "1.5 min", "200ms", "2h", "90" (seconds). nullopt: none of these, or negative.
 [[nodiscard]] std::optional<Duration> parse_duration(std::string text);
+
+/// "500MB" (in four segments), "100MBx5" (so many of that size); B, kB, MB, GB. nullopt: none of these.
+[[nodiscard]] std::optional<RunOptions::Limit> parse_record_limit(std::string text);
 
 /// "robot.sensor.left=reflectance:eye_left,noise=0.01". nullopt and `error` otherwise.
 [[nodiscard]] std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error);

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "command_line.hpp"
+#include "redrive.hpp"
 #include "schedules.hpp"
 #include "summary_text.hpp"
 #include "tessera/controller.hpp"
@@ -53,6 +54,21 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_termina
                                           : exit_interrupted;
 }
 
+[[nodiscard]] int run_again(const System& system, const CommandLine& line) {
+  std::string error;
+  const std::optional<RedriveReport> report = redrive(system, line.options, line.from, error);
+  if (!report) {
+    fmt::print(stderr, "error: {}\n", error);
+    return exit_failed;
+  }
+  if (line.summary != "-") fmt::print("{}", redrive_text(*report));
+  if (!line.summary.empty() && !write_summary(line.summary, redrive_json(*report))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  return report->first ? exit_failed : exit_ok;
+}
+
 }  // namespace
 
 int controller_main(const System& system, int argc, char** argv) try {
@@ -60,6 +76,7 @@ int controller_main(const System& system, int argc, char** argv) try {
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const CommandLine& line = std::get<CommandLine>(parsed);
   if (line.schedules > 0) return run_schedules(system, line);
+  if (!line.from.empty()) return run_again(system, line);
   std::string error;
   const std::optional<RunSummary> summary = execute(system, line.options, error);
   if (!summary) {

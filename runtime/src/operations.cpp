@@ -114,6 +114,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   parts_.subsystem->keep_outputs();
   context_.now = now;
   context_.iteration = iteration_;
+  if (parts_.values != nullptr) parts_.values->call(now, behaviour, iteration_);
   if (!parts_.receptors.empty() &&
       !survives(Fault::device, behaviour, "reading a real receptor: ", [&] { read_receptors(now); }))
     return;
@@ -126,11 +127,13 @@ void Operations::finish_call(Time now) {
   for (const Bindings::Incoming& input : parts_.bindings.inputs) input.arrival->fresh = false;
   check_watchdog(now);
   check_outputs();
-  if (parts_.effectors.empty() || failed_) return;
-  refused_ = false;
-  static_cast<void>(
-      survives(Fault::device, behaviour_, "writing a real effector: ", [&] { write_effectors(now); }));
-  if (refused_) fail(Fault::device, behaviour_, "a real effector refused its command");
+  if (!parts_.effectors.empty() && !failed_) {
+    refused_ = false;
+    static_cast<void>(
+        survives(Fault::device, behaviour_, "writing a real effector: ", [&] { write_effectors(now); }));
+    if (refused_) fail(Fault::device, behaviour_, "a real effector refused its command");
+  }
+  if (parts_.values != nullptr) parts_.values->outputs(now);
 }
 
 void Operations::check_watchdog(Time now) {
@@ -159,11 +162,28 @@ void Operations::read_receptors(Time now) {
   for (std::size_t index = 0; index < parts_.receptors.size(); ++index) {
     const Bindings::Incoming& input = parts_.bindings.real_inputs[index];
     Arrival& arrival = *input.arrival;
-    arrival.fresh = parts_.receptors[index]->read({static_cast<std::byte*>(input.value), input.size});
+    arrival.fresh = read_receptor(index, now);
     if (!arrival.fresh) continue;
     arrival.valid = true;
     arrival.stamp = now;
   }
+}
+
+/// Records what came of it.
+bool Operations::read_receptor(std::size_t index, Time now) {
+  using Reading = ValueRecorder::Reading;
+  const Bindings::Incoming& input = parts_.bindings.real_inputs[index];
+  const std::span<std::byte> value(static_cast<std::byte*>(input.value), input.size);
+  if (parts_.values == nullptr) return parts_.receptors[index]->read(value);
+  Reading reading = Reading::failed;
+  try {
+    reading = parts_.receptors[index]->read(value) ? Reading::value : Reading::silent;
+  } catch (...) {
+    parts_.values->real_input(index, now, reading);
+    throw;
+  }
+  parts_.values->real_input(index, now, reading);
+  return reading == Reading::value;
 }
 
 void Operations::write_effectors(Time now) {
@@ -206,13 +226,15 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   const SharedChannel::Memory& memory = link.channel->memory(slot);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   assign(input.value, memory.bytes.data(), input.size, input.type);
-  input.arrival->fresh = input.arrival->fresh || memory.sequence > state.newest;
+  const bool newer = memory.sequence > state.newest;
+  input.arrival->fresh = input.arrival->fresh || newer;
   state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
   if (memory.valid) state.last_valid = memory.stamp;
   input.arrival->valid = memory.valid;
   input.arrival->stamp = memory.stamp;
   input.arrival->age = age(memory.stamp, now);
+  if (parts_.values != nullptr) parts_.values->input(link.buffer, now, newer);
 }
 
 void Operations::note_timeout(std::uint32_t port) {

@@ -14,6 +14,7 @@
 #include "shared_channel.hpp"
 #include "tessera/device.hpp"
 #include "tessera/tables.hpp"
+#include "value_recorder.hpp"
 
 namespace tessera {
 
@@ -37,6 +38,7 @@ struct SubsystemParts {
   std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
+  std::unique_ptr<ValueRecorder> values;                 ///< nullptr: they are not recorded
 };
 
 /// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code.
@@ -71,6 +73,10 @@ class Operations final : public ContextServices {
   /// no_entry: none holds; unknown_entry: a condition has thrown, which has been logged.
   static constexpr int no_entry = -1, unknown_entry = -2;
   [[nodiscard]] int route(std::uint16_t behaviour, Time now);
+
+  [[nodiscard]] bool has_failed() const { return failed_; }
+  /// The last transition function has failed for a reason that is not here, as in a recorded run.
+  void fail_as_recorded(Fault fault, std::string_view what) { fail(fault, behaviour_, what); }
 
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port);
@@ -113,6 +119,7 @@ class Operations final : public ContextServices {
 
  private:
   void read_receptors(Time now);
+  [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void write_effectors(Time now);
   void check_watchdog(Time now);
   void check_outputs();

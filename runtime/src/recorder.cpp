@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "waker.hpp"
 
@@ -16,23 +18,69 @@ namespace {
 
 constexpr std::string_view magic = "TESSREC1";
 constexpr std::int64_t drain_period_ns = 5'000'000;
+constexpr std::uint32_t stuck_after_rounds = 100;  // half a second, and more
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
 }  // namespace
 
 // ------------------------------------------------------------------------------------------------ file
 
-bool RecordingFile::open(const std::string& path, std::string_view header, std::string& error) {
-  descriptor_ = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) {
-    error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
-    return false;
+namespace {
+
+/// Segments that an earlier recording of that name has left would be read with this one.
+void remove_segments(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path whole(path);
+  std::error_code ignored;
+  const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string number = entry.path().stem().extension().string();
+    const bool numbered = number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (numbered && entry.path().stem().stem() == whole.stem() &&
+        entry.path().extension() == whole.extension())
+      fs::remove(entry.path(), ignored);
+  }
+}
+
+}  // namespace
+
+bool RecordingFile::open(const std::string& path, std::string_view header, std::string& error,
+                         RunOptions::Limit limit, std::unique_ptr<MarkingTrack> track) {
+  path_ = path;
+  header_ = header;
+  limit_ = limit;
+  track_ = limit.segment_bytes == 0 ? nullptr : std::move(track);
+  if (track_ != nullptr) {
+    const std::size_t least = 2 * header.size() + 64 * sizeof(Event);
+    if (limit.segment_bytes < least || limit.segments < 2) {
+      error =
+          fmt::format("the limit of the recording is too small: it needs two segments of {} bytes", least);
+      return false;
+    }
+    remove_segments(path);
+  }
+  if (open_segment()) return true;
+  error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
+  return false;
+}
+
+/// The file and its header.
+bool RecordingFile::open_segment() {
+  descriptor_ = ::open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) return false;
+  std::string header = header_;
+  if (track_ != nullptr) {
+    header.pop_back();
+    header += fmt::format(",\"segment\":{}}}", segment_);
   }
   const auto length = static_cast<std::uint32_t>(header.size());
-  std::string start(magic);
+  std::string start;
+  start.reserve(magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.append(magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');
+  segment_bytes_ = start.size();
   write_all(start.data(), start.size());
   return true;
 }
@@ -44,8 +92,47 @@ void RecordingFile::append(const Event& event) {
     ++lost_;
     return;
   }
+  if (track_ != nullptr) keep_track(event);
+  put(event);
+}
+
+void RecordingFile::put(const Event& event) {
   buffer_[filled_++] = event;
+  segment_bytes_ += sizeof(Event);
   if (filled_ == buffer_.size()) flush();
+}
+
+void RecordingFile::keep_track(const Event& event) {
+  if (pieces_left_ > 0) {
+    --pieces_left_;
+    return;
+  }
+  if (segment_bytes_ + (1 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
+    begin_segment(event.time_ns);
+  pieces_left_ = event.pieces();
+  if (event.kind() == Event::Kind::firing) track_->fire(event);
+}
+
+/// The last one gets its number, the one that is too old goes.
+void RecordingFile::begin_segment(std::int64_t time_ns) {
+  flush();
+  if (!failure_.empty()) return;
+  ::close(descriptor_);
+  descriptor_ = -1;
+  if (std::rename(path_.c_str(), segment_path(path_, segment_).c_str()) != 0) failure_ = std::strerror(errno);
+  ++segment_;
+  if (segment_ >= limit_.segments) ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
+  if (failure_.empty() && !open_segment()) failure_ = std::strerror(errno);
+  const std::string marked = track_->known() ? track_->marked() : std::string();
+  put({.time_ns = time_ns,
+       .subject = static_cast<std::uint32_t>(marked.size()),
+       .version = track_->known() ? 0U : 1U,
+       .origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::marking)});
+  for (std::size_t at = 0; at < marked.size(); at += sizeof(Event)) {
+    Event piece{};
+    std::memcpy(&piece, marked.data() + at, std::min(marked.size() - at, sizeof piece));
+    put(piece);
+  }
 }
 
 void RecordingFile::flush() {
@@ -109,13 +196,36 @@ void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::
   head.subject = static_cast<std::uint32_t>(text.size());
   head.version = level;
   push(head);
-  while (!text.empty()) {
-    Event piece{};
-    const std::size_t count = std::min(text.size(), sizeof piece);
-    std::memcpy(&piece, text.data(), count);
-    push(piece);
-    text.remove_prefix(count);
+  push_bytes(text.data(), text.size());
+  publish();
+}
+
+void RecordingLane::call(Time time, std::uint32_t behaviour, std::uint64_t iteration) {
+  Event begun = event(Event::Kind::call, time);
+  if (!has_room(1)) return;
+  begun.subject = behaviour;
+  begun.version = static_cast<std::uint32_t>(iteration);
+  push(begun);
+  publish();
+}
+
+void RecordingLane::value(Time time, std::uint32_t buffer, std::uint32_t flags,
+                          std::span<const std::byte> head, std::span<const std::byte> bytes) {
+  Event changed = event(Event::Kind::value, time);
+  const std::size_t size = head.size() + bytes.size();
+  if (!has_room(1 + (size + sizeof(Event) - 1) / sizeof(Event))) return;
+  changed.subject = static_cast<std::uint32_t>(size);
+  changed.version = buffer | flags << 24U;
+  push(changed);
+  if (!head.empty()) {
+    std::array<std::byte, sizeof(Event)> first{};
+    const std::size_t count = std::min(bytes.size(), first.size() - head.size());
+    std::copy(head.begin(), head.end(), first.begin());
+    std::copy_n(bytes.begin(), count, first.begin() + static_cast<std::ptrdiff_t>(head.size()));
+    push_bytes(first.data(), head.size() + count);
+    bytes = bytes.subspan(count);
   }
+  push_bytes(bytes.data(), bytes.size());
   publish();
 }
 
@@ -135,26 +245,56 @@ void RecordingLane::push(const Event& event) {
     ring_[pushed_++ & (ring_.size() - 1)] = event;
 }
 
+/// In pieces of the size of an event, the last filled up.
+void RecordingLane::push_bytes(const void* bytes, std::size_t count) {
+  const auto* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    Event piece{};
+    const std::size_t taken = std::min(count, sizeof piece);
+    std::memcpy(&piece, next, taken);
+    push(piece);
+    next += taken;
+    count -= taken;
+  }
+}
+
 void RecordingLane::publish() { published_.store(pushed_, std::memory_order_release); }
 
-void RecordingLane::drain() {
+bool RecordingLane::drain(bool in_order) {
+  const std::uint64_t begin = drained_.load(std::memory_order_relaxed);
   const std::uint64_t end = published_.load(std::memory_order_acquire);
-  std::uint64_t next = drained_.load(std::memory_order_relaxed);
-  while (next != end) file_.append(ring_[next++ & (ring_.size() - 1)]);
+  std::uint64_t next = begin;
+  while (next != end) {
+    const Event& head = ring_[next & (ring_.size() - 1)];
+    if (in_order && head.kind() == Event::Kind::firing && !file_.track()->may_fire(head)) break;
+    for (const std::uint64_t after = next + 1 + head.pieces(); next != after; ++next)
+      file_.append(ring_[next & (ring_.size() - 1)]);
+  }
   drained_.store(next, std::memory_order_release);
+  held_up_ = next == begin && next != end ? held_up_ + 1 : 0;
+  return next != begin;
+}
+
+bool RecordingLane::is_stuck() {
+  const std::uint64_t left =
+      published_.load(std::memory_order_acquire) - drained_.load(std::memory_order_relaxed);
+  return left > ring_.size() / 2 || held_up_ > stuck_after_rounds;
 }
 
 // ------------------------------------------------------------------------------------------------ recorder
 
 std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_view header,
-                                         std::uint32_t instances, Mode mode, std::string& error) {
+                                         std::uint32_t instances, Mode mode, std::string& error,
+                                         std::size_t longest, RunOptions::Limit limit,
+                                         std::unique_ptr<MarkingTrack> track) {
   std::unique_ptr<Recorder> recorder(new Recorder);
-  if (!recorder->file_.open(path, header, error)) return nullptr;
+  if (!recorder->file_.open(path, header, error, limit, std::move(track))) return nullptr;
   // About 24 MB of rings, up to a quarter of a second at a million events a second for each.
+  const std::size_t least = std::max<std::size_t>(512, 8 * longest / sizeof(Event));
   const std::size_t capacity =
       mode == Mode::direct
           ? 0
-          : std::clamp<std::size_t>((std::size_t{1} << 20) / (instances + 1), 512, std::size_t{1} << 18);
+          : std::max(least, std::min((std::size_t{1} << 20) / (instances + 1), std::size_t{1} << 18));
   for (std::uint32_t instance = 0; instance < instances; ++instance)
     recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));
@@ -170,16 +310,32 @@ Recorder::~Recorder() {
 void Recorder::write_until_closed() {
   WakeWord never;  // only its timeout ends the wait: producers must not pay for waking a writer
   while (closing_.load(std::memory_order_acquire) == 0) {
-    for (const auto& lane : lanes_) lane->drain();
+    drain_in_order();
     file_.flush();
     never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
   }
+}
+
+/// Segments can be checked by themselves because every firing comes after those it follows from. What those
+/// wait for that are stuck has been lost.
+void Recorder::drain_in_order() {
+  if (file_.track() == nullptr) {
+    for (const auto& lane : lanes_) lane->drain();
+    return;
+  }
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const auto& lane : lanes_) moved = lane->drain(/*in_order=*/true) || moved;
+  }
+  for (const auto& lane : lanes_)
+    if (lane->is_stuck()) lane->drain();
 }
 
 Recorder::Result Recorder::close() {
   closing_.store(1, std::memory_order_release);
   if (writer_.joinable()) {
     writer_.join();
+    drain_in_order();
     for (const auto& lane : lanes_) lane->drain();
   }
   file_.close();

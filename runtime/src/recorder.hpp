@@ -5,11 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "marking_track.hpp"
+#include "tessera/controller.hpp"
 #include "tessera/recording.hpp"
 #include "tessera/time.hpp"
 
@@ -23,8 +26,10 @@ inline constexpr std::uint32_t system_instance = 0xffffff;  ///< of events of th
 /// Threads: one at a time.
 class RecordingFile {
  public:
-  /// false and `error` when it cannot be created.
-  [[nodiscard]] bool open(const std::string& path, std::string_view header, std::string& error);
+  /// track: from the start of the run; not nullptr if there is a limit. false and `error` when it cannot be
+  /// created, or the limit is too small for the header.
+  [[nodiscard]] bool open(const std::string& path, std::string_view header, std::string& error,
+                          RunOptions::Limit limit = {}, std::unique_ptr<MarkingTrack> track = nullptr);
   RecordingFile() = default;
   RecordingFile(const RecordingFile&) = delete;
   RecordingFile& operator=(const RecordingFile&) = delete;
@@ -35,9 +40,20 @@ class RecordingFile {
   void close();
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
   [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
+  /// nullptr: there is no limit.
+  [[nodiscard]] const MarkingTrack* track() const { return track_.get(); }
 
  private:
+  [[nodiscard]] bool open_segment();
+  void keep_track(const Event& event);
+  void begin_segment(std::int64_t time_ns);
+  void put(const Event& event);
   void write_all(const char* bytes, std::size_t count);
+  std::string path_, header_;
+  RunOptions::Limit limit_;
+  std::unique_ptr<MarkingTrack> track_;
+  std::uint64_t segment_ = 0, segment_bytes_ = 0;
+  std::uint64_t pieces_left_ = 0;  // of the text of the last event
   int descriptor_ = -1;
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
@@ -57,13 +73,22 @@ class RecordingLane {
   void firing(Time time, std::uint32_t transition, std::uint32_t version);
   void overrun(Time time, std::uint32_t missed);
   void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
+  void call(Time time, std::uint32_t behaviour, std::uint64_t iteration);
+  /// head: at most sizeof(Event) bytes, before the others.
+  void value(Time time, std::uint32_t buffer, std::uint32_t flags, std::span<const std::byte> head,
+             std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
-  void drain();
+  /// What is in the ring goes to the file; in_order: up to a firing that follows from one which is not there
+  /// yet. true: there was something.
+  bool drain(bool in_order = false);
+  /// It holds so much, or has held up for so long, that what it waits for must be lost.
+  [[nodiscard]] bool is_stuck();
 
  private:
   [[nodiscard]] Event event(Event::Kind kind, Time time);
   [[nodiscard]] bool has_room(std::uint64_t count);
   void push(const Event& event);
+  void push_bytes(const void* bytes, std::size_t count);
   void publish();
 
   std::uint32_t instance_;
@@ -73,6 +98,7 @@ class RecordingLane {
   std::vector<Event> ring_;         // empty: append at once; otherwise a power of two
   std::uint64_t pushed_ = 0;        // the producer's
   std::uint64_t seen_drained_ = 0;  // the producer's last look at drained_
+  std::uint32_t held_up_ = 0;       // the writer's: rounds without a move
   alignas(64) std::atomic<std::uint64_t> published_{0};
   alignas(64) std::atomic<std::uint64_t> drained_{0};
 };
@@ -82,8 +108,11 @@ class Recorder {
  public:
   enum class Mode : std::uint8_t { direct, threaded };
   /// nullptr and `error` when the file cannot be created.
+  /// longest: bytes of the longest value. limit, track: as RecordingFile::open.
   [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, std::string_view header,
-                                                      std::uint32_t instances, Mode mode, std::string& error);
+                                                      std::uint32_t instances, Mode mode, std::string& error,
+                                                      std::size_t longest = 0, RunOptions::Limit limit = {},
+                                                      std::unique_ptr<MarkingTrack> track = nullptr);
   ~Recorder();
 
   [[nodiscard]] RecordingLane* lane(std::uint32_t instance) { return lanes_[instance].get(); }
@@ -100,6 +129,7 @@ class Recorder {
  private:
   Recorder() = default;
   void write_until_closed();
+  void drain_in_order();
   RecordingFile file_;
   std::vector<std::unique_ptr<RecordingLane>> lanes_;
   std::atomic<std::uint32_t> closing_{0};

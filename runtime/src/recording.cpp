@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,34 @@ namespace tessera {
 namespace {
 
 constexpr std::string_view magic = "TESSREC1";
+
+[[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
+  for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
+                               Recording::Direction::real_input, Recording::Direction::real_output})
+    if (name_of(direction) == name) return direction;
+  return std::nullopt;
+}
+
+[[nodiscard]] bool read_buffers(const nlohmann::json& values, Recording& recording) {
+  values.at("limit").get_to(recording.value_limit);
+  for (const nlohmann::json& buffer : values.at("buffers")) {
+    const auto direction = direction_of(buffer.at(2).get<std::string>());
+    const auto instance = buffer.at(1).get<std::uint32_t>();
+    if (!direction || instance >= recording.instances.size()) return false;
+    recording.buffers.push_back(
+        {buffer.at(0).get<std::string>(), instance, *direction, buffer.at(3).get<std::string>()});
+  }
+  return true;
+}
+
+/// How the run was started.
+void read_run(const nlohmann::json& header, Recording& recording) {
+  if (header.contains("parameters")) header.at("parameters").get_to(recording.parameters);
+  if (header.contains("injected")) header.at("injected").get_to(recording.injected);
+  if (header.contains("behaviours")) header.at("behaviours").get_to(recording.behaviours);
+  if (header.contains("segment")) recording.segment = header.at("segment").get<std::uint64_t>();
+  if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
+}
 
 /// false when the JSON lacks what every recording has.
 [[nodiscard]] bool read_header(Recording& recording) {
@@ -27,10 +56,20 @@ constexpr std::string_view magic = "TESSREC1";
     for (const nlohmann::json& transition : header.at("transitions"))
       recording.transitions.push_back(
           {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
+    read_run(header, recording);
+    if (header.contains("values")) return read_buffers(header.at("values"), recording);
   } catch (const nlohmann::json::exception&) {
     return false;
   }
   return true;
+}
+
+constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 1;
+
+/// How many bytes at least a value event with these flags has.
+[[nodiscard]] std::size_t fixed_bytes(std::uint32_t flags) {
+  return ((flags & ValueFlags::stamped) != 0 ? sizeof(std::int64_t) : 0) +
+         ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
 }
 
 [[nodiscard]] bool makes_sense(const Event& event, const Recording& recording) {
@@ -41,7 +80,15 @@ constexpr std::string_view magic = "TESSREC1";
     case Event::Kind::log:
     case Event::Kind::stop:
     case Event::Kind::overrun:
+    case Event::Kind::marking:
       return true;
+    case Event::Kind::call:
+      return event.instance() < recording.behaviours.size() &&
+             event.subject < recording.behaviours[event.instance()].size();
+    case Event::Kind::value:
+      return (event.version & buffer_bits) < recording.buffers.size() &&
+             recording.buffers[event.version & buffer_bits].instance == event.instance() &&
+             event.subject >= fixed_bytes(event.version >> buffer_shift);
     case Event::Kind::fault:
       return !name_of(static_cast<Fault>(event.version)).empty();
   }
@@ -131,7 +178,34 @@ std::string_view name_of(Fault fault) {
   return "";
 }
 
-std::optional<Recording> read_recording(const std::string& path, std::string& error) {
+std::string_view name_of(Recording::Direction direction) {
+  switch (direction) {
+    case Recording::Direction::input:
+      return "in";
+    case Recording::Direction::output:
+      return "out";
+    case Recording::Direction::real_input:
+      return "real_in";
+    case Recording::Direction::real_output:
+      return "real_out";
+  }
+  return "";
+}
+
+ValueEvent value_of(const Recording::Entry& entry) {
+  ValueEvent value{.buffer = entry.event.version & buffer_bits,
+                   .flags = entry.event.version >> buffer_shift,
+                   .bytes = entry.text};
+  if (value.has(ValueFlags::stamped)) {
+    std::memcpy(&value.stamp_ns, entry.text.data(), sizeof value.stamp_ns);
+    value.bytes.remove_prefix(sizeof value.stamp_ns);
+  }
+  return value;
+}
+
+namespace {
+
+[[nodiscard]] std::optional<Recording> read_segment(const std::string& path, std::string& error) {
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || file.bad()) {
@@ -152,6 +226,50 @@ std::optional<Recording> read_recording(const std::string& path, std::string& er
   }
   reader.recording().truncated = !reader.problem().empty() || reader.pending() > 0;
   return std::move(reader.recording());
+}
+
+/// "run.3.tsr" and the like.
+[[nodiscard]] bool has_number(const std::filesystem::path& path) {
+  const std::string number = path.stem().extension().string();
+  return number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+/// What the headers of segments of one run have in common.
+[[nodiscard]] std::string_view without_segment(std::string_view header) {
+  return header.substr(0, header.rfind(",\"segment\":"));
+}
+
+}  // namespace
+
+std::string segment_path(const std::string& path, std::uint64_t number) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() /
+          fmt::format("{}.{}{}", whole.stem().string(), number, whole.extension().string()))
+      .string();
+}
+
+std::optional<Recording> read_recording(const std::string& path, std::string& error) {
+  const bool folder = std::filesystem::is_directory(path);
+  const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
+  std::optional<Recording> newest = read_segment(file, error);
+  if (!newest || newest->segment.value_or(0) == 0 || has_number(file)) return newest;
+  std::vector<Recording> segments;
+  std::uint64_t number = *newest->segment;
+  segments.push_back(std::move(*newest));
+  while (number > 0) {
+    std::string none;
+    std::optional<Recording> before = read_segment(segment_path(file, --number), none);
+    if (!before || without_segment(before->header) != without_segment(segments.front().header)) break;
+    segments.push_back(std::move(*before));
+  }
+  Recording all = std::move(segments.back());
+  segments.pop_back();
+  for (; !segments.empty(); segments.pop_back()) {
+    std::move(segments.back().entries.begin(), segments.back().entries.end(),
+              std::back_inserter(all.entries));
+    all.truncated = all.truncated || segments.back().truncated;
+  }
+  return all;
 }
 
 }  // namespace tessera

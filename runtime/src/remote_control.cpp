@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -83,39 +84,45 @@ std::string RemoteControl::step_iteration(const json& command) {
 }
 
 std::string RemoteControl::set_breakpoints(const json& command) {
+  using When = Breakpoint::When;
   std::vector<Breakpoint> wanted;
-  for (const json& name : command.value("places", json::array())) {
-    Breakpoint one{.name = name.is_string() ? name.get<std::string>() : std::string()};
-    if (!find(one.name, one)) return "the controller has no place '" + one.name + "'";
-    wanted.push_back(std::move(one));
-  }
+  if (assembly_.recorder == nullptr && !command.value("transitions", json::array()).empty())
+    return "a breakpoint on a transition needs a run that is recorded";
+  for (const auto& [list, when] : {std::pair{"places", When::marked}, std::pair{"transitions", When::fires},
+                                   std::pair{"conditions", When::enabled}})
+    for (const json& name : command.value(list, json::array())) {
+      Breakpoint one{.when = when, .name = name.is_string() ? name.get<std::string>() : std::string()};
+      if (!find(one))
+        return std::string("no subsystem or channel of the controller has the ") +
+               (when == When::marked ? "place '" : "transition '") + one.name + "'";
+      wanted.push_back(std::move(one));
+    }
   breakpoints_ = std::move(wanted);
   return {};
 }
 
-bool RemoteControl::find(const std::string& name, Breakpoint& breakpoint) const {
-  const auto index_in = [&](const auto& places, std::string_view owner) {
-    for (std::uint32_t place = 0; place < places.size(); ++place)
-      if (name.size() == owner.size() + 1 + places[place].name.size() && name.starts_with(owner) &&
-          name[owner.size()] == '.' && name.ends_with(places[place].name))
-        return place;
-    return UINT32_MAX;
+bool RemoteControl::find(Breakpoint& breakpoint) const {
+  const std::string& name = breakpoint.name;
+  const auto is_in = [&](const auto& elements, std::string_view owner) {
+    for (breakpoint.index = 0; breakpoint.index < elements.size(); ++breakpoint.index) {
+      const std::string_view local = elements[breakpoint.index].name;
+      if (name.size() == owner.size() + 1 + local.size() && name.starts_with(owner) &&
+          name[owner.size()] == '.' && name.ends_with(local))
+        return true;
+    }
+    return false;
   };
-  for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance) {
-    const std::uint32_t place =
-        index_in(assembly_.system.instances[instance].net->places, assembly_.executors[instance]->path());
-    if (place == UINT32_MAX) continue;
-    breakpoint.instance = instance;
-    breakpoint.place = place;
-    return true;
+  const bool is_place = breakpoint.when == Breakpoint::When::marked;
+  for (breakpoint.instance = 0; breakpoint.instance < assembly_.executors.size(); ++breakpoint.instance) {
+    const SubsystemNet& net = *assembly_.system.instances[breakpoint.instance].net;
+    const std::string& owner = assembly_.executors[breakpoint.instance]->path();
+    if (is_place ? is_in(net.places, owner) : is_in(net.transitions, owner)) return true;
   }
-  for (std::uint32_t channel = 0; channel < assembly_.system.channels.size(); ++channel) {
-    const Channel& one = assembly_.system.channels[channel];
-    const std::uint32_t place = index_in(one.places, one.name);
-    if (place == UINT32_MAX) continue;
-    breakpoint.channel = channel;
-    breakpoint.place = place;
-    return true;
+  breakpoint.instance = UINT32_MAX;
+  for (breakpoint.channel = 0; is_place && breakpoint.channel < assembly_.system.channels.size();
+       ++breakpoint.channel) {
+    const Channel& channel = assembly_.system.channels[breakpoint.channel];
+    if (is_in(channel.places, channel.name)) return true;
   }
   return false;
 }
@@ -170,10 +177,12 @@ bool RemoteControl::wait_for(Duration time, const StopSignals& signals) {
   return !interrupted;
 }
 
-bool RemoteControl::is_marked(const Breakpoint& breakpoint) const {
+bool RemoteControl::holds(const Breakpoint& breakpoint) const {
+  if (breakpoint.when == Breakpoint::When::enabled)
+    return assembly_.executors[breakpoint.instance]->wants_to_fire(breakpoint.index);
   if (breakpoint.instance != UINT32_MAX)
-    return assembly_.executors[breakpoint.instance]->holds(breakpoint.place);
-  return (assembly_.channels[breakpoint.channel]->marking() >> breakpoint.place & 1U) != 0;
+    return assembly_.executors[breakpoint.instance]->holds(breakpoint.index);
+  return (assembly_.channels[breakpoint.channel]->marking() >> breakpoint.index & 1U) != 0;
 }
 
 void RemoteControl::about_to_fire() {
@@ -182,10 +191,27 @@ void RemoteControl::about_to_fire() {
     for (const auto& executor : assembly_.executors)
       iterations_.push_back(executor->operations().iterations());
   for (Breakpoint& one : breakpoints_) {
-    if (one.known) continue;
-    one.known = true;
-    one.marked = is_marked(one);
+    if (one.when == Breakpoint::When::fires || std::exchange(one.known, true)) continue;
+    one.held = holds(one);
   }
+}
+
+/// Pauses if it has come to hold, or if it was this transition that has fired.
+void RemoteControl::look_at(Breakpoint& breakpoint, std::uint32_t fired) {
+  bool reached = false;
+  if (breakpoint.when == Breakpoint::When::fires) {
+    reached = breakpoint.instance == fired && assembly_.executors[fired]->last_fired() == breakpoint.index;
+  } else {
+    const bool holds_now = holds(breakpoint);
+    reached = holds_now && !breakpoint.held;
+    breakpoint.held = holds_now;
+    breakpoint.known = true;
+  }
+  if (!reached) return;
+  paused_ = true;
+  firings_left_ = 0;
+  to_iteration_ = false;
+  broke_at_ = breakpoint.name;
 }
 
 void RemoteControl::fired(std::uint32_t instance) {
@@ -195,17 +221,7 @@ void RemoteControl::fired(std::uint32_t instance) {
   if (to_iteration_ && !iterations_.empty() && counts &&
       assembly_.executors[instance]->operations().iterations() > iterations_.at(instance))
     to_iteration_ = false;
-  for (Breakpoint& one : breakpoints_) {
-    const bool marked = is_marked(one);
-    if (marked && !one.marked) {
-      paused_ = true;
-      firings_left_ = 0;
-      to_iteration_ = false;
-      broke_at_ = one.name;
-    }
-    one.known = true;
-    one.marked = marked;
-  }
+  for (Breakpoint& one : breakpoints_) look_at(one, instance);
   update();
 }
 

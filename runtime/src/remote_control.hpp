@@ -32,7 +32,7 @@ class RemoteControl {
   struct Shown {
     bool paused = false;
     double speed = 0;
-    std::string broke_at;      ///< the place whose breakpoint paused it; empty: none
+    std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
     std::uint64_t pauses = 0;  ///< how often it has come to rest
     std::string values;        ///< JSON of the last values; empty: none yet
   };
@@ -56,14 +56,16 @@ class RemoteControl {
 
  private:
   struct Breakpoint {
+    enum class When : std::uint8_t { marked, enabled, fires } when;
     std::string name;
     std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them
-    std::uint32_t place = 0;
-    bool known = false, marked = false;  ///< when it was last looked at
+    std::uint32_t index = 0;                                    ///< place or transition
+    bool known = false, held = false;  ///< of marked and enabled: when it was last looked at
   };
   [[nodiscard]] bool resting() const { return paused_ && firings_left_ == 0 && !to_iteration_; }
-  [[nodiscard]] bool find(const std::string& name, Breakpoint& breakpoint) const;
-  [[nodiscard]] bool is_marked(const Breakpoint& breakpoint) const;
+  [[nodiscard]] bool find(Breakpoint& breakpoint) const;
+  [[nodiscard]] bool holds(const Breakpoint& breakpoint) const;
+  void look_at(Breakpoint& breakpoint, std::uint32_t fired);
   [[nodiscard]] std::string set_breakpoints(const nlohmann::json& command);
   [[nodiscard]] std::string step_iteration(const nlohmann::json& command);
   void update();

@@ -162,9 +162,11 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
       --registrations_;  // firing voids them
   }
   ++firings_;
+  last_fired_ = transition.index;
   if (lane_ != nullptr) {
     renew_time();
     lane_->firing(now_, first_transition_ + transition.index, version);
+    last_fired_ = transition.index;
   }
   if (transition.tells_of_timeout) tell_of_timeout(transition);
   return true;
@@ -189,6 +191,10 @@ bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition)
   };
   const auto inputs = plan_->inputs(transition);
   return std::all_of(inputs.begin(), inputs.end(), has_finished);
+}
+
+bool SubsystemExecutor::wants_to_fire(std::uint32_t transition) const {
+  return locally_enabled(plan_->transitions[transition]) && condition_holds(plan_->transitions[transition]);
 }
 
 Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {

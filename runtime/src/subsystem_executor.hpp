@@ -92,6 +92,11 @@ class SubsystemExecutor {
   /// A token is in that place of the table.
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
+  /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
+  [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
+  /// Its tokens in this subsystem are there, and its condition holds; channels may still be in its way.
+  [[nodiscard]] bool wants_to_fire(std::uint32_t transition) const;
+
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
@@ -188,6 +193,7 @@ class SubsystemExecutor {
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   std::uint64_t firings_ = 0, overruns_ = 0;
+  std::uint32_t last_fired_ = Plan::none;
   Gauges gauges_;
   Time instant_ = Time::min();
   std::uint32_t fired_at_instant_ = 0;

@@ -82,13 +82,19 @@ std::vector<std::uint32_t> Body::indices(const char* list, const char* member) {
   std::vector<std::uint32_t> numbers;
   const json* given = find(list);
   if (given == nullptr) return numbers;
-  if (given->is_array() && given->size() <= most)
-    for (const json& one : *given)
-      if (one.is_object() && one.contains(member) && one[member].is_number_unsigned() &&
-          one[member].get<std::uint64_t>() < UINT32_MAX)
-        numbers.push_back(one[member].get<std::uint32_t>());
-  if (!given->is_array() || numbers.size() != given->size())
-    complain(std::string("'") + list + "' has to be a list of objects with '" + member + "'");
+  if (!given->is_array() || given->size() > most) {
+    complain(std::string("'") + list + "' has to be a list");
+    return numbers;
+  }
+  for (const json& one : *given) {
+    if (!one.is_object()) complain(std::string("'") + list + "' has to be a list of objects");
+    const auto found = one.is_object() ? one.find(member) : one.end();
+    if (found == one.end()) continue;
+    if (found->is_number_unsigned() && found->get<std::uint64_t>() < UINT32_MAX)
+      numbers.push_back(found->get<std::uint32_t>());
+    else
+      complain(std::string("'") + member + "' has to be an index");
+  }
   return numbers;
 }
 

@@ -35,7 +35,7 @@ class Body {
   [[nodiscard]] std::string text_or(const char* name, std::string otherwise);
   [[nodiscard]] std::optional<double> number(const char* name);
   [[nodiscard]] bool flag(const char* name);
-  /// The member of that name of each object of a list of at most 10,000: numbers from 0 up.
+  /// The member of that name of those objects of a list of at most 10,000 that have it: numbers from 0 up.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
 

@@ -252,6 +252,8 @@ void Api::control_run(const Request& request, Response& response) {
   json command{{"command", body.text("command")}, {"subsystem", body.text_or("subsystem", "")}};
   if (const std::optional<double> value = body.number("value")) command["value"] = *value;
   command["places"] = body.indices("breakpoints", "place");
+  command["transitions"] = body.indices("breakpoints", "transition");
+  command["conditions"] = body.indices("breakpoints", "condition");
   if (!body.good()) return;
   const std::string wrong = run->control(std::move(command));
   if (!wrong.empty()) return answer_error(response, 409, wrong);

@@ -48,6 +48,16 @@ const char* name_of(RunRequest::Kind kind) {
   return "";
 }
 
+/// Indices to names; false: there is no such element.
+template <class Elements>
+bool to_names(json& list, const Elements& elements) {
+  for (json& one : list) {
+    if (one.get<std::size_t>() >= elements.size()) return false;
+    one = elements[one.get<std::size_t>()].name;
+  }
+  return true;
+}
+
 json read_summary(const std::filesystem::path& file) {
   std::ifstream stream(file);
   return stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
@@ -298,12 +308,10 @@ std::string Run::control(json command) {
   if (request_.kind == RunRequest::Kind::attach && !controllable_)
     return "this controller can only be watched: it runs in real time";
   if (what == "breakpoints") {
-    json places = json::array();
-    for (const std::uint32_t place : command.value("places", std::vector<std::uint32_t>{})) {
-      if (place >= analysis_->net->places().size()) return "the net has no such place";
-      places.push_back(analysis_->net->places()[place].name);
-    }
-    command["places"] = places;
+    const bool known = to_names(command["places"], analysis_->net->places()) &&
+                       to_names(command["transitions"], analysis_->net->transitions()) &&
+                       to_names(command["conditions"], analysis_->net->transitions());
+    if (!known) return "the net has no such place or transition";
   }
   return link_.command(std::move(command));
 }

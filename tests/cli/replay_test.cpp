@@ -54,4 +54,51 @@ TEST_F(Replay, ShowsWhatWasAskedFor) {
   EXPECT_EQ(tessera("replay events.csv").code, 1);
 }
 
+TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
+  const fs::path project = example("01_line_follower");
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 5s --record run.tsr").code, 0);
+  const project::Exit values = tessera("replay run.tsr --values=motion --last 1");
+  EXPECT_NE(values.text.find("robot.control.motion = {linear: "), std::string::npos) << values.text;
+  EXPECT_EQ(tessera("replay run.tsr --values=motion --csv motion.csv").code, 0);
+  EXPECT_EQ(content_of(folder_ / "motion.csv").find("time_ns,buffer,status,stamp_ns,linear,angular\n"), 0U);
+
+  const nlohmann::json same = json("simulate 01_line_follower --from run.tsr");
+  EXPECT_EQ(same.at("same"), true);
+  EXPECT_EQ(same.at("subsystems").at(0).at("iterations"), 100);
+  ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
+  EXPECT_EQ(json("simulate 01_line_follower --from threads.tsr").at("same"), true);
+
+  const project::Exit slower = tessera("simulate 01_line_follower --from run.tsr --set v=0.1 --json out.json");
+  EXPECT_EQ(slower.code, 1) << slower.text;
+  EXPECT_NE(slower.text.find("motion.linear: recorded "), std::string::npos) << slower.text;
+  const nlohmann::json first = nlohmann::json::parse(content_of(folder_ / "out.json")).at("first");
+  EXPECT_EQ(first.at("subsystem"), "robot.control");
+  EXPECT_EQ(first.at("what"), "motion.linear");
+
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s --record bare.tsr --record-values none").code, 0);
+  const project::Exit none = tessera("simulate 01_line_follower --from bare.tsr");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.text.find("it holds no values of buffers"), std::string::npos) << none.text;
+  EXPECT_EQ(tessera("replay bare.tsr --values").code, 1);
+}
+
+TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
+  example("01_line_follower");
+  ASSERT_EQ(
+      tessera("simulate 01_line_follower --for 30s --record logs/recording.tsr --record-limit 50kBx3").code,
+      1)
+      << "there is no such folder";
+  fs::create_directories(folder_ / "logs");
+  ASSERT_EQ(
+      tessera("simulate 01_line_follower --for 30s --record logs/recording.tsr --record-limit 50kBx3").code,
+      0);
+  const project::Exit checked = tessera("replay logs --check --spec 01_line_follower");
+  EXPECT_EQ(checked.code, 0) << checked.text;
+  EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
+  const project::Exit again = tessera("simulate 01_line_follower --from logs/recording.tsr");
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.text.find("its beginning is gone"), std::string::npos) << again.text;
+  EXPECT_EQ(tessera("simulate 01_line_follower --for 1s --record-limit 5apples").code, 2);
+}
+
 }  // namespace tessera::cli_test

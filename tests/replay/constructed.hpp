@@ -20,6 +20,15 @@ class Constructed {
     if (subject == recording.transitions.size()) recording.transitions.push_back({name, subsystem});
     return add(at_s, subsystem, tessera::Event::Kind::firing, subject, 0, {});
   }
+  Constructed& call(double at_s, std::uint32_t subsystem) {
+    return add(at_s, subsystem, tessera::Event::Kind::call, 0, 0, {});
+  }
+  /// Of the buffer with that number, in the header or not.
+  Constructed& value(double at_s, std::uint32_t subsystem, std::uint32_t buffer, std::uint32_t flags,
+                     const std::string& bytes) {
+    return add(at_s, subsystem, tessera::Event::Kind::value, static_cast<std::uint32_t>(bytes.size()),
+               buffer | flags << 24U, bytes);
+  }
   Constructed& log(double at_s, std::uint32_t subsystem, std::uint32_t level, const std::string& text) {
     return add(at_s, subsystem, tessera::Event::Kind::log, static_cast<std::uint32_t>(text.size()), level,
                text);

@@ -147,6 +147,45 @@ TEST(Legality, MissingEventsLeaveTheRestUndecided) {
   EXPECT_NE(merged.why.find("are missing"), std::string::npos) << merged.why;
 }
 
+/// The marking after the first `count` firings, as a segment begins with it.
+Recording::Entry marking_after(Recording run, std::size_t count, const net::Net& net) {
+  run.entries.resize(count);
+  const Legality legality = check_legal(run, net);
+  std::string text;
+  for (std::size_t place = 0; place < legality.marking.size(); ++place)
+    if (legality.marking[place] > 0) text += (text.empty() ? "" : "\n") + net.places()[place].name;
+  Event event{.time_ns = run.entries.back().event.time_ns,
+              .subject = static_cast<std::uint32_t>(text.size())};
+  event.origin = upper_layers << 8 | static_cast<std::uint32_t>(Event::Kind::marking);
+  return {event, text};
+}
+
+TEST(Legality, ASegmentIsCheckedFromTheMarkingThatItBeginsWith) {
+  Random random(17);
+  const net::Net net = test::build(test::line_follower()).net;
+  const Recording run = random_run(net, 300, random);
+  const Recording::Entry marking = marking_after(run, 150, net), other = marking_after(run, 151, net);
+  for (const bool whole : {true, false}) {
+    Recording segments = run;
+    segments.clock = "steady";
+    segments.segment = whole ? 0 : 3;
+    segments.entries.insert(segments.entries.begin() + 150, marking);
+    if (!whole) segments.entries.erase(segments.entries.begin(), segments.entries.begin() + 150);
+    const Legality legal = check_legal(segments, net);
+    EXPECT_EQ(legal.verdict, Verdict::legal) << legal.why;
+    EXPECT_EQ(legal.firings, whole ? 300U : 150U);
+    EXPECT_EQ(legal.marking, check_legal(run, net).marking);
+    segments.entries[whole ? 150 : 0] = other;
+    const Legality illegal = check_legal(segments, net);
+    EXPECT_EQ(illegal.verdict, Verdict::illegal);
+    if (whole) {
+      EXPECT_NE(illegal.why.find("a segment begins with another marking"), std::string::npos) << illegal.why;
+    }
+    segments.entries.erase(segments.entries.begin() + (whole ? 150 : 0));
+    EXPECT_EQ(check_legal(segments, net).verdict, whole ? Verdict::legal : Verdict::incomplete);
+  }
+}
+
 TEST(Legality, ARunOfAnotherNetIsIllegal) {
   Random random(13);
   const Recording run = random_run(test::build(test::fleet(2)).net, 100, random);

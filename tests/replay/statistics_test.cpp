@@ -48,6 +48,16 @@ TEST(Statistics, PeriodsIterationsAndWaitsAreThoseOfTheFirings) {
   EXPECT_NEAR(wait->time.mean, 0.02, 1e-9);
 }
 
+TEST(Statistics, TransitionFunctionsTakeFromTheirCallToT1) {
+  Constructed run({"robot.control"});
+  run.recording.behaviours = {{"go"}};
+  run.call(1.0, 0).fire(1.25, 0, "go.t1").fire(1.5, 0, "go.t4").call(2.0, 0).fire(2.5, 0, "go.t1");
+  const auto all = statistics_of(run.recording);
+  EXPECT_EQ(all[0].call.count, 2U);
+  EXPECT_NEAR(all[0].call.least, 0.25, 1e-9);
+  EXPECT_NEAR(all[0].call.most, 0.5, 1e-9);
+}
+
 TEST(Perfetto, IsJsonWithARowPerSubsystemAndASlicePerIteration) {
   Constructed run = three_iterations();
   run.recording.system = "a \"quoted\" system";

@@ -125,5 +125,18 @@ TEST(CommandLine, DriversHaveAKindATargetAndOptions) {
     EXPECT_FALSE(parse_driver(wrong, error)) << wrong;
 }
 
+TEST(CommandLine, LimitsOfRecordingsHaveUnits) {
+  const auto limit = [](const char* text) {
+    const auto parsed = parse_record_limit(text);
+    return parsed ? std::pair(parsed->segment_bytes, parsed->segments) : std::pair(std::uint64_t{0}, 0U);
+  };
+  EXPECT_EQ(limit("500MB"), std::pair(std::uint64_t{125'000'000}, 4U));
+  EXPECT_EQ(limit("100 MB x 5"), std::pair(std::uint64_t{100'000'000}, 5U));
+  EXPECT_EQ(limit("1.5GBx2"), std::pair(std::uint64_t{1'500'000'000}, 2U));
+  EXPECT_EQ(limit("4000"), std::pair(std::uint64_t{1000}, 4U));
+  for (const char* wrong : {"", "MB", "5 apples", "-5MB", "5MBx1", "5MBx2.5", "5MBx", "0", "1"})
+    EXPECT_FALSE(parse_record_limit(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace tessera::testing

@@ -187,6 +187,42 @@ TEST_F(Controlled, ABreakpointPausesWhenItsPlaceGetsAToken) {
   EXPECT_EQ(summary_.ended, "duration");
 }
 
+TEST_F(Controlled, ABreakpointPausesWhenItsTransitionHasFired) {
+  start();
+  rest(1);
+  const Instance& a = system_.system().instances[0];
+  const std::string transition = "robot.a." + std::string(a.net->transitions[0].name);
+  EXPECT_EQ(command({{"command", "breakpoints"}, {"transitions", {transition}}}), "");
+  EXPECT_EQ(command({{"command", "resume"}}), "");
+  EXPECT_EQ(rest(2).at("broke_at"), transition);
+  std::string error;
+  const std::optional<Recording> recording = read_recording(options_.recording, error);
+  ASSERT_TRUE(recording) << error;
+  EXPECT_EQ(recording->transitions[recording->entries.back().event.subject].name, transition);
+  EXPECT_EQ(command({{"command", "breakpoints"}}), "");
+  finish();
+}
+
+TEST_F(Controlled, ABreakpointPausesWhenItsConditionComesToHoldBeforeItFires) {
+  start();
+  rest(1);
+  const auto& transitions = system_.system().instances[0].net->transitions;
+  const auto decided = std::find_if(transitions.begin(), transitions.end(), [](const Transition& one) {
+    return one.guard.kind == Guard::Kind::go_on || one.guard.kind == Guard::Kind::terminal;
+  });
+  ASSERT_NE(decided, transitions.end());
+  const std::string transition = "robot.a." + std::string(decided->name);
+  EXPECT_EQ(command({{"command", "breakpoints"}, {"conditions", {transition}}}), "");
+  EXPECT_EQ(command({{"command", "resume"}}), "");
+  EXPECT_EQ(rest(2).at("broke_at"), transition);
+  const std::size_t before = firings_in(options_.recording);
+  EXPECT_EQ(command({{"command", "breakpoints"}}), "");
+  EXPECT_EQ(command({{"command", "step_firing"}}), "");
+  rest(3);
+  EXPECT_EQ(firings_in(options_.recording), before + 1);
+  finish();
+}
+
 TEST_F(Controlled, ShowsTheBytesOfEveryBufferWhilePaused) {
   start();
   const json line = rest(1);
@@ -203,7 +239,9 @@ TEST_F(Controlled, CommandsThatMakeNoSenseAreAnsweredAndChangeNothing) {
        {R"({"command":"fly"})", R"({"command":3})", R"({"command":"speed"})",
         R"({"command":"speed","value":-1})", R"({"command":"speed","value":"x"})",
         R"({"command":"breakpoints","places":["nowhere"]})", R"({"command":"breakpoints","places":[1]})",
-        R"({"command":"breakpoints","places":3})", R"({"command":"step_iteration","subsystem":"robot.z"})",
+        R"({"command":"breakpoints","places":3})", R"({"command":"breakpoints","transitions":["nowhere"]})",
+        R"({"command":"breakpoints","conditions":["robot.a"]})",
+        R"({"command":"step_iteration","subsystem":"robot.z"})",
         R"({"command":"step_iteration","subsystem":[]})"})
     EXPECT_NE(command(json::parse(text)), "") << text;
   const std::string noise = "{\n[]\nnull\n\"x\"\n\xff\n";

@@ -50,6 +50,7 @@ TEST(SimulatedRun, EndsWhenTheNetEnds) {
   system.add("robot.a", nets::alone, script, 10ms);
   RunOptions options;
   options.recording = scratch_file("run");
+  options.values = RunOptions::Values::none;
   const RunSummary summary = run(system, options);
   EXPECT_EQ(summary.ended, "net ended");
   EXPECT_EQ(summary.subsystems.at(0).iterations, 4u);

@@ -143,6 +143,42 @@ TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
   EXPECT_EQ(control("1", {{"command", "stop"}}), 404);
 }
 
+TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoOfIt) {
+  std::atomic<bool> enough{false};
+  project::Exit exit;
+  std::thread other([&] {
+    exit = project::capture_apart(
+        {TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world"}, enough);
+  });
+  std::string socket;
+  const std::size_t before = get("/api/controllers").json().size();
+  for (json names; names.size() <= before;) {
+    names = get("/api/controllers").json();
+    for (const json& name : names)
+      if (name.get<std::string>().starts_with("line_follower.")) socket = name;
+  }
+  const std::string run = start({{"kind", "attach"}, {"socket", socket}});
+  ASSERT_FALSE(await_state(run, "running").is_null());
+  EXPECT_FALSE(events_->next("firings").at("firings").empty());
+  const json shown = events_->next("subsystems");
+  EXPECT_EQ(shown.at("run"), run);
+  EXPECT_TRUE(shown.at("subsystems").at(0).at("iterations").is_number());
+  EXPECT_EQ(info(run).at("kind"), "attach");
+  EXPECT_EQ(control(run, {{"command", "pause"}}), 409);
+
+  ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
+  EXPECT_THAT(await_state(run, "ended").at("why").get<std::string>(), HasSubstr("runs on"));
+  EXPECT_THAT(get("/api/controllers").json().get<std::vector<std::string>>(), testing::Contains(socket));
+  enough = true;
+  other.join();
+  EXPECT_THAT(exit.text, HasSubstr("SIGINT"));
+
+  const Reply gone = post("/api/runs", {{"kind", "attach"}, {"socket", socket}});
+  EXPECT_EQ(gone.status, 400);
+  EXPECT_THAT(gone.body, HasSubstr("nobody listens"));
+  EXPECT_EQ(post("/api/runs", {{"kind", "attach"}, {"socket", "../x.sock"}}).status, 400);
+}
+
 TEST_F(RunOfTheStudio, EndsWithTheServer) {
   const std::string run = start({{"kind", "simulate"}, {"for", "100000s"}, {"paused", true}});
   ASSERT_FALSE(await_state(run, "paused").is_null());

@@ -24,7 +24,20 @@ struct RunOptions {
   /// Simulated clock: subsystems that can go on at one instant take turns after every firing, not only where
   /// they have to wait. Finds more of the interleavings that threads can have.
   bool interleave = false;
-  std::string recording;                                        ///< file; empty: none
+  std::string recording;  ///< file; empty: none
+  /// Which values of buffers the recording has.
+  enum class Values : std::uint8_t {
+    none,
+    small,  ///< those of at most small_value bytes; of others their size and a hash
+    all
+  } values = Values::small;
+  static constexpr std::uint64_t small_value = 4096;
+  /// The recording goes on in a new file, its next segment, when one has so many bytes, and so many segments
+  /// are kept. 0: all of it is kept, in one file.
+  struct Limit {
+    std::uint64_t segment_bytes = 0;
+    std::uint32_t segments = 0;
+  } record_limit;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
   std::optional<WorldOptions> world;

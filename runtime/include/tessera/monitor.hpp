@@ -29,7 +29,11 @@
 ///     without
 ///                                                        a subsystem: that of any
 ///     {"command": "speed", "value": 0.1}                 simulated seconds a second; 0: as fast as possible
-///     {"command": "breakpoints", "places": [name...]}    pause when one of these places gets a token
+///     {"command": "breakpoints", "places": [name...], "transitions": [name...], "conditions": [name...]}
+///         instead of those before: pause when one of these places gets a token, one of these transitions has
+///         fired, the condition of one of these comes to hold and its tokens are in its subsystem.
+///         Transitions are those of subsystems: `t_in` and `t_out` of system and agents fire only at the
+///         begin and at the end.
 ///     {"command": "own"}                                 without an answer: the run ends with this
 ///     connection
 namespace tessera {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tessera/time.hpp"
@@ -25,16 +26,23 @@ enum class Fault : std::uint8_t {
 
 /// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
-///  "transitions": [[name, instance]...]}, padding to a multiple of 8, then events of 24 bytes. A truncated
-///  tail loses
-/// only itself. Nothing in it depends on the wall clock when the run's clock is simulated.
+///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
+///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a
+/// multiple of 8, then events of 24 bytes. A truncated tail loses only itself. Nothing in it depends on the
+/// wall clock when the run's clock is simulated. A recording with a limit goes on in segments: files of their
+/// own, with "segment": number in the header, which begin with an event `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
-    firing = 1,  ///< subject: transition; version: of the channel it touched (0: none)
-    log = 2,     ///< subject: bytes of text, which follow in whole events' worth of space; version: level
-    stop = 3,    ///< like log: why the run ended
-    fault = 4,   ///< like log: "PLACE: what, and what was done about it"; version: the Fault
-    overrun = 5  ///< subject: how many instants of its rate the subsystem's work has made it miss
+    firing = 1,   ///< subject: transition; version: of the channel it touched (0: none)
+    log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level
+    stop = 3,     ///< like log: why the run ended
+    fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
+    overrun = 5,  ///< subject: how many instants of its rate the subsystem's work has made it miss
+    call = 6,     ///< a transition function begins; subject: behaviour; version: iteration
+    value = 7,    ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
+    /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
+    /// Not counted in `sequence`.
+    marking = 8
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
@@ -43,10 +51,35 @@ struct Event {
   std::uint32_t origin = 0;    ///< instance * 256 + kind; instance 0xffffff: the system itself
 
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
-  [[nodiscard]] bool has_text() const { return kind() != Kind::firing && kind() != Kind::overrun; }
+  [[nodiscard]] bool has_text() const {
+    return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call;
+  }
+  /// Events' worth of space that its text takes.
+  [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);
+
+/// What a value event says of a buffer besides its bytes. Written when a value is read into an input (of a
+/// real input: when it differs from the last), and when a transition function has changed an output.
+struct ValueFlags {
+  static constexpr std::uint32_t same = 1,  ///< as at the last event of this buffer; no bytes
+      hashed = 2,   ///< of more than "limit": instead of the bytes an uint64 each for their number and a hash
+      stamped = 4,  ///< input: an int64 before the bytes, when the sender wrote it
+      valid = 8,    ///< input: as in Arrival
+      fresh = 16,   ///< input: newer than all before
+      silent = 32,  ///< real input: the device had no value; no bytes. Until the next event of the buffer
+      failed = 64;  ///< real input: the device has thrown; no bytes
+};
+
+/// An event of a buffer, taken apart.
+struct ValueEvent {
+  std::uint32_t buffer = 0;
+  std::uint32_t flags = 0;
+  std::int64_t stamp_ns = 0;
+  std::string_view bytes;  ///< as tessera/value_encoding.hpp describes; of a hashed one number and hash
+  [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
+};
 
 /// A recording read back.
 struct Recording {
@@ -56,16 +89,38 @@ struct Recording {
   };
   struct Entry {
     Event event;
-    std::string text;  ///< of log, stop and fault
+    std::string text;  ///< of log, stop and fault; the bytes of a value
+  };
+  enum class Direction : std::uint8_t { input, output, real_input, real_output };
+  struct Buffer {
+    std::string path;  ///< "robot.control.motion"
+    std::uint32_t instance;
+    Direction direction;
+    std::string type;  ///< as tessera/value_encoding.hpp describes; empty: its values cannot be recorded
   };
   std::string header;  ///< the JSON
   std::string system, net_hash, verification_hash, clock;
   std::uint64_t seed = 0;
   std::vector<std::string> instances;
   std::vector<TransitionName> transitions;
+  std::vector<std::vector<std::string>> behaviours;             ///< per instance
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< that the run was given
+  std::vector<std::string> injected;                            ///< faults, as `--inject`
+  std::optional<std::int64_t> duration_ns;                      ///< that the run was given
+  std::vector<Buffer> buffers;                                  ///< none: without values
+  std::uint64_t value_limit = 0;                                ///< larger ones are hashed
+  /// Of a recording with a limit: the number of this segment, from 0; of several read together the first.
+  std::optional<std::uint64_t> segment;
   std::vector<Entry> entries;
+  /// The order of the entries is that of the firings: of the simulated clock, and of recordings with a limit.
+  [[nodiscard]] bool ordered() const { return clock == "simulated" || segment.has_value(); }
   bool truncated = false;  ///< the tail was cut; what came before is here
 };
+
+/// "in", "out", "real_in", "real_out".
+[[nodiscard]] std::string_view name_of(Recording::Direction direction);
+/// Precondition: it is a value, which the reader has found whole.
+[[nodiscard]] ValueEvent value_of(const Recording::Entry& entry);
 
 /// Reads a recording piece by piece, also one that is still being written.
 class RecordingReader {
@@ -92,7 +147,13 @@ class RecordingReader {
   Recording recording_;
 };
 
-/// nullopt and `error` when it is no recording.
+/// Where segment `number` of the recording `path` is when it is no longer the newest: "run.tsr" ->
+/// "run.3.tsr".
+[[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
+
+/// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
+/// before the file that is named; of one named by its number, that one alone. nullopt and `error` when it is
+/// no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
 
 }  // namespace tessera

@@ -15,20 +15,9 @@
 
 #include "tessera/buffer.hpp"
 #include "tessera/context.hpp"
+#include "tessera/value_encoding.hpp"
 
 namespace tessera {
-
-template <class T>
-concept Sequence = requires(T& value) {
-  value.begin();
-  value.end();
-};
-/// A structure that says what it is made of: a function `fields_of(T&)` beside it gives a std::tuple of
-/// references. Generated types have one.
-template <class T>
-concept WithFields = std::is_class_v<T> && requires(T& value) {
-  fields_of(value);
-};
 
 /// Whether a T holds a floating-point number that is known here.
 template <class T>
@@ -136,7 +125,8 @@ struct Bindings {
     void* value;
     std::size_t size;
     Arrival* arrival;
-    const ValueType* type;  ///< nullptr: bytes
+    const ValueType* type;                    ///< nullptr: bytes
+    const ValueEncoding* encoding = nullptr;  ///< nullptr: cannot be recorded
   };
   struct Outgoing {
     std::string_view name;
@@ -146,6 +136,7 @@ struct Bindings {
     const ValueType* type;                               ///< nullptr: bytes
     bool (*finite)(const void* value) = nullptr;         ///< nullptr: always
     void (*fill)(void* value, double number) = nullptr;  ///< fill_floats; nullptr: there are none
+    const ValueEncoding* encoding = nullptr;             ///< nullptr: cannot be recorded
   };
   struct RealOutgoing : Outgoing {
     std::shared_ptr<const void> safe;  ///< the safe command, of the same type
@@ -192,11 +183,12 @@ struct Bindings {
  private:
   template <class T>
   static Incoming incoming(std::string_view name, Input<T>& buffer) {
-    return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
+    return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>(), value_encoding_of<T>()};
   }
   template <class T>
   static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
     Outgoing made{name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
+    made.encoding = value_encoding_of<T>();
     if constexpr (has_floats<T>()) {
       made.finite = [](const void* at) { return all_finite(*static_cast<const T*>(at)); };
       made.fill = [](void* at, double number) { fill_floats(*static_cast<T*>(at), number); };

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "tessera/recording.hpp"
+
+namespace tessera::replay {
+
+/// Which events of a recording somebody wants to see.
+struct Selection {
+  double from_s = 0, to_s = HUGE_VAL;
+  std::size_t last = 0;    ///< the last so many of them; 0: all
+  std::string subsystem;   ///< path, or "system"; empty: all
+  std::string containing;  ///< in their text
+  bool events = true;      ///< firings, log lines, faults and the like
+  /// Values of buffers whose path contains this; nullopt: none.
+  std::optional<std::string> values;
+};
+
+/// A line per event, in the order of their times.
+void print_events(const Recording& recording, const Selection& selection, std::ostream& to);
+
+/// The same as CSV (RFC 4180): time_ns, sequence, kind, subsystem, version, text.
+void write_csv(const Recording& recording, const Selection& selection, std::ostream& to);
+
+/// Values as CSV, a row per change: time_ns, buffer, status (empty, "invalid", "no value", "failed"),
+/// stamp_ns, then a column per field of the selected buffers, empty where a buffer has no such field. A value
+/// that is one number stands in the column `value`; of arrays the first 16 elements are shown.
+void write_values_csv(const Recording& recording, const Selection& selection, std::ostream& to);
+
+}  // namespace tessera::replay

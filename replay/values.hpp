@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tessera/recording.hpp"
+#include "tessera/value_text.hpp"
+
+namespace tessera::replay {
+
+/// Follows the values of buffers through the entries of a recording.
+class ValueTrack {
+ public:
+  /// Keeps a reference to the recording's header.
+  explicit ValueTrack(const Recording& recording);
+
+  struct Change {
+    std::uint32_t number = 0;  ///< into Recording::buffers
+    const Recording::Buffer& buffer;
+    ValueEvent event;
+    std::string_view bytes;  ///< what it holds now; of a hashed value number and hash
+    bool hashed = false;
+    const ValueLayout* layout;  ///< nullptr: of a type that is not known
+  };
+  /// nullopt: the entry is no value. Entries of one subsystem must come in their order. Valid until the next
+  /// call.
+  [[nodiscard]] std::optional<Change> follow(const Recording::Entry& entry);
+
+ private:
+  struct Held {
+    std::string bytes;
+    bool hashed = false;
+    std::optional<ValueLayout> layout;
+  };
+  const Recording& recording_;
+  std::vector<Held> held_;
+};
+
+/// "{linear: 0.3, angular: 0}", "no value", "48000 bytes, hash 9f...".
+[[nodiscard]] std::string text_of(const ValueTrack::Change& change);
+
+}  // namespace tessera::replay

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+/// How values of buffers are written into recordings: field after field, numbers little-endian, without the
+/// padding of the compiler, so that equal values have equal bytes. What they mean is said by a text
+/// (tessera/value_text.hpp reads it):
+///
+///     bool  int8 .. int64  uint8 .. uint64  float32  float64
+///     string(N)            uint32 length and so many bytes
+///     TYPE[N]              N of them
+///     {name: TYPE, ...}    the fields in this order
+///     bytes(N)             a type that does not say what it is made of
+namespace tessera {
+
+template <class T>
+concept Sequence = requires(T& value) {
+  value.begin();
+  value.end();
+};
+/// A structure that says what it is made of: a function `fields_of(const T&)` beside it gives a std::tuple of
+/// pointers to members (tessera/fields.hpp makes one). Their names are numbers unless `field_names_of(const
+/// T&)` says otherwise.
+template <class T>
+concept WithFields = std::is_class_v<T> && requires(T& value) {
+  fields_of(value);
+};
+/// BoundedString and what is like it.
+template <class T>
+concept BoundedText = requires(const T& value) {
+  T::capacity();
+  { value.view() } -> std::convertible_to<std::string_view>;
+};
+
+/// Takes the bytes of a value: keeps up to `limit` of them, and of more only their number and a hash.
+class ValueSink {
+ public:
+  explicit ValueSink(std::size_t limit) : limit_(limit), bytes_(std::make_unique<std::byte[]>(limit)) {}
+
+  void clear() { filled_ = total_ = hash_ = 0; }
+  void put(const void* bytes, std::size_t count);
+
+  [[nodiscard]] bool whole() const { return total_ <= limit_; }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), filled_}; }  ///< if whole
+  [[nodiscard]] std::uint64_t size() const { return total_; }
+  [[nodiscard]] std::uint64_t hash() const;
+  friend bool operator==(const ValueSink& a, const ValueSink& b) {
+    if (a.total_ != b.total_ || a.whole() != b.whole()) return false;
+    return a.whole() ? std::memcmp(a.bytes_.get(), b.bytes_.get(), a.total_) == 0 : a.hash() == b.hash();
+  }
+
+ private:
+  void spill(const void* bytes, std::size_t count);
+  std::size_t limit_, filled_ = 0;
+  std::uint64_t total_ = 0, hash_ = 0;
+  std::unique_ptr<std::byte[]> bytes_;
+};
+
+/// Hands the bytes out again; once they do not suffice, nothing.
+class ValueSource {
+ public:
+  explicit ValueSource(std::span<const std::byte> bytes) : left_(bytes) {}
+  void take(void* to, std::size_t count) {
+    if (count > left_.size()) {
+      sufficed_ = false;
+      left_ = {};
+      return;
+    }
+    std::memcpy(to, left_.data(), count);
+    left_ = left_.subspan(count);
+  }
+  /// They were exactly as many as were taken.
+  [[nodiscard]] bool exact() const { return sufficed_ && left_.empty(); }
+
+ private:
+  std::span<const std::byte> left_;
+  bool sufficed_ = true;
+};
+
+namespace encoding {
+
+template <class T>
+using Element = std::remove_cvref_t<decltype(*std::declval<T&>().begin())>;
+
+/// How many elements a sequence has; 0: that is not known from its type.
+template <class T>
+[[nodiscard]] constexpr std::size_t extent() {
+  if constexpr (requires { std::tuple_size<T>::value; })
+    return std::tuple_size_v<T>;
+  else if constexpr (requires { std::integral_constant<std::size_t, T::size()>{}; })
+    return T::size();
+  else
+    return 0;
+}
+
+/// Calls `visit(std::type_identity<Member>...)` with the types of the fields.
+template <class T, class Visit>
+constexpr auto with_field_types(Visit visit) {
+  return [&]<class... Members>(std::type_identity<std::tuple<Members T::*...>>) {
+    return visit(std::type_identity<Members>{}...);
+  }(std::type_identity<decltype(fields_of(std::declval<const T&>()))>{});
+}
+
+template <class T>
+[[nodiscard]] constexpr bool possible() {
+  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || BoundedText<T>)
+    return true;
+  else if constexpr (Sequence<T>)
+    return extent<T>() != 0 && possible<Element<T>>();
+  else if constexpr (WithFields<T>)
+    return with_field_types<T>(
+        [](auto... member) { return (possible<typename decltype(member)::type>() && ...); });
+  else
+    return std::is_trivially_copyable_v<T>;
+}
+
+/// Bytes of the longest value.
+template <class T>
+[[nodiscard]] constexpr std::size_t most() {
+  if constexpr (BoundedText<T>)
+    return sizeof(std::uint32_t) + T::capacity();
+  else if constexpr (Sequence<T>)
+    return extent<T>() * most<Element<T>>();
+  else if constexpr (WithFields<T>)
+    return with_field_types<T>(
+        [](auto... member) { return (std::size_t{0} + ... + most<typename decltype(member)::type>()); });
+  else
+    return sizeof(T);
+}
+
+template <class T>
+[[nodiscard]] std::string type_text() {
+  if constexpr (std::is_same_v<T, bool>) {
+    return "bool";
+  } else if constexpr (std::is_enum_v<T>) {
+    return type_text<std::underlying_type_t<T>>();
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    const char* kind = std::is_floating_point_v<T> ? "float" : std::is_signed_v<T> ? "int" : "uint";
+    return kind + std::to_string(8 * sizeof(T));
+  } else if constexpr (BoundedText<T>) {
+    return "string(" + std::to_string(T::capacity()) + ")";
+  } else if constexpr (Sequence<T>) {
+    return type_text<Element<T>>() + "[" + std::to_string(extent<T>()) + "]";
+  } else if constexpr (WithFields<T>) {
+    std::string_view names;
+    if constexpr (requires(const T& value) { field_names_of(value); }) names = field_names_of(T{});
+    std::string text;
+    std::size_t number = 0;
+    const auto add = [&](const std::string& type) {
+      const std::string name(names.substr(0, names.find(", ")));
+      names.remove_prefix(std::min(names.size(), name.size() + 2));
+      text += (number == 0 ? "" : ", ") + (name.empty() ? std::to_string(number) : name) + ": " + type;
+      ++number;
+    };
+    with_field_types<T>([&](auto... member) { (add(type_text<typename decltype(member)::type>()), ...); });
+    return "{" + text + "}";
+  } else {
+    return "bytes(" + std::to_string(sizeof(T)) + ")";
+  }
+}
+
+template <class T>
+void put(const T& value, ValueSink& to) {
+  if constexpr (BoundedText<T>) {
+    const std::string_view text = value.view();
+    const auto length = static_cast<std::uint32_t>(text.size());
+    to.put(&length, sizeof length);
+    to.put(text.data(), text.size());
+  } else if constexpr (Sequence<T>) {
+    if constexpr (std::is_arithmetic_v<Element<T>>)
+      to.put(value.data(), extent<T>() * sizeof(Element<T>));
+    else
+      for (const auto& element : value) put(element, to);
+  } else if constexpr (WithFields<T>) {
+    std::apply([&](auto... member) { (put(value.*member, to), ...); }, fields_of(value));
+  } else {
+    to.put(&value, sizeof value);
+  }
+}
+
+template <class T>
+void take(T& value, ValueSource& from) {
+  if constexpr (BoundedText<T>) {
+    std::uint32_t length = 0;
+    std::array<char, T::capacity()> text;
+    from.take(&length, sizeof length);
+    length = length < T::capacity() ? length : static_cast<std::uint32_t>(T::capacity());
+    from.take(text.data(), length);
+    value = std::string_view(text.data(), length);
+  } else if constexpr (Sequence<T>) {
+    if constexpr (std::is_arithmetic_v<Element<T>>)
+      from.take(value.data(), extent<T>() * sizeof(Element<T>));
+    else
+      for (auto& element : value) take(element, from);
+  } else if constexpr (WithFields<T>) {
+    std::apply([&](auto... member) { (take(value.*member, from), ...); }, fields_of(value));
+  } else {
+    from.take(&value, sizeof value);
+  }
+}
+
+}  // namespace encoding
+
+/// How values of a type get into recordings and back.
+struct ValueEncoding {
+  std::string (*type)();  ///< as described above
+  std::size_t most;       ///< bytes of the longest value
+  void (*put)(const void* value, ValueSink& to);
+  /// false: these are not the bytes of such a value, which may have changed all the same.
+  bool (*take)(void* value, std::span<const std::byte> bytes);
+};
+
+/// nullptr: values of that type cannot be recorded, because they have no fixed extent.
+template <class T>
+[[nodiscard]] const ValueEncoding* value_encoding_of() {
+  if constexpr (!encoding::possible<T>()) {
+    return nullptr;
+  } else {
+    static constexpr ValueEncoding encoding{
+        [] { return encoding::type_text<T>(); }, encoding::most<T>(),
+        [](const void* value, ValueSink& to) { encoding::put(*static_cast<const T*>(value), to); },
+        [](void* value, std::span<const std::byte> bytes) {
+          ValueSource from(bytes);
+          encoding::take(*static_cast<T*>(value), from);
+          return from.exact();
+        }};
+    return &encoding;
+  }
+}
+
+}  // namespace tessera

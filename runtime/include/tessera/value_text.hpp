@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+/// Reads values of recordings by what the header says of their type (tessera/value_encoding.hpp), without any
+/// C++ type.
+class ValueLayout {
+ public:
+  /// nullopt: no such type.
+  [[nodiscard]] static std::optional<ValueLayout> parse(std::string_view type);
+
+  /// One number, bool or text of a value.
+  struct Scalar {
+    std::string_view text;     ///< of a string, and of unknown bytes in hexadecimal
+    double number = 0;         ///< of all others; of integers beyond 2^53 the nearest
+    std::int64_t integer = 0;  ///< of signed ones; unsigned ones as the bits are
+    enum class Kind : std::uint8_t { boolean, integer, natural, real, text } kind = Kind::real;
+    bool single = false;  ///< of real: float32
+    /// As people write it; the shortest that gives the same number.
+    [[nodiscard]] std::string shown() const;
+  };
+  /// path: "linear", "points[3].x"; empty for a value that is one scalar.
+  using Visit = std::function<void(const std::string& path, const Scalar& scalar)>;
+  /// In the order of the bytes. false: these are not the bytes of such a value; what came before has been
+  /// visited.
+  [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit) const;
+
+  /// Paths of the scalars of every such value.
+  [[nodiscard]] std::vector<std::string> paths() const;
+  /// "{linear: 0.3, angular: -1}", cut after `most` bytes.
+  [[nodiscard]] std::string shown(std::string_view bytes, std::size_t most = 200) const;
+
+ private:
+  struct Node;
+  explicit ValueLayout(std::shared_ptr<const Node> root) : root_(std::move(root)) {}
+  friend class ValueLayoutParser;
+  std::shared_ptr<const Node> root_;
+};
+
+}  // namespace tessera

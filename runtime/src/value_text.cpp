@@ -1,0 +1,329 @@
+#include "tessera/value_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cstring>
+
+namespace tessera {
+
+/// A type: a scalar, a text, so many of one type, or fields.
+struct ValueLayout::Node {
+  enum class Kind : std::uint8_t { boolean, integer, natural, real, text, bytes, sequence, structure };
+  struct Field {
+    std::string name;
+    std::shared_ptr<const Node> type;
+  };
+  Kind kind = Kind::bytes;
+  std::size_t size = 0;                 ///< bytes of a scalar; capacity of a text; count of a sequence
+  std::shared_ptr<const Node> element;  ///< of a sequence
+  std::vector<Field> fields;            ///< of a structure
+  std::size_t scalars = 1;              ///< in all
+};
+
+// --------------------------------------------------------------------------------------------- parsing
+
+class ValueLayoutParser {
+ public:
+  using Node = ValueLayout::Node;
+  using NodePtr = std::shared_ptr<const Node>;
+
+  explicit ValueLayoutParser(std::string_view text) : left_(text) {}
+
+  std::optional<ValueLayout> result() {
+    NodePtr root = type();
+    if (root == nullptr || !left_.empty()) return std::nullopt;
+    return ValueLayout(std::move(root));
+  }
+
+ private:
+  /// Deeper than any type that a specification can name.
+  static constexpr int deepest = 64;
+  /// Nor larger: the text may come from a damaged file.
+  static constexpr std::size_t most_scalars = std::size_t{1} << 28U;
+
+  bool accept(std::string_view token) {
+    if (!left_.starts_with(token)) return false;
+    left_.remove_prefix(token.size());
+    return true;
+  }
+
+  std::optional<std::size_t> number() {
+    std::size_t value = 0;
+    const auto [end, problem] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    if (problem != std::errc{}) return std::nullopt;
+    left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
+    return value;
+  }
+
+  NodePtr type() {
+    if (++depth_ > deepest) return nullptr;
+    NodePtr made = accept("{") ? structure() : scalar();
+    while (made != nullptr && accept("[")) {
+      const std::optional<std::size_t> count = number();
+      if (!count || !accept("]") || made->scalars == 0 || *count > most_scalars / made->scalars)
+        return nullptr;
+      made = std::make_shared<Node>(Node{Node::Kind::sequence, *count, made, {}, *count * made->scalars});
+    }
+    --depth_;
+    return made;
+  }
+
+  NodePtr structure() {
+    auto made = std::make_shared<Node>();
+    made->kind = Node::Kind::structure;
+    made->scalars = 0;
+    while (!accept("}")) {
+      if (!made->fields.empty() && !accept(", ")) return nullptr;
+      const std::size_t colon = left_.find(": ");
+      if (colon == std::string_view::npos) return nullptr;
+      std::string name(left_.substr(0, colon));
+      left_.remove_prefix(colon + 2);
+      NodePtr field = type();
+      if (field == nullptr) return nullptr;
+      made->scalars += field->scalars;
+      if (made->scalars > most_scalars) return nullptr;
+      made->fields.push_back({std::move(name), std::move(field)});
+    }
+    return made;
+  }
+
+  NodePtr scalar() {
+    using Kind = Node::Kind;
+    const auto make = [](Kind kind, std::size_t size) {
+      return std::make_shared<const Node>(Node{kind, size, {}, {}, 1});
+    };
+    if (accept("bool")) return make(Kind::boolean, 1);
+    struct Name {
+      std::string_view text;
+      Kind kind;
+    };
+    for (const Name& name :
+         {Name{"int", Kind::integer}, Name{"uint", Kind::natural}, Name{"float", Kind::real}}) {
+      if (!accept(name.text)) continue;
+      const std::optional<std::size_t> bits = number();
+      const bool known = bits == 32 || bits == 64 || (name.kind != Kind::real && (bits == 8 || bits == 16));
+      return known ? make(name.kind, *bits / 8) : nullptr;
+    }
+    for (const Name& name : {Name{"string(", Kind::text}, Name{"bytes(", Kind::bytes}}) {
+      if (!accept(name.text)) continue;
+      const std::optional<std::size_t> size = number();
+      return size && accept(")") ? make(name.kind, *size) : nullptr;
+    }
+    return nullptr;
+  }
+
+  std::string_view left_;
+  int depth_ = 0;
+};
+
+std::optional<ValueLayout> ValueLayout::parse(std::string_view type) {
+  return ValueLayoutParser(type).result();
+}
+
+// --------------------------------------------------------------------------------------------- reading
+
+namespace {
+
+using Scalar = ValueLayout::Scalar;
+
+template <class T>
+[[nodiscard]] T as(std::string_view bytes) {
+  T value{};
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return value;
+}
+
+[[nodiscard]] std::int64_t signed_of(std::string_view bytes) {
+  switch (bytes.size()) {
+    case 1:
+      return as<std::int8_t>(bytes);
+    case 2:
+      return as<std::int16_t>(bytes);
+    case 4:
+      return as<std::int32_t>(bytes);
+    default:
+      return as<std::int64_t>(bytes);
+  }
+}
+
+[[nodiscard]] std::uint64_t unsigned_of(std::string_view bytes) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return value;
+}
+
+[[nodiscard]] std::string hexadecimal(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return text;
+}
+
+}  // namespace
+
+namespace {
+
+/// Walks over the bytes of a value by its type.
+template <class Node>
+class Walk {
+ public:
+  Walk(std::string_view bytes, const ValueLayout::Visit& visit) : left_(bytes), visit_(visit) {}
+
+  [[nodiscard]] bool over(const Node& type, std::string& path) {
+    using Kind = typename Node::Kind;
+    switch (type.kind) {
+      case Kind::sequence:
+        return over_elements(type, path);
+      case Kind::structure:
+        return over_fields(type, path);
+      case Kind::text:
+        return text(type, path);
+      default:
+        return scalar(type, path);
+    }
+  }
+  [[nodiscard]] bool finished() const { return left_.empty(); }
+
+ private:
+  [[nodiscard]] bool over_elements(const Node& type, std::string& path) {
+    const std::size_t length = path.size();
+    for (std::size_t index = 0; index < type.size; ++index) {
+      path += fmt::format("[{}]", index);
+      const bool whole = over(*type.element, path);
+      path.resize(length);
+      if (!whole) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool over_fields(const Node& type, std::string& path) {
+    const std::size_t length = path.size();
+    for (const auto& field : type.fields) {
+      if (!path.empty()) path += '.';
+      path += field.name;
+      const bool whole = over(*field.type, path);
+      path.resize(length);
+      if (!whole) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool text(const Node& type, const std::string& path) {
+    if (left_.size() < sizeof(std::uint32_t)) return false;
+    const auto length = as<std::uint32_t>(left_);
+    left_.remove_prefix(sizeof length);
+    if (length > type.size || length > left_.size()) return false;
+    Scalar scalar;
+    scalar.kind = Scalar::Kind::text;
+    scalar.text = left_.substr(0, length);
+    left_.remove_prefix(length);
+    visit_(path, scalar);
+    return true;
+  }
+
+  [[nodiscard]] bool scalar(const Node& type, const std::string& path) {
+    using Kind = typename Node::Kind;
+    if (left_.size() < type.size) return false;
+    const std::string_view bytes = left_.substr(0, type.size);
+    left_.remove_prefix(type.size);
+    Scalar scalar;
+    std::string text;
+    switch (type.kind) {
+      case Kind::boolean:
+        scalar.kind = Scalar::Kind::boolean;
+        scalar.integer = unsigned_of(bytes) != 0 ? 1 : 0;
+        scalar.number = static_cast<double>(scalar.integer);
+        break;
+      case Kind::integer:
+        scalar.kind = Scalar::Kind::integer;
+        scalar.integer = signed_of(bytes);
+        scalar.number = static_cast<double>(scalar.integer);
+        break;
+      case Kind::natural:
+        scalar.kind = Scalar::Kind::natural;
+        scalar.integer = static_cast<std::int64_t>(unsigned_of(bytes));
+        scalar.number = static_cast<double>(unsigned_of(bytes));
+        break;
+      case Kind::real:
+        scalar.single = type.size == 4;
+        scalar.number = scalar.single ? as<float>(bytes) : as<double>(bytes);
+        break;
+      default:
+        scalar.kind = Scalar::Kind::text;
+        text = hexadecimal(bytes);
+        scalar.text = text;
+        break;
+    }
+    visit_(path, scalar);
+    return true;
+  }
+
+  std::string_view left_;
+  const ValueLayout::Visit& visit_;
+};
+
+}  // namespace
+
+std::string ValueLayout::Scalar::shown() const {
+  switch (kind) {
+    case Kind::boolean:
+      return integer != 0 ? "true" : "false";
+    case Kind::integer:
+      return fmt::format("{}", integer);
+    case Kind::natural:
+      return fmt::format("{}", static_cast<std::uint64_t>(integer));
+    case Kind::real:
+      return single ? fmt::format("{}", static_cast<float>(number)) : fmt::format("{}", number);
+    case Kind::text:
+      return std::string(text);
+  }
+  return "";
+}
+
+bool ValueLayout::visit(std::string_view bytes, const Visit& visit) const {
+  Walk<Node> walk(bytes, visit);
+  std::string path;
+  return walk.over(*root_, path) && walk.finished();
+}
+
+namespace {
+
+template <class Node>
+void collect_paths(const Node& type, const std::string& path, std::vector<std::string>& paths) {
+  using Kind = typename Node::Kind;
+  if (type.kind == Kind::sequence) {
+    for (std::size_t index = 0; index < type.size; ++index)
+      collect_paths(*type.element, fmt::format("{}[{}]", path, index), paths);
+  } else if (type.kind == Kind::structure) {
+    for (const auto& field : type.fields)
+      collect_paths(*field.type, path.empty() ? field.name : path + '.' + field.name, paths);
+  } else {
+    paths.push_back(path);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> ValueLayout::paths() const {
+  std::vector<std::string> paths;
+  collect_paths(*root_, "", paths);
+  return paths;
+}
+
+std::string ValueLayout::shown(std::string_view bytes, std::size_t most) const {
+  std::string text;
+  bool one = false;
+  const bool whole = visit(bytes, [&](const std::string& path, const Scalar& scalar) {
+    one = path.empty();
+    if (text.size() > most) return;
+    const std::string value =
+        scalar.kind == Scalar::Kind::text ? '"' + std::string(scalar.text) + '"' : scalar.shown();
+    text += (text.empty() ? "" : ", ") + (one ? "" : path + ": ") + value;
+  });
+  if (text.size() > most) text = text.substr(0, most) + "...";
+  if (!whole) text += text.empty() ? "not the bytes of its type" : ", and bytes that are not of its type";
+  return one ? text : '{' + text + '}';
+}
+
+}  // namespace tessera

@@ -1,0 +1,120 @@
+#include "replay/events.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "constructed.hpp"
+#include "replay/perfetto.hpp"
+
+using tessera::Recording;
+using tessera::ValueFlags;
+using tessera::replay::Selection;
+
+namespace {
+
+template <class T>
+std::string bytes_of(T value) {
+  return {std::bit_cast<std::array<char, sizeof(T)>>(value).data(), sizeof(T)};
+}
+std::string velocity(double linear, std::int16_t angular) { return bytes_of(linear) + bytes_of(angular); }
+std::string stamp(std::int64_t ns) { return bytes_of(ns); }
+
+/// A controller whose output changes twice, and a motor that receives it, once invalid.
+Constructed a_run() {
+  Constructed run({"robot.control", "robot.motor"});
+  run.recording.behaviours = {{"go"}, {"drive"}};
+  run.recording.buffers = {
+      {"robot.control.motion", 0, Recording::Direction::output, "{linear: float64, angular: int16}"},
+      {"robot.motor.velocity", 1, Recording::Direction::input, "{linear: float64, angular: int16}"},
+      {"robot.motor.image", 1, Recording::Direction::input, "uint8[10000]"},
+      {"robot.motor.sensed", 1, Recording::Direction::real_input, "bool"}};
+  run.call(1.0, 0)
+      .value(1.0, 0, 0, 0, velocity(0.5, -3))
+      .fire(1.25, 0, "go.t1")
+      .value(1.3, 1, 1, ValueFlags::stamped | ValueFlags::valid | ValueFlags::fresh,
+             stamp(1'000'000'000) + velocity(0.5, -3))
+      .value(1.4, 1, 1, ValueFlags::stamped | ValueFlags::same, stamp(1'400'000'000))
+      .value(1.4, 1, 2, ValueFlags::hashed, bytes_of(std::uint64_t{10000}) + bytes_of(std::uint64_t{0xabc}))
+      .value(1.5, 1, 3, ValueFlags::fresh, "\1")
+      .value(1.6, 1, 3, ValueFlags::silent, "")
+      .value(2.0, 0, 0, 0, velocity(0.25, 7));
+  return run;
+}
+
+std::string printed(const Selection& selection) {
+  std::ostringstream text;
+  tessera::replay::print_events(a_run().recording, selection, text);
+  return text.str();
+}
+
+TEST(Events, ArePrintedWithTheValuesThatAreWanted) {
+  Selection selection;
+  EXPECT_EQ(printed(selection),
+            "      1.000000 robot.control: calls go, iteration 0\n"
+            "      1.250000 robot.control.go.t1\n");
+  selection.events = false;
+  selection.values = "";
+  EXPECT_EQ(printed(selection),
+            "      1.000000 robot.control.motion = {linear: 0.5, angular: -3}\n"
+            "      1.300000 robot.motor.velocity = {linear: 0.5, angular: -3}\n"
+            "      1.400000 robot.motor.velocity = {linear: 0.5, angular: -3}, invalid\n"
+            "      1.400000 robot.motor.image = 10000 bytes, hash 0000000000000abc\n"
+            "      1.500000 robot.motor.sensed = true\n"
+            "      1.600000 robot.motor.sensed = no value\n"
+            "      2.000000 robot.control.motion = {linear: 0.25, angular: 7}\n");
+  selection.values = "motion";
+  selection.last = 1;
+  EXPECT_EQ(printed(selection), "      2.000000 robot.control.motion = {linear: 0.25, angular: 7}\n");
+}
+
+TEST(Events, ValuesAreATableWithAColumnPerField) {
+  std::ostringstream text;
+  Selection selection;
+  selection.values = "mot";
+  selection.to_s = 1.5;
+  tessera::replay::write_values_csv(a_run().recording, selection, text);
+  std::istringstream lines(text.str());
+  std::string head, line;
+  std::getline(lines, head);
+  EXPECT_EQ(head.substr(0, head.find(",[0]")), "time_ns,buffer,status,stamp_ns,linear,angular");
+  EXPECT_NE(head.find(",[15],value"), std::string::npos) << head;
+  const std::string none(17, ',');
+  for (const std::string& expected :
+       {"1000000000,robot.control.motion,,,0.5,-3" + none,
+        "1300000000,robot.motor.velocity,,1000000000,0.5,-3" + none,
+        "1400000000,robot.motor.velocity,invalid,1400000000,0.5,-3" + none,
+        "1400000000,robot.motor.image,,,," + none, "1500000000,robot.motor.sensed,,,," + none + "true"}) {
+    std::getline(lines, line);
+    EXPECT_EQ(line, expected);
+  }
+}
+
+TEST(Events, CsvHasARowPerEvent) {
+  std::ostringstream text;
+  Selection selection;
+  selection.values = "sensed";
+  selection.events = false;
+  tessera::replay::write_csv(a_run().recording, selection, text);
+  EXPECT_EQ(text.str(),
+            "time_ns,sequence,kind,subsystem,version,text\n"
+            "1500000000,0,value,robot.motor,16,robot.motor.sensed = true\n"
+            "1600000000,0,value,robot.motor,32,robot.motor.sensed = no value\n");
+}
+
+TEST(Perfetto, NumbersInBuffersAreCounters) {
+  std::ostringstream text;
+  tessera::replay::write_perfetto(a_run().recording, text);
+  const nlohmann::json trace = nlohmann::json::parse(text.str());
+  std::vector<double> linear;
+  for (const nlohmann::json& event : trace.at("traceEvents"))
+    if (event.at("ph") == "C" && event.at("name") == "control.motion.linear")
+      linear.push_back(event.at("args").at("value").get<double>());
+  EXPECT_EQ(linear, (std::vector<double>{0.5, 0.25}));
+}
+
+}  // namespace

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "console.hpp"
+#include "marking_track.hpp"
+#include "nets.hpp"
+#include "recorder.hpp"
+#include "redrive.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+namespace tessera::testing {
+namespace {
+
+/// A ring of two that exchange values and a third one that logs.
+void make_talkers(TestSystem& system) {
+  Script counts, logs;
+  counts.call = [](ScriptState& state) { state.out_x = static_cast<double>(state.context.iteration); };
+  logs.call = [](ScriptState& state) { state.context.log("iteration {}", state.context.iteration); };
+  const auto a = system.add("robot.a", nets::b_sender, counts, 1ms);
+  const auto b = system.add("robot.b", nets::b_receiver_ack, {});
+  const auto c = system.add("robot.c", nets::async_relay, counts, 1ms);
+  const auto d = system.add("robot.d", nets::async_receiver, logs, 5ms);
+  const auto e = system.add("robot.e", nets::async_sender, counts, 2ms);
+  system.connect(a, "x", b, "x", acknowledged);
+  system.connect(c, "out", d, "x", asynchronous);
+  system.connect(e, "x", c, "in", asynchronous);
+}
+
+struct Recorded {
+  std::string file;
+  RunSummary summary;
+};
+
+[[nodiscard]] Recorded recorded(RunOptions options, std::uint64_t segment_bytes, std::uint32_t segments) {
+  TestSystem system;
+  make_talkers(system);
+  options.recording = scratch_file("run.tsr");
+  options.record_limit = {segment_bytes, segments};
+  console::silence(true);
+  RunSummary summary = run(system, options);
+  console::silence(false);
+  return {options.recording, std::move(summary)};
+}
+
+[[nodiscard]] Recording read(const std::string& file) {
+  std::string error;
+  auto recording = read_recording(file, error);
+  EXPECT_TRUE(recording) << error;
+  return recording.value_or(Recording{});
+}
+
+[[nodiscard]] std::size_t bytes_in(const fs::path& folder) {
+  std::size_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) bytes += entry.file_size();
+  return bytes;
+}
+
+TEST(Segments, AreReadAsOneRecording) {
+  const Recorded limited = recorded(simulated(300ms), 40'000, 1000);
+  const Recording all = read(limited.file);
+  EXPECT_EQ(all.segment, 0U);
+  std::size_t markings = 0, others = 0;
+  for (const Recording::Entry& entry : all.entries)
+    ++(entry.event.kind() == Event::Kind::marking ? markings : others);
+  EXPECT_GT(markings, 5U);
+
+  TestSystem system;
+  make_talkers(system);
+  RunOptions options = simulated(300ms);
+  options.recording = scratch_file("whole");
+  console::silence(true);
+  static_cast<void>(run(system, options));
+  console::silence(false);
+  EXPECT_EQ(others, read(options.recording).entries.size());
+
+  std::string error;
+  const auto report = redrive(system.system(), {}, limited.file, error);
+  ASSERT_TRUE(report) << error;
+  EXPECT_FALSE(report->first) << redrive_text(*report);
+}
+
+TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
+  const Recorded limited = recorded(simulated(2s), 50'000, 3);
+  EXPECT_LE(bytes_in(fs::path(limited.file).parent_path()), 3 * 50'000U);
+  EXPECT_GE(bytes_in(fs::path(limited.file).parent_path()), 2 * 50'000U);
+  const Recording all = read(limited.file);
+  EXPECT_GT(*all.segment, 10U);
+  EXPECT_EQ(all.entries.front().event.kind(), Event::Kind::marking);
+  EXPECT_EQ(all.entries.back().text, "duration");
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(fs::path(limited.file).parent_path()))
+    ++files;
+  EXPECT_EQ(files, 3U);
+
+  TestSystem system;
+  make_talkers(system);
+  std::string error;
+  EXPECT_FALSE(redrive(system.system(), {}, limited.file, error));
+  EXPECT_NE(error.find("its beginning is gone"), std::string::npos) << error;
+}
+
+/// Each firing must be enabled where it stands.
+[[nodiscard]] std::string complaint_in_order(const Recording& recording, const System& system) {
+  const FlatNet net = net_of(system);
+  std::map<std::string, bool> marked;
+  bool known = *recording.segment == 0;
+  for (const FlatNet::FlatPlace& place : net.places) marked[place.name] = place.tokens > 0;
+  for (const Recording::Entry& entry : recording.entries) {
+    if (entry.event.kind() == Event::Kind::marking) {
+      std::map<std::string, bool> written;
+      for (const FlatNet::FlatPlace& place : net.places) written[place.name] = false;
+      std::istringstream lines(entry.text);
+      for (std::string line; std::getline(lines, line);) written.at(line) = true;
+      if (known && written != marked) return "another marking";
+      known = true;
+      marked = written;
+    }
+    if (entry.event.kind() != Event::Kind::firing) continue;
+    if (!known) return "no marking";
+    for (const std::uint32_t place : net.transitions[entry.event.subject].inputs)
+      if (!std::exchange(marked.at(net.places[place].name), false))
+        return net.transitions[entry.event.subject].name + " was not enabled";
+    for (const std::uint32_t place : net.transitions[entry.event.subject].outputs)
+      marked.at(net.places[place].name) = true;
+  }
+  return "";
+}
+
+TEST(Segments, BeginWithTheirMarkingAndAreFiringSequencesByThemselves) {
+  for (const RunOptions& options : {simulated(500ms), steady(500ms)}) {
+    const Recorded limited = recorded(options, 30'000, 4);
+    EXPECT_EQ(limited.summary.lost_events, 0U);
+    TestSystem system;
+    make_talkers(system);
+    const Recording all = read(limited.file);
+    EXPECT_GT(*all.segment, 0U);
+    EXPECT_EQ(complaint_in_order(all, system.system()), "");
+    for (std::uint64_t number = *all.segment; number < *all.segment + 3; ++number) {
+      const Recording one = read(segment_path(limited.file, number));
+      EXPECT_EQ(one.segment, number);
+      EXPECT_EQ(complaint_in_order(one, system.system()), "");
+    }
+  }
+}
+
+TEST(Segments, OfAnEarlierRunAreRemoved) {
+  const Recorded first = recorded(simulated(1s), 30'000, 5);
+  const Recorded second = recorded(simulated(100ms), 10'000'000, 5);
+  EXPECT_EQ(first.file, second.file);
+  EXPECT_FALSE(fs::exists(segment_path(second.file, 5)));
+  EXPECT_EQ(read(second.file).segment, 0U);
+}
+
+TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
+  TestSystem system;
+  make_talkers(system);
+  RunOptions options = simulated(1s);
+  options.recording = scratch_file("run.tsr");
+  options.record_limit = {1000, 3};
+  std::string error;
+  EXPECT_FALSE(execute(system.system(), options, error));
+  EXPECT_NE(error.find("the limit of the recording is too small"), std::string::npos) << error;
+}
+
+TEST(Segments, EventsThatAreLostDoNotHoldUpTheOthers) {
+  FlatNet net;
+  net.places = {{"a", 1}, {"b", 0}};
+  net.transitions = {{"t", 0, {0}, {1}, ""}, {"u", 1, {1}, {0}, ""}};
+  std::string error;
+  const auto recorder = Recorder::open(
+      scratch_file("run.tsr"), "{}", 2, Recorder::Mode::threaded, error, 0, {1'000'000, 2},
+      std::make_unique<MarkingTrack>(net, std::vector{MarkingTrack::none, MarkingTrack::none}));
+  ASSERT_NE(recorder, nullptr) << error;
+  // `u` follows from a firing of `t` that is not recorded; more than half of its ring.
+  for (int event = 0; event < 200'000; ++event) recorder->lane(1)->firing(Time{}, 1, 0);
+  EXPECT_EQ(recorder->close().lost, 0U);
+  EXPECT_GT(fs::file_size(scratch_file("run.tsr")), 200'000 * sizeof(Event) / 100);
+}
+
+}  // namespace
+}  // namespace tessera::testing

@@ -68,7 +68,8 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
   EXPECT_EQ(json("simulate 01_line_follower --from threads.tsr").at("same"), true);
 
-  const project::Exit slower = tessera("simulate 01_line_follower --from run.tsr --set v=0.1 --json out.json");
+  const project::Exit slower =
+      tessera("simulate 01_line_follower --from run.tsr --set v=0.1 --json out.json");
   EXPECT_EQ(slower.code, 1) << slower.text;
   EXPECT_NE(slower.text.find("motion.linear: recorded "), std::string::npos) << slower.text;
   const nlohmann::json first = nlohmann::json::parse(content_of(folder_ / "out.json")).at("first");

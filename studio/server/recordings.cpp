@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "replay/values.hpp"
 #include "server/json_text.hpp"
 #include "server/tail.hpp"
 #include "tessera/recording.hpp"
@@ -62,6 +63,48 @@ json summary_of(const fs::path& file) {
   return summary;
 }
 
+/// The values of a recording by path, "robot.sensor.line.left": [[t, value]...], as the page plots them.
+class ValueSeries {
+ public:
+  explicit ValueSeries(const Recording& header) : track_(header) {}
+
+  void add(const Recording::Entry& entry, bool shown) {
+    const std::optional<replay::ValueTrack::Change> change =
+        track_.follow(entry);  // those before the span, too
+    if (!change || !shown || change->hashed || change->layout == nullptr || change->bytes.empty()) return;
+    if (paths_.size() <= change->number) paths_.resize(change->number + 1);
+    std::size_t& scalars = paths_[change->number];
+    if (scalars == 0) scalars = change->layout->paths().size();
+    if (scalars > most_scalars) return;
+    static_cast<void>(
+        change->layout->visit(change->bytes, [&](const std::string& path, const ValueLayout::Scalar& scalar) {
+          if (++samples_ > Recordings::most_samples) return;
+          const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
+          series_[change->buffer.path + dot + path].push_back({entry.event.time_ns, json_of(scalar)});
+        }));
+  }
+  [[nodiscard]] bool complete() const { return samples_ <= Recordings::most_samples; }
+  [[nodiscard]] json take() { return std::move(series_); }
+
+ private:
+  static constexpr std::size_t most_scalars = 16;  // of a value: longer lists are no curves
+
+  [[nodiscard]] static json json_of(const ValueLayout::Scalar& scalar) {
+    switch (scalar.kind) {
+      case ValueLayout::Scalar::Kind::text:
+        return scalar.text;
+      case ValueLayout::Scalar::Kind::boolean:
+        return scalar.number != 0;
+      default:
+        return scalar.number;
+    }
+  }
+  replay::ValueTrack track_;
+  std::vector<std::size_t> paths_;  // per buffer: how many scalars it has; 0: not known yet
+  std::size_t samples_ = 0;
+  json series_ = json::object();
+};
+
 }  // namespace
 
 std::map<std::string, fs::path> Recordings::files() const {
@@ -105,14 +148,17 @@ std::optional<std::string> Recordings::content(const std::string& name, Span spa
   std::vector<std::uint32_t> transitions;
   json firings = json::array();
   std::uint64_t dropped = 0;
+  std::optional<ValueSeries> values;
   for (std::string some; !(some = bytes.more()).empty() && reader.problem().empty();) {
     reader.feed(some);
     if (transitions.empty() && reader.has_header() && analysis->net)
       transitions = TransitionMap(*analysis->net).of(reader.recording());
+    if (!values && reader.has_header()) values.emplace(reader.recording());
     for (const Recording::Entry& entry : std::exchange(reader.recording().entries, {})) {
       const Event& event = entry.event;
-      if (event.kind() != Event::Kind::firing || event.time_ns < span.from_ns || event.time_ns > span.to_ns)
-        continue;
+      const bool shown = event.time_ns >= span.from_ns && event.time_ns <= span.to_ns;
+      if (event.kind() == Event::Kind::value) values->add(entry, shown);
+      if (event.kind() != Event::Kind::firing || !shown) continue;
       if (event.subject >= transitions.size() || transitions[event.subject] == UINT32_MAX ||
           firings.size() >= most_firings)
         ++dropped;
@@ -132,8 +178,9 @@ std::optional<std::string> Recordings::content(const std::string& name, Span spa
                       {"subsystems", recording.instances},
                       {"firings", std::move(firings)},
                       {"dropped", dropped},
-                      {"values", json::object()},
-                      {"truncated", dropped > 0 || !reader.problem().empty() || reader.pending() > 0}});
+                      {"values", values->take()},
+                      {"truncated", dropped > 0 || !values->complete() || !reader.problem().empty() ||
+                                        reader.pending() > 0}});
 }
 
 }  // namespace tessera::server

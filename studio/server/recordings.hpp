@@ -19,7 +19,7 @@ class Recordings {
  public:
   Recordings(SpecFile& file, Analyses& analyses) : file_(file), analyses_(analyses) {}
 
-  static constexpr std::size_t most_firings = 200'000;
+  static constexpr std::size_t most_firings = 200'000, most_samples = 400'000;
 
   /// [{"name", "bytes", "modified", "system", "duration"}]
   [[nodiscard]] std::string list() const;
@@ -27,7 +27,8 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "firings", "dropped", "values", "truncated"}: at most most_firings
-  /// of the span. nullopt: there is none of that name. Throws std::runtime_error when it cannot be read.
+  /// and most_samples (of values, together) of the span. nullopt: there is none of that name. Throws
+  /// std::runtime_error when it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
 
  private:

@@ -115,6 +115,12 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   ASSERT_FALSE(part.at("firings").empty());
   EXPECT_GE(part.at("firings").front()[0], 1'000'000'000);
   EXPECT_LE(part.at("firings").back()[0], 2'000'000'000);
+  const json& speed = part.at("values").at("robot.control.motion.linear");
+  ASSERT_FALSE(speed.empty());
+  EXPECT_GE(speed.front()[0], 1'000'000'000);
+  EXPECT_LE(speed.back()[0], 2'000'000'000);
+  EXPECT_TRUE(speed.front()[1].is_number()) << speed.front();
+  EXPECT_TRUE(recording.at("values").at("robot.control.line.middle").front()[1].is_boolean());
 }
 
 TEST_F(RunOfTheStudio, WhatTheCompilerSaysReachesThePage) {

@@ -217,6 +217,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
+    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
     await button(page, "Play").click();
     await until(
       page,

@@ -122,9 +122,16 @@ Exit build_step(const Command& command, const BuildOptions& options,
                                  : capture_apart(command, *options.stop, each_line);
 }
 
+// A build folder knows absolute paths: one that came with a copied project, or that another installation has
+// made, would build other sources than these.
 bool configure(const Specification& specification, const Generated& generated, const fs::path& build,
                const BuildOptions& options, Listener& listener) {
-  if (fs::exists(build / "build.ninja")) return true;
+  const fs::path note = build / "made_for.txt";
+  const std::string made_for =
+      fmt::format("{}\n{}\n{}\n", specification.project.string(), generated.folder.string(),
+                  Installation::find().cmake_package.string());
+  if (fs::exists(build / "build.ninja") && fs::exists(note) && content_of(note) == made_for) return true;
+  fs::remove_all(build);
   Step step(listener, "configuring");
   const Exit done = build_step({"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
                                 fmt::format("-DCMAKE_BUILD_TYPE={}", options.debug ? "Debug" : "Release"),
@@ -133,6 +140,7 @@ bool configure(const Specification& specification, const Generated& generated, c
                                options, [&](std::string_view line) { step.progress(line); });
   if (done.code != 0) listener.say(done.text);
   if (done.code != 0) fs::remove(build / "build.ninja");
+  if (done.code == 0) write_file(note, made_for);
   return done.code == 0;
 }
 

@@ -82,4 +82,15 @@ TEST_F(Project, DebugPrintsTheCommandThatDebugsTheRun) {
   EXPECT_NE(debugged.text.find("control.cpp"), std::string::npos) << debugged.text;
 }
 
+TEST_F(Project, ACopyIsBuiltFromItsOwnSources) {
+  const fs::path project = example("01_line_follower");
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
+  fs::copy(project, folder_ / "copy", fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+  write(folder_ / "copy/src/control.cpp",
+        content_of(project / "src/control.cpp") + "\nint broken = \"text\";\n");
+  const project::Exit built = tessera("simulate copy --for 1s");
+  EXPECT_EQ(built.code, 1) << built.text;
+  EXPECT_NE(built.text.find("copy/src/control.cpp"), std::string::npos) << built.text;
+}
+
 }  // namespace tessera::cli_test

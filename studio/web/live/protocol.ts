@@ -131,5 +131,7 @@ export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";
   value?: number;
   subsystem?: string;
-  breakpoints?: { place: number }[];
+  breakpoints?: Breakpoint[];
 }
+/** A run pauses when a token comes to the place, the transition has fired, or its condition comes to hold. */
+export type Breakpoint = { place: number } | { transition: number } | { condition: number };

@@ -5,6 +5,7 @@ import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
 import type {
+  Breakpoint,
   ControlRequest,
   FiringsEvent,
   PoseEvent,
@@ -28,8 +29,12 @@ export interface RunnerState {
   problem: string;
   /** Behaviour by path of subsystem, as the controller says. */
   behaviours: ReadonlyMap<string, string>;
-  /** Places at which the run pauses. */
-  breakpoints: readonly number[];
+  /** Where the run pauses. */
+  breakpoints: readonly Breakpoint[];
+}
+
+export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
+  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 const idle: RunnerState = {
@@ -174,7 +179,7 @@ export class Runner {
     if (info.marking && this.stage.mode === "live") this.stage.setMarked(info.marking);
     const { breakpoints } = this.store.get();
     if (info.state === "running" && breakpoints.length > 0)
-      void this.control({ command: "breakpoints", breakpoints: breakpoints.map((place) => ({ place })) });
+      void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
   }
 
   private fired({ t, firings, dropped, marking }: FiringsEvent): void {
@@ -236,12 +241,12 @@ export class Runner {
     this.asking = false;
   }
 
-  toggleBreakpoint(place: number): void {
+  toggleBreakpoint(wanted: Breakpoint): void {
     const { breakpoints, state } = this.store.get();
-    const next = breakpoints.includes(place) ? breakpoints.filter((one) => one !== place) : [...breakpoints, place];
+    const others = breakpoints.filter((one) => !sameBreakpoint(one, wanted));
+    const next = others.length < breakpoints.length ? others : [...breakpoints, wanted];
     this.store.set({ breakpoints: next });
-    if (state === "running" || state === "paused")
-      void this.control({ command: "breakpoints", breakpoints: next.map((one) => ({ place: one })) });
+    if (state === "running" || state === "paused") void this.control({ command: "breakpoints", breakpoints: next });
   }
 
   /** Puts the run away: the drawing is that of the text again. */

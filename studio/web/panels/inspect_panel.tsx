@@ -1,5 +1,7 @@
 import { useStore, useStudio } from "../app/use";
 import { useComplaints, useStructure } from "../app/use_structure";
+import type { Breakpoint } from "../live/protocol";
+import { sameBreakpoint } from "../live/runner";
 import { layerTitle, operationText } from "../model/labels";
 import type { Element, NetModel } from "../model/net";
 import { findThing, type Thing } from "../model/structure";
@@ -34,7 +36,7 @@ export function InspectPanel() {
           <dl>{facts(net, element).map(([term, value]) => [<dt key={term}>{term}</dt>, <dd key={`${term}.`}>{value}</dd>])}</dl>
         </>
       )}
-      {net && element?.kind === "place" && <Breakpoint place={net.placeByName.get(selected)!} />}
+      {net && element && <Breakpoints net={net} element={element} path={selected} />}
       <div className="links">
         {line > 0 && (
           <button className="link" onClick={() => studio.showLine(line)}>
@@ -56,14 +58,29 @@ export function InspectPanel() {
   );
 }
 
-/** A run under simulated time pauses when a token arrives here. */
-function Breakpoint({ place }: { place: number }) {
+/** Where a run under simulated time pauses. */
+function Breakpoints({ net, element, path }: { net: NetModel; element: Element; path: string }) {
+  if (element.kind === "place") return <BreakpointButton at={{ place: net.placeByName.get(path)! }} text="Pause a run here" />;
+  const transition = net.transitionByName.get(path);
+  if (element.kind !== "transition" || transition === undefined) return null;
+  const { condition } = net.page(element.page).transitions[element.index]!;
+  return (
+    <>
+      <BreakpointButton at={{ transition }} text="Pause a run when it fires" />
+      {condition !== null && condition.truth !== "always" && (
+        <BreakpointButton at={{ condition: transition }} text="Pause a run when its condition holds" />
+      )}
+    </>
+  );
+}
+
+function BreakpointButton({ at, text }: { at: Breakpoint; text: string }) {
   const studio = useStudio();
-  const set = useStore(studio.runner.store, (all) => all.breakpoints.includes(place));
+  const set = useStore(studio.runner.store, (all) => all.breakpoints.some((one) => sameBreakpoint(one, at)));
   return (
     <div className="buttons">
-      <button aria-pressed={set} onClick={() => studio.runner.toggleBreakpoint(place)}>
-        {set ? "Remove the breakpoint" : "Pause a run here"}
+      <button aria-pressed={set} onClick={() => studio.runner.toggleBreakpoint(at)}>
+        {set ? "Remove the breakpoint" : text}
       </button>
     </div>
   );

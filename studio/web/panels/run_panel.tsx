@@ -2,7 +2,8 @@ import { useCallback, useEffect, useState } from "react";
 import { useRunning } from "../app/use_stage";
 import { useStore, useStudio } from "../app/use";
 import { message } from "../live/draft";
-import type { RunRequest } from "../live/protocol";
+import type { Breakpoint, RunRequest } from "../live/protocol";
+import type { NetModel } from "../model/net";
 import { Choice, Field } from "./field";
 import { Icon } from "./icons";
 
@@ -254,21 +255,37 @@ function Breakpoints() {
     <>
       <h3>Breakpoints</h3>
       <ul className="choice-list">
-        {breakpoints.map((place) => (
-          <li key={place}>
-            <button className="choice" onClick={() => studio.flyTo(net.places[place]!.name)}>
-              {net.places[place]?.name}
-            </button>
-            <button
-              className="icon"
-              aria-label={`Remove the breakpoint at ${net.places[place]?.name}`}
-              onClick={() => studio.runner.toggleBreakpoint(place)}
-            >
-              <Icon name="remove" />
-            </button>
-          </li>
-        ))}
+        {breakpoints.map((breakpoint) => {
+          const { path, where } = placeOf(net, breakpoint);
+          return (
+            <li key={where}>
+              <button className="choice" onClick={() => studio.flyTo(path)}>
+                {where}
+              </button>
+              <button
+                className="icon"
+                aria-label={`Remove the breakpoint at ${where}`}
+                onClick={() => studio.runner.toggleBreakpoint(breakpoint)}
+              >
+                <Icon name="remove" />
+              </button>
+            </li>
+          );
+        })}
       </ul>
     </>
   );
+}
+
+function placeOf(net: NetModel, breakpoint: Breakpoint): { path: string; where: string } {
+  if ("place" in breakpoint) {
+    const path = net.places[breakpoint.place]?.name ?? "";
+    return { path, where: path };
+  }
+  if ("transition" in breakpoint) {
+    const path = net.transitions[breakpoint.transition]?.name ?? "";
+    return { path, where: path };
+  }
+  const path = net.transitions[breakpoint.condition]?.name ?? "";
+  return { path, where: `condition of ${path}` };
 }

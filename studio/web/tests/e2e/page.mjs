@@ -72,3 +72,7 @@ export async function until(page, look, what) {
   }
   return assert.fail(`never happened: ${what}`);
 }
+
+/** Until what has arrived is drawn. */
+export const drawn = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));

@@ -3,7 +3,7 @@ import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { button, changes, draftText, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, changes, draftText, drawn, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -208,7 +208,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
     const count = async () => Number(/([\d,]+) firings/.exec(await facts())[1].replaceAll(",", ""));
-    await until(page, async () => (await count()) === (await count()), "a pause");
+    await drawn(page); // a pause is told after its firings
     const paused = await count();
     await button(page, "Step one firing").click();
     await until(page, async () => (await count()) === paused + 1, "one more firing");
@@ -225,6 +225,34 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
       "the recording plays",
     );
     await button(page, "Close").click();
+  }));
+
+test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
+  onPage(example("02_gap"), async (page) => {
+    const transition = "robot.control.follow.t4";
+    await find(page, transition);
+    await tab(page, "Element").click();
+    await button(page, "Pause a run when its condition holds").click();
+    await button(page, "Remove the breakpoint").waitFor();
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    const state = page.getByTestId("run-state");
+    await state.getByText("Paused").waitFor();
+    await page.getByText(`condition of ${transition}`).first().waitFor();
+    const count = async () =>
+      Number(/([\d,]+) firings/.exec(await page.getByTestId("run-facts").innerText())[1].replaceAll(",", ""));
+    await drawn(page);
+    const paused = await count();
+    assert.ok(paused > 0);
+    await page.getByRole("button", { name: `Remove the breakpoint at condition of ${transition}` }).click();
+    await tab(page, "Element").click();
+    await button(page, "Pause a run when it fires").click();
+    await tab(page, "Run").click();
+    await button(page, "Go on").click();
+    await until(page, async () => (await count()) > paused, "the transition fires");
+    await state.getByText("Paused").waitFor();
+    await button(page, "Stop").click();
+    await state.getByText("Ended").waitFor();
   }));
 
 test("a controller that runs already is watched, and let go", () =>

@@ -76,6 +76,7 @@ class ValueSource {
       left_ = {};
       return;
     }
+    if (count == 0) return;  // there may be no bytes at all to copy from
     std::memcpy(to, left_.data(), count);
     left_ = left_.subspan(count);
   }

@@ -63,14 +63,16 @@ class Controlled : public ::testing::Test {
 
   void start() {
     build(system_);
+    made_ = &system_.system();
     running_ = std::thread([this] {
-      summary_ = run(system_, options_);
+      std::string error;
+      summary_ = execute(*made_, options_, error).value_or(RunSummary{});
       over_ = true;
     });
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    const std::string file = monitor_folder() + "/" + std::string(system_.system().name) + "." +
-                             std::to_string(getpid()) + ".sock";
+    const std::string file =
+        monitor_folder() + "/" + std::string(made_->name) + "." + std::to_string(getpid()) + ".sock";
     std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
     socket_ = socket(AF_UNIX, SOCK_STREAM, 0);
     while (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
@@ -112,6 +114,7 @@ class Controlled : public ::testing::Test {
 
   std::string folder_;
   TestSystem system_;
+  const System* made_ = nullptr;  // of system_, while it runs
   RunOptions options_;
   RunSummary summary_;
   std::thread running_;
@@ -190,7 +193,7 @@ TEST_F(Controlled, ABreakpointPausesWhenItsPlaceGetsAToken) {
 TEST_F(Controlled, ABreakpointPausesWhenItsTransitionHasFired) {
   start();
   rest(1);
-  const Instance& a = system_.system().instances[0];
+  const Instance& a = made_->instances[0];
   const std::string transition = "robot.a." + std::string(a.net->transitions[0].name);
   EXPECT_EQ(command({{"command", "breakpoints"}, {"transitions", {transition}}}), "");
   EXPECT_EQ(command({{"command", "resume"}}), "");
@@ -206,7 +209,7 @@ TEST_F(Controlled, ABreakpointPausesWhenItsTransitionHasFired) {
 TEST_F(Controlled, ABreakpointPausesWhenItsConditionComesToHoldBeforeItFires) {
   start();
   rest(1);
-  const auto& transitions = system_.system().instances[0].net->transitions;
+  const auto& transitions = made_->instances[0].net->transitions;
   const auto decided = std::find_if(transitions.begin(), transitions.end(), [](const Transition& one) {
     return one.guard.kind == Guard::Kind::go_on || one.guard.kind == Guard::Kind::terminal;
   });

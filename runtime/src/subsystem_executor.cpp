@@ -162,7 +162,6 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
       --registrations_;  // firing voids them
   }
   ++firings_;
-  last_fired_ = transition.index;
   if (lane_ != nullptr) {
     renew_time();
     lane_->firing(now_, first_transition_ + transition.index, version);

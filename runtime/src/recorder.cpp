@@ -16,7 +16,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::string_view magic = "TESSREC1";
 constexpr std::int64_t drain_period_ns = 5'000'000;
 constexpr std::uint32_t stuck_after_rounds = 100;  // half a second, and more
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
@@ -75,8 +74,8 @@ bool RecordingFile::open_segment() {
   }
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
-  start.reserve(magic.size() + sizeof length + header.size() + 8);  // with the padding
-  start.append(magic);
+  start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.append(recording_magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');

@@ -12,8 +12,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::string_view magic = "TESSREC1";
-
 [[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
   for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
                                Recording::Direction::real_input, Recording::Direction::real_output})
@@ -117,13 +115,13 @@ void RecordingReader::give_up(std::string problem) {
 /// 0: it is not whole yet.
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
-  const std::size_t before_header = magic.size() + sizeof length;
-  if (!bytes.starts_with(magic.substr(0, bytes.size()))) {
+  const std::size_t before_header = recording_magic.size() + sizeof length;
+  if (!bytes.starts_with(recording_magic.substr(0, bytes.size()))) {
     give_up("is no recording of Tessera");
     return 0;
   }
   if (bytes.size() < before_header) return 0;
-  std::memcpy(&length, bytes.data() + magic.size(), sizeof length);
+  std::memcpy(&length, bytes.data() + recording_magic.size(), sizeof length);
   const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
   if (bytes.size() < start_of_events) return 0;
   recording_.header = bytes.substr(before_header, length);

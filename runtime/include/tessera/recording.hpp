@@ -24,7 +24,9 @@ enum class Fault : std::uint8_t {
 /// "not finite"; empty: no fault of this version.
 [[nodiscard]] std::string_view name_of(Fault fault);
 
-/// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
+inline constexpr std::string_view recording_magic = "TESSREC1";
+
+/// The file a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
 ///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a

@@ -18,7 +18,6 @@ namespace {
 
 /// nullopt: it is not there, or not whole yet.
 [[nodiscard]] std::optional<std::string> header_at(int descriptor) {
-  constexpr std::size_t most = std::size_t{256} << 20U;
   std::array<char, 12> start{};
   std::uint32_t length = 0;
   if (pread(descriptor, start.data(), start.size(), 0) != static_cast<ssize_t>(start.size()) ||
@@ -26,7 +25,7 @@ namespace {
     return std::nullopt;
   std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);
   struct stat status {};
-  if (length > most || fstat(descriptor, &status) != 0 ||
+  if (length > longest_recording_header || fstat(descriptor, &status) != 0 ||
       status.st_size < static_cast<off_t>(start.size() + length))
     return std::nullopt;
   std::string header(length, '\0');

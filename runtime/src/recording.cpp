@@ -122,8 +122,9 @@ std::size_t RecordingReader::take_header(std::string_view bytes) {
   }
   if (bytes.size() < before_header) return 0;
   std::memcpy(&length, bytes.data() + recording_magic.size(), sizeof length);
+  if (length > longest_recording_header) give_up("has a damaged header");
   const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
-  if (bytes.size() < start_of_events) return 0;
+  if (state_ == State::damaged || bytes.size() < start_of_events) return 0;
   recording_.header = bytes.substr(before_header, length);
   if (!read_header(recording_)) {
     give_up("has a damaged header");

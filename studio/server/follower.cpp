@@ -13,6 +13,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr auto between_looks = std::chrono::milliseconds(30);
+constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
 constexpr auto between_markings = std::chrono::milliseconds(500);
 constexpr auto between_subsystems = std::chrono::milliseconds(200);
@@ -32,33 +33,45 @@ json pose_of(std::string_view line) {
 
 }  // namespace
 
-Follower::Follower(const std::filesystem::path& recording, const std::filesystem::path& path,
+Follower::Follower(RecordingTail::Source recording, const std::filesystem::path& path,
                    const Analysis& analysis)
-    : analysis_(analysis), recording_(recording, *analysis.net), path_(path), values_(*analysis.model) {}
+    : recording_(std::move(recording), *analysis.net), path_(path) {}
 
 void Follower::rest() { std::this_thread::sleep_for(between_looks); }
 
-Follower::News Follower::look(std::optional<json> snapshot) {
+Follower::News Follower::look(std::optional<json> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
   add_firings(news);
   add_pose(news);
-  if (snapshot_ && !news.more) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
+  const bool has_read_all = !news.more;
+  if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
+  add_values(news, news.rested || (last && has_read_all));
   return news;
 }
 
 void Follower::add_firings(News& news) {
-  const std::optional<RecordingTail::Batch> batch = recording_.next();
-  if (!batch) return;
-  news.more = batch->more;
-  news.time_ns = batch->time_ns;
-  if (batch->firings.empty() && batch->dropped == 0) return;
+  const RecordingTail::Batch batch = recording_.next();
+  news.more = batch.more;
+  time_ns_ = std::max(time_ns_, batch.time_ns);
+  news.time_ns = time_ns_;
+  if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return;
   news.marking = recording_.marking();
-  news.firings = {{"t", batch->time_ns}, {"dropped", batch->dropped}, {"firings", batch->firings}};
+  news.firings = {{"t", batch.time_ns}, {"dropped", batch.dropped}, {"firings", batch.firings}};
   // A page that plays the firings knows the marking; now and then it is told, in case one was lost.
-  if (batch->dropped == 0 && Clock::now() - marking_told_ < between_markings) return;
+  const bool plays_on = batch.dropped == 0 && !batch.jumped;
+  if (plays_on && Clock::now() - marking_told_ < between_markings) return;
   marking_told_ = Clock::now();
   news.firings["marking"] = *news.marking;
+}
+
+/// at_once: also those that would be told a little later.
+void Follower::add_values(News& news, bool at_once) {
+  if (!at_once && Clock::now() - values_told_ < between_values) return;
+  json values = recording_.take_changed_values();
+  if (values.empty()) return;
+  values_told_ = Clock::now();
+  news.values = {{"t", time_ns_}, {"values", std::move(values)}};
 }
 
 void Follower::add_pose(News& news) {
@@ -86,19 +99,10 @@ void Follower::add_snapshot(const json& snapshot, News& news) {
   }
   news.has_state = snapshot.contains("paused");
   news.paused = snapshot.value("paused", false);
-  news.pauses = snapshot.value("pauses", std::uint64_t{0});
+  const std::uint64_t pauses = snapshot.value("pauses", std::uint64_t{0});
+  // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
+  news.rested = pauses != std::exchange(pauses_, pauses) && news.paused;
   news.broke_at = snapshot.value("broke_at", "");
-  const auto found = snapshot.find("values");
-  if (found == snapshot.end() || !found->is_object()) return;
-  std::string seen = found->dump();
-  if (seen == values_seen_) return;
-  values_seen_ = std::move(seen);
-  json values = json::object();
-  for (const auto& [path, hex] : found->at("buffers").items())
-    if (hex.is_string())
-      if (json value = values_.read(path, hex.get<std::string>()); !value.is_null())
-        values[path] = std::move(value);
-  news.values = {{"t", nanoseconds(found->value("time_s", 0.0))}, {"values", std::move(values)}};
 }
 
 }  // namespace tessera::server

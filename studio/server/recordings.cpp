@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "replay/values.hpp"
+#include "server/growing_file.hpp"
 #include "server/json_text.hpp"
 #include "server/tail.hpp"
+#include "server/value_json.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server {
@@ -89,16 +91,6 @@ class ValueSeries {
  private:
   static constexpr std::size_t most_scalars = 16;  // of a value: longer lists are no curves
 
-  [[nodiscard]] static json json_of(const ValueLayout::Scalar& scalar) {
-    switch (scalar.kind) {
-      case ValueLayout::Scalar::Kind::text:
-        return scalar.text;
-      case ValueLayout::Scalar::Kind::boolean:
-        return scalar.number != 0;
-      default:
-        return scalar.number;
-    }
-  }
   replay::ValueTrack track_;
   std::vector<std::size_t> paths_;  // per buffer: how many scalars it has; 0: not known yet
   std::size_t samples_ = 0;
@@ -152,7 +144,7 @@ std::optional<std::string> Recordings::content(const std::string& name, Span spa
   for (std::string some; !(some = bytes.more()).empty() && reader.problem().empty();) {
     reader.feed(some);
     if (transitions.empty() && reader.has_header() && analysis->net)
-      transitions = TransitionMap(*analysis->net).of(reader.recording());
+      transitions = NetNames(*analysis->net).transitions_of(reader.recording());
     if (!values && reader.has_header()) values.emplace(reader.recording());
     for (const Recording::Entry& entry : std::exchange(reader.recording().entries, {})) {
       const Event& event = entry.event;

@@ -64,7 +64,7 @@ class Run {
   void execute(const project::Controller& controller);
   void attach();
   [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
-  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
   [[nodiscard]] bool tell(Follower& follower, std::optional<nlohmann::json> snapshot, bool last);
   void set_state(State state, const std::string& why = {});
@@ -78,7 +78,6 @@ class Run {
   Events& events_;
   ControllerLink link_;
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
-  std::uint64_t pauses_ = 0;  ///< the follower's: how often the controller had come to rest
   std::thread follower_, thread_;
 
   mutable std::mutex mutex_;  ///< of what follows

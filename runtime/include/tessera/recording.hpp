@@ -25,6 +25,7 @@ enum class Fault : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 inline constexpr std::string_view recording_magic = "TESSREC1";
+inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
 /// The file a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],

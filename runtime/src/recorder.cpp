@@ -33,10 +33,7 @@ void remove_segments(const std::string& path) {
   std::error_code ignored;
   const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string number = entry.path().stem().extension().string();
-    const bool numbered = number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (numbered && entry.path().stem().stem() == whole.stem() &&
-        entry.path().extension() == whole.extension())
+    if (fs::path(without_segment_number(entry.path().string())).filename() == whole.filename())
       fs::remove(entry.path(), ignored);
   }
 }

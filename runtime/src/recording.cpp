@@ -227,12 +227,6 @@ namespace {
   return std::move(reader.recording());
 }
 
-/// "run.3.tsr" and the like.
-[[nodiscard]] bool has_number(const std::filesystem::path& path) {
-  const std::string number = path.stem().extension().string();
-  return number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
-}
-
 /// What the headers of segments of one run have in common.
 [[nodiscard]] std::string_view without_segment(std::string_view header) {
   return header.substr(0, header.rfind(",\"segment\":"));
@@ -247,11 +241,18 @@ std::string segment_path(const std::string& path, std::uint64_t number) {
       .string();
 }
 
+std::string without_segment_number(const std::string& path) {
+  const std::filesystem::path whole(path), stem = whole.stem();
+  const std::string number = stem.extension().string();
+  if (number.size() < 2 || number.find_first_not_of("0123456789", 1) != std::string::npos) return {};
+  return (whole.parent_path() / (stem.stem().string() + whole.extension().string())).string();
+}
+
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   const bool folder = std::filesystem::is_directory(path);
   const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
   std::optional<Recording> newest = read_segment(file, error);
-  if (!newest || newest->segment.value_or(0) == 0 || has_number(file)) return newest;
+  if (!newest || newest->segment.value_or(0) == 0 || !without_segment_number(file).empty()) return newest;
   std::vector<Recording> segments;
   std::uint64_t number = *newest->segment;
   segments.push_back(std::move(*newest));

@@ -1,7 +1,6 @@
 #include "server/follower.hpp"
 
-#include <array>
-#include <charconv>
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -12,6 +11,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
+constexpr std::size_t piece_of_path = std::size_t{1} << 20U;
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
@@ -20,20 +20,9 @@ constexpr auto between_subsystems = std::chrono::milliseconds(200);
 
 std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
-/// {t, x, y, heading} of a line of a trace (sim/trace.hpp); null: it is none.
-json pose_of(std::string_view line) {
-  std::array<double, 4> numbers{};
-  for (double& number : numbers) {
-    const auto [end, problem] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (problem != std::errc{} || end == line.data() + line.size()) return nullptr;
-    line.remove_prefix(static_cast<std::size_t>(end - line.data()) + 1);
-  }
-  return {{"t", nanoseconds(numbers[0])}, {"x", numbers[1]}, {"y", numbers[2]}, {"heading", numbers[3]}};
-}
-
 }  // namespace
 
-Follower::Follower(RecordingTail::Source recording, const std::filesystem::path& path,
+Follower::Follower(RecordingStream::Source recording, const std::filesystem::path& path,
                    const Analysis& analysis)
     : recording_(std::move(recording), *analysis.net), path_(path) {}
 
@@ -43,7 +32,7 @@ Follower::News Follower::look(std::optional<json> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
   add_firings(news);
-  add_pose(news);
+  add_path(news, last);
   const bool has_read_all = !news.more;
   if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
   add_values(news, news.rested || (last && has_read_all));
@@ -74,19 +63,15 @@ void Follower::add_values(News& news, bool at_once) {
   news.values = {{"t", time_ns_}, {"values", std::move(values)}};
 }
 
-void Follower::add_pose(News& news) {
-  path_line_ += path_.more();
-  const std::size_t end = path_line_.rfind('\n');
-  if (end != std::string::npos && end > 0) {
-    const std::size_t before = path_line_.rfind('\n', end - 1);
-    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    json pose = pose_of(std::string_view(path_line_).substr(begin, end - begin));
-    if (!pose.is_null()) pose_waiting_ = std::move(pose);
-    path_line_.erase(0, end + 1);
-  }
-  if (pose_waiting_.is_null() || Clock::now() - pose_told_ < between_poses) return;
+void Follower::add_path(News& news, bool at_once) {
+  const std::string bytes = path_.more(piece_of_path);
+  news.more = news.more || bytes.size() == piece_of_path;
+  news.path = points_.feed(bytes);
+  if (!news.path.empty()) pose_waiting_ = news.path.back();
+  if (!pose_waiting_ || (!at_once && Clock::now() - pose_told_ < between_poses)) return;
   pose_told_ = Clock::now();
-  news.pose = std::exchange(pose_waiting_, nullptr);
+  const PathPoint pose = *std::exchange(pose_waiting_, std::nullopt);
+  news.pose = {{"t", pose.time_ns}, {"x", pose.x_m}, {"y", pose.y_m}, {"heading", pose.heading_rad}};
 }
 
 void Follower::add_snapshot(const json& snapshot, News& news) {

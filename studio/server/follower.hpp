@@ -10,6 +10,7 @@
 
 #include "server/analysis.hpp"
 #include "server/growing_file.hpp"
+#include "server/path.hpp"
 #include "server/tail.hpp"
 
 namespace tessera::server {
@@ -19,10 +20,11 @@ namespace tessera::server {
 class Follower {
  public:
   /// path: file that the run writes; empty: none that can be read.
-  Follower(RecordingTail::Source recording, const std::filesystem::path& path, const Analysis& analysis);
+  Follower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
 
   struct News {
     nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
+    std::vector<PathPoint> path;                       ///< more of it
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     bool has_state = false, paused = false;
@@ -39,15 +41,15 @@ class Follower {
 
  private:
   void add_firings(News& news);
-  void add_pose(News& news);
+  void add_path(News& news, bool at_once);
   void add_values(News& news, bool at_once);
   void add_snapshot(const nlohmann::json& snapshot, News& news);
 
   RecordingTail recording_;
   GrowingFile path_;
-  std::string path_line_;
+  PathReader points_;
   std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, subsystems_told_{};
-  nlohmann::json pose_waiting_;
+  std::optional<PathPoint> pose_waiting_;
   std::optional<nlohmann::json> snapshot_;
   std::uint64_t pauses_ = 0;
   std::int64_t time_ns_ = 0;

@@ -58,14 +58,6 @@ bool to_names(json& list, const Elements& elements) {
   return true;
 }
 
-/// Of a recording on this machine.
-RecordingTail::Source bytes_of(const std::filesystem::path& file) {
-  constexpr std::size_t piece = std::size_t{1} << 20U;
-  return [growing = std::make_shared<GrowingRecording>(file, GrowingRecording::From::newest)] {
-    return growing->next(piece);
-  };
-}
-
 json read_summary(const std::filesystem::path& file) {
   std::ifstream stream(file);
   return stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
@@ -216,7 +208,8 @@ void Run::execute(const project::Controller& controller) {
 }
 
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
-  Follower follower(bytes_of(folder / "recording.tsr"), folder / "path.csv", *analysis_);
+  Follower follower(RecordingStream::of_file(folder / "recording.tsr", GrowingRecording::From::newest),
+                    folder / "path.csv", *analysis_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
@@ -237,6 +230,7 @@ bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
     if (news.marking) marking_ = *news.marking;
     if (!news.values.is_null()) values_.update(news.values.at("values"));
     if (!news.pose.is_null()) pose_ = news.pose;
+    for (const PathPoint& point : news.path) path_.add(point);
     if (!news.subsystems.is_null()) subsystems_ = news.subsystems;
     const State now = news.paused ? State::paused : State::running;
     if (news.has_state && (now != state_ || news.rested) && !last) changed = now;
@@ -278,7 +272,8 @@ void Run::attach() {
   if (!snapshot) return set_state(State::ended, "it has ended");
   if (const std::string why = refused(*snapshot); !why.empty()) return set_state(State::failed, why);
   const std::filesystem::path file = readable(*snapshot);
-  Follower follower(file.empty() ? [this] { return link_.recording(); } : bytes_of(file),
+  Follower follower(file.empty() ? [this] { return link_.recording(); }
+                                 : RecordingStream::of_file(file, GrowingRecording::From::newest),
                     file.empty() ? file : file.parent_path() / "path.csv", *analysis_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
@@ -300,6 +295,7 @@ json Run::info(bool all) const {
   info["marking"] = marking_;
   info["values"] = values_;
   info["pose"] = pose_;
+  info["path"] = path_.rows();
   info["verdicts"] = verdicts_;
   info["outcome"] = outcome_;
   info["subsystems"] = subsystems_;

@@ -15,6 +15,7 @@
 #include "server/controller_link.hpp"
 #include "server/events.hpp"
 #include "server/follower.hpp"
+#include "server/path.hpp"
 
 namespace tessera::server {
 
@@ -84,6 +85,7 @@ class Run {
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
+  ThinPath path_{5000};
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
 };

@@ -46,8 +46,14 @@ std::vector<std::uint32_t> NetNames::marked(std::string_view lines) const {
 
 // ------------------------------------------------------------------------------------------------ tail
 
-RecordingTail::RecordingTail(Source source, const net::Net& net)
-    : source_(std::move(source)), net_(net), names_(net) {
+RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names)
+    : recording(std::move(its_recording)),
+      transitions(names.transitions_of(*recording)),
+      values(*recording),
+      has_changed(recording->buffers.size()) {}
+
+RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net)
+    : net_(net), names_(net), stream_(std::move(source)) {
   for (const net::Place& place : net.places()) tokens_.push_back(static_cast<std::int32_t>(place.tokens));
 }
 
@@ -68,7 +74,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     play(transition);
     batch.firings.emplace_back(event.time_ns, transition);
   } else if (event.kind() == Event::Kind::value) {
-    const auto change = segment_->values->follow(entry);
+    const auto change = segment_->values.follow(entry);
     if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
     segment_->has_changed[change->number] = true;
     segment_->changed.push_back(change->number);
@@ -80,15 +86,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
 }
 
 /// Of many firings, only the last are kept.
-void RecordingTail::take(Batch& batch) {
-  Recording& recording = segment_->reader.recording();
-  if (!segment_->values) {
-    segment_->transitions = names_.transitions_of(recording);
-    segment_->has_changed.resize(recording.buffers.size());
-    segment_->values.emplace(recording);
-  }
-  for (const Recording::Entry& entry : recording.entries) keep(batch, entry);
-  recording.entries.clear();
+void RecordingTail::keep_the_last(Batch& batch) {
   // Threads write one after the other; the page shows time.
   std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
   if (batch.firings.size() <= most_firings) return;
@@ -103,12 +101,15 @@ RecordingTail::Batch RecordingTail::next() {
   const Clock::time_point until = Clock::now() + patience;
   Batch batch;
   do {
-    const GrowingRecording::Piece piece = source_();
-    batch.more = piece.more;
-    if (piece.begins) begin_segment();
-    segment_->reader.feed(piece.bytes);
-    if (segment_->reader.has_header()) take(batch);
-  } while (batch.more && Clock::now() < until);
+    if (stream_.next() && stream_.begins()) {
+      values_ = take_changed_values();
+      segment_.emplace(stream_.recording(), names_);
+    }
+    if (!stream_.recording()) continue;
+    for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);
+    keep_the_last(batch);
+  } while (stream_.more() && Clock::now() < until);
+  batch.more = stream_.more();
   return batch;
 }
 
@@ -119,18 +120,14 @@ std::vector<std::uint32_t> RecordingTail::marking() const {
   return marked;
 }
 
-void RecordingTail::begin_segment() {
-  values_ = take_changed_values();
-  segment_ = std::make_unique<Segment>();
-}
-
 nlohmann::json RecordingTail::take_changed_values() {
+  if (!segment_) return nlohmann::json::object();
   for (const std::uint32_t buffer : std::exchange(segment_->changed, {})) {
     segment_->has_changed[buffer] = false;
-    const replay::ValueTrack::Value held = segment_->values->value(buffer);
+    const replay::ValueTrack::Value held = segment_->values.value(buffer);
     if (held.hashed || held.layout == nullptr || held.bytes.size() > largest_value) continue;
     if (nlohmann::json value = json_of(*held.layout, held.bytes); !value.is_null())
-      values_[segment_->reader.recording().buffers[buffer].path] = std::move(value);
+      values_[segment_->recording->buffers[buffer].path] = std::move(value);
   }
   return std::exchange(values_, nlohmann::json::object());
 }

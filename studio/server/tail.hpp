@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,7 +10,7 @@
 
 #include "net/net.hpp"
 #include "replay/values.hpp"
-#include "tessera/growing_recording.hpp"
+#include "server/recording_stream.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server {
@@ -36,10 +35,8 @@ class NetNames {
 /// Follows a run by its recording: what has fired, where the tokens are, and what the buffers hold.
 class RecordingTail {
  public:
-  /// Where it comes from: what has been written since the last call.
-  using Source = std::function<GrowingRecording::Piece()>;
   /// net: must outlive it.
-  RecordingTail(Source source, const net::Net& net);
+  RecordingTail(RecordingStream::Source source, const net::Net& net);
 
   static constexpr std::size_t most_firings = 2000, largest_value = 4096;
   struct Batch {
@@ -58,22 +55,21 @@ class RecordingTail {
   [[nodiscard]] nlohmann::json take_changed_values();
 
  private:
-  /// One file.
   struct Segment {
-    RecordingReader reader;
-    std::vector<std::uint32_t> transitions;    // of the recording: indices of the net
-    std::optional<replay::ValueTrack> values;  // once there is a header
-    std::vector<std::uint32_t> changed;        // buffers
-    std::vector<bool> has_changed;             // per buffer
+    Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names);
+    std::shared_ptr<const Recording> recording;
+    std::vector<std::uint32_t> transitions;  // of the recording: indices of the net
+    replay::ValueTrack values;
+    std::vector<std::uint32_t> changed;  // buffers
+    std::vector<bool> has_changed;       // per buffer
   };
   void play(std::uint32_t transition);
   void keep(Batch& batch, const Recording::Entry& entry);
-  void take(Batch& batch);
-  void begin_segment();
-  Source source_;
+  static void keep_the_last(Batch& batch);
   const net::Net& net_;
   NetNames names_;
-  std::unique_ptr<Segment> segment_ = std::make_unique<Segment>();
+  RecordingStream stream_;
+  std::optional<Segment> segment_;
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
   std::vector<std::int32_t> tokens_;  ///< may be below 0 for a moment: threads write when they come to it
 };

@@ -108,6 +108,10 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json first = events_->next("pose"),
              later = events_->next("pose", [](const json&data) { return data.at("t") > 3'000'000'000; });
   EXPECT_NE(first.at("x"), later.at("x"));
+  const json path = info(run).at("path");
+  ASSERT_GT(path.size(), 10U);
+  EXPECT_EQ(path.front()[0], 0);
+  EXPECT_GE(path.back()[0], later.at("t"));
 
   ASSERT_EQ(control(run, {{"command", "pause"}}), 200);
   ASSERT_FALSE(await_state(run, "paused").is_null());
@@ -148,6 +152,9 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json recording = get("/api/recordings/" + name).json();
   EXPECT_EQ(recording.at("net_hash"), get("/api/spec").json().at("analysis").at("net_hash"));
   ASSERT_GT(recording.at("firings").size(), 100U);
+  EXPECT_TRUE(recording.at("marking").is_null());
+  EXPECT_GT(recording.at("path").size(), path.size());
+  EXPECT_TRUE(recording.at("track").is_string());
   const json part = get("/api/recordings/" + name + "?from=1000000000&to=2000000000").json();
   ASSERT_FALSE(part.at("firings").empty());
   EXPECT_GE(part.at("firings").front()[0], 1'000'000'000);

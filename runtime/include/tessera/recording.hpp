@@ -154,6 +154,9 @@ class RecordingReader {
 /// "run.3.tsr".
 [[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
 
+/// The other way: "run.3.tsr" -> "run.tsr"; empty: that is no name of a segment.
+[[nodiscard]] std::string without_segment_number(const std::string& path);
+
 /// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
 /// before the file that is named; of one named by its number, that one alone. nullopt and `error` when it is
 /// no recording.

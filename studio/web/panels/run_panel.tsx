@@ -52,15 +52,26 @@ export function RunPanel() {
   );
 }
 
-const kinds = [
-  { value: "simulate", title: "in the simulated world" },
-  { value: "run", title: "on the steady clock, as on the robot" },
-  { value: "attach", title: "nothing: watch one that runs already" },
-] as const;
+const kindsOf = (hasWorld: boolean) =>
+  [
+    { value: "simulate", title: hasWorld ? "in the simulated world" : "on the simulated clock" },
+    { value: "run", title: "on the steady clock, as on the robot" },
+    { value: "attach", title: "nothing: watch one that runs already" },
+  ] as const;
+
+/** Whether the specification has a simulated world. */
+const useHasWorld = () => useStore(useStudio().project, (all) => Boolean(all.project?.simulation));
+
+const number = (text: string) => (text.trim() === "" ? NaN : Number(text));
+const wrongSpeed = (text: string) =>
+  number(text) >= 0 ? undefined : "A number: simulated seconds a second; 0: as fast as possible";
+const wrongSeed = (text: string) =>
+  Number.isSafeInteger(number(text)) && number(text) >= 0 ? undefined : "A whole number, not negative";
 
 /** Controllers that were started elsewhere, to be watched. */
 function AttachForm({ kind, onKind }: { kind: RunRequest["kind"]; onKind: (kind: RunRequest["kind"]) => void }) {
   const studio = useStudio();
+  const hasWorld = useHasWorld();
   const [sockets, setSockets] = useState<readonly string[] | null>(null);
   const [chosen, setChosen] = useState("");
   const [problem, setProblem] = useState("");
@@ -76,7 +87,7 @@ function AttachForm({ kind, onKind }: { kind: RunRequest["kind"]; onKind: (kind:
   const socket = sockets?.includes(chosen) ? chosen : (sockets?.[0] ?? "");
   return (
     <>
-      <Choice label="Run" value={kind} onChange={onKind} choices={kinds} />
+      <Choice label="Run" value={kind} onChange={onKind} choices={kindsOf(hasWorld)} />
       {problem && <p className="problem-hint">{problem}</p>}
       {sockets?.length === 0 && <p className="faint">No controller runs on this machine for this user.</p>}
       {socket && (
@@ -101,6 +112,7 @@ function StartForm() {
   const studio = useStudio();
   const runner = useStore(studio.runner.store, (all) => all);
   const worlds = useStore(studio.project, (all) => all.project?.worlds ?? []);
+  const hasWorld = useHasWorld();
   const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const [kind, setKind] = useState<RunRequest["kind"]>("simulate");
@@ -119,14 +131,14 @@ function StartForm() {
       paused,
       ...(time ? { for: time } : {}),
       ...(track ? { track } : {}),
-      ...(simulated ? { seed: Number(seed) || 1, speed: Number(speed) || 1 } : {}),
+      ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
     };
     await studio.runner.start(request);
   };
   return (
     <>
-      <Choice label="Run" value={kind} onChange={setKind} choices={kinds} />
-      {tracks.length > 0 && (
+      <Choice label="Run" value={kind} onChange={setKind} choices={kindsOf(hasWorld)} />
+      {hasWorld && tracks.length > 0 && (
         <Choice
           label="Track"
           value={track}
@@ -136,8 +148,8 @@ function StartForm() {
       )}
       <div className="row">
         <Field label="For" value={time} onChange={setTime} />
-        {kind === "simulate" && <Field label="Speed" value={speed} onChange={setSpeed} />}
-        {kind === "simulate" && <Field label="Seed" value={seed} onChange={setSeed} />}
+        {kind === "simulate" && <Field label="Speed" value={speed} onChange={setSpeed} wrong={wrongSpeed} />}
+        {kind === "simulate" && <Field label="Seed" value={seed} onChange={setSeed} wrong={wrongSeed} />}
       </div>
       <div className="buttons">
         <button className="primary" disabled={!current} onClick={() => void start(false)}>
@@ -165,9 +177,11 @@ function Controls() {
   return (
     <>
       <div className="buttons" style={{ marginTop: 0 }}>
-        <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
-          <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
-        </button>
+        {kind !== "run" && (
+          <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
+            <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
+          </button>
+        )}
         <button onClick={() => void control({ command: "stop" })}>
           <Icon name="stop" /> {kind === "attach" ? "Let go" : "Stop"}
         </button>

@@ -8,6 +8,7 @@ import type {
   Breakpoint,
   ControlRequest,
   FiringsEvent,
+  Outcome,
   PoseEvent,
   RunInfo,
   RunRequest,
@@ -18,12 +19,22 @@ import type {
 import type { Stage } from "./stage";
 import { Store } from "./store";
 
+/** The next run as its form has it. */
+export interface Wishes {
+  kind: RunRequest["kind"];
+  /** Empty: that of the specification. */
+  track: string;
+  time: string;
+  seed: string;
+  speed: string;
+}
+
 export interface RunnerState {
   run: string | null;
   state: RunState | "idle";
   kind: RunRequest["kind"];
   why: string;
-  outcome: string;
+  outcome: Outcome | null;
   build: readonly string[];
   speed: number;
   problem: string;
@@ -42,7 +53,7 @@ const idle: RunnerState = {
   state: "idle",
   kind: "simulate",
   why: "",
-  outcome: "",
+  outcome: null,
   build: [],
   speed: 1,
   problem: "",
@@ -78,6 +89,7 @@ export class Track {
 /** A run of the controller: started from here or found running, watched through the event stream. */
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
+  readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
 
@@ -174,7 +186,7 @@ export class Runner {
     this.store.set({
       state: info.state,
       why: info.why ?? "",
-      outcome: info.outcome === undefined || info.outcome === null ? "" : outcomeText(info.outcome),
+      outcome: info.outcome ?? null,
     });
     if (info.marking && this.stage.mode === "live") this.stage.setMarked(info.marking);
     const { breakpoints } = this.store.get();
@@ -260,11 +272,4 @@ export class Runner {
     const { net } = this.draft.store.get();
     if (net && this.stage.mode === "live") this.stage.reset(net, "edit");
   }
-}
-
-function outcomeText(outcome: unknown): string {
-  if (typeof outcome === "string") return outcome;
-  return Object.entries(outcome as Record<string, unknown>)
-    .map(([key, value]) => `${key}: ${typeof value === "object" ? JSON.stringify(value) : String(value)}`)
-    .join(" · ");
 }

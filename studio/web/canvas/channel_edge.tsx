@@ -1,7 +1,5 @@
 import { BaseEdge, EdgeLabelRenderer, getSmoothStepPath, type EdgeProps } from "@xyflow/react";
-import type { Channel } from "../model/structure";
-
-const mode = (blocking: Channel["send"]) => (blocking === "blocking" ? "B" : "N");
+import { channelLabel, type Channel } from "../model/structure";
 
 /** A channel: solid where both ends wait, dashed where neither does; its label names the modes of both ends. */
 export function ChannelEdge(props: EdgeProps) {
@@ -19,8 +17,8 @@ export function ChannelEdge(props: EdgeProps) {
     ...(back && lane !== undefined ? { centerY: lane, offset: 22 } : {}),
   });
   const blocking = channel.send === "blocking" || channel.receive === "blocking";
-  const written = channel.model || `${mode(channel.send)} → ${mode(channel.receive)}`;
-  const spoken = `${written}${channel.timeout ? ` ${channel.timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
+  const { modes, timeout } = channelLabel(channel);
+  const spoken = `${modes}${timeout ? ` ${timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
   return (
     <>
       <BaseEdge
@@ -39,8 +37,8 @@ export function ChannelEdge(props: EdgeProps) {
           aria-label={spoken}
           title={spoken}
         >
-          {written}
-          {channel.timeout && <span className="faint"> {channel.timeout}</span>}
+          {modes}
+          {timeout && <span className="faint"> {timeout}</span>}
         </button>
       </EdgeLabelRenderer>
     </>

@@ -134,6 +134,18 @@ describe("layoutStructure", () => {
         ).toBe(true);
     expect(intersects(agents[0]!, agents[1]!)).toBe(false);
   });
+  it("leaves a channel with a long name a piece of line at either end", () => {
+    const between = (channel: string) => {
+      const [agent] = layoutStructure(
+        readStructure(`${text("one: {}")}channels:\n  - { from: a.r.o, to: a.control.i${channel} }\n`),
+      );
+      const at = (path: string) => agent!.subsystems.find((one) => one.path === path)!;
+      return at("a.control").x - at("a.r").x - at("a.r").width;
+    };
+    const name = "a_communication_model_of_its_own";
+    expect(between(`, model: ${name}`)).toBeGreaterThan(name.length * 6 + 40);
+    expect(between(`, model: ${name}`)).toBeGreaterThan(between(""));
+  });
   it("makes room for many behaviours", () => {
     const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;
     expect(chipLines(control("one: {}"))).toBe(1);

@@ -1,71 +1,7 @@
-#include <gmock/gmock.h>
-
-#include <future>
-#include <thread>
-
-#include "project/process.hpp"
-#include "served.hpp"
+#include "running.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::server_test {
-
-using nlohmann::json;
-using testing::HasSubstr;
-
-/// The command itself, because controllers are built with what is installed beside it.
-class RunOfTheStudio : public Served {
- protected:
-  RunOfTheStudio() {
-    // Sockets of other controllers, which come and go, are not of this test's world.
-    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
-    std::promise<std::string> url;
-    std::future<std::string> printed = url.get_future();
-    command_ = std::thread([this, &url] {
-      bool first = true;
-      static_cast<void>(
-          project::capture_apart({TESSERA_BINARY_DIR "/tessera", "studio", (folder_ / "project").string(),
-                                  "--port", "0", "--no-browser"},
-                                 stop_, [&](std::string_view line) {
-                                   if (line.starts_with("http://") && std::exchange(first, false))
-                                     url.set_value(std::string(line));
-                                 }));
-    });
-    const std::string address = printed.get();
-    const std::size_t colon = address.rfind(':');
-    port_ = std::stoi(address.substr(colon + 1));
-    token_ = address.substr(address.find("token=") + 6);
-    events_ = std::make_unique<EventStream>(port_, token_);
-    EXPECT_FALSE(events_->next("hello").is_null());
-  }
-  ~RunOfTheStudio() override {
-    stop_ = true;
-    command_.join();
-  }
-
-  std::string start(const json& request) {
-    const Reply reply = post("/api/runs", request);
-    EXPECT_EQ(reply.status, 202) << reply.body;
-    return reply.json().at("run");
-  }
-  int control(const std::string& run, const json& command) {
-    return post("/api/runs/" + run + "/control", command).status;
-  }
-  json await_state(const std::string& run, const std::string& state) {
-    return events_->next(
-        "run", [&](const json& data) { return data.at("run") == run && data.at("state") == state; });
-  }
-  json info(const std::string& run) { return get("/api/runs/" + run).json(); }
-  std::uint32_t place(const std::string& name) {
-    const json places = get("/api/spec").json().at("analysis").at("net").at("flat").at("places");
-    for (std::uint32_t index = 0; index < places.size(); ++index)
-      if (places[index].at("name") == name) return index;
-    ADD_FAILURE() << "no place " << name;
-    return 0;
-  }
-
-  std::atomic<bool> stop_{false};
-  std::thread command_;
-  std::unique_ptr<EventStream> events_;
-};
 
 TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording) {
   const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 10}});
@@ -81,9 +17,21 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json first = events_->next("pose"),
              later = events_->next("pose", [](const json&data) { return data.at("t") > 3'000'000'000; });
   EXPECT_NE(first.at("x"), later.at("x"));
+  const json path = info(run).at("path");
+  ASSERT_GT(path.size(), 10U);
+  EXPECT_EQ(path.front()[0], 0);
+  EXPECT_GE(path.back()[0], later.at("t"));
 
   ASSERT_EQ(control(run, {{"command", "pause"}}), 200);
   ASSERT_FALSE(await_state(run, "paused").is_null());
+  // What is shown is what the buffers hold at this moment.
+  const std::string recorded = get("/api/recordings").json().at(0).at("name");
+  const json samples = get("/api/recordings/" + recorded).json().at("values");
+  EXPECT_EQ(info(run).at("values").at("robot.control.motion").at("linear"),
+            samples.at("robot.control.motion.linear").back()[1]);
+  EXPECT_EQ(info(run).at("values").at("robot.control.motion").at("angular"),
+            samples.at("robot.control.motion.angular").back()[1]);
+
   // A step is one firing, seen by everybody.
   ASSERT_EQ(control(run, {{"command", "step_firing"}}), 200);
   const std::int64_t rest = info(run).at("t");
@@ -113,6 +61,9 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json recording = get("/api/recordings/" + name).json();
   EXPECT_EQ(recording.at("net_hash"), get("/api/spec").json().at("analysis").at("net_hash"));
   ASSERT_GT(recording.at("firings").size(), 100U);
+  EXPECT_TRUE(recording.at("marking").is_null());
+  EXPECT_GT(recording.at("path").size(), path.size());
+  EXPECT_TRUE(recording.at("track").is_string());
   const json part = get("/api/recordings/" + name + "?from=1000000000&to=2000000000").json();
   ASSERT_FALSE(part.at("firings").empty());
   EXPECT_GE(part.at("firings").front()[0], 1'000'000'000);
@@ -152,36 +103,70 @@ TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
 }
 
 TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoOfIt) {
-  std::atomic<bool> enough{false};
-  project::Exit exit;
-  std::thread other([&] {
-    exit = project::capture_apart(
-        {TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world"}, enough);
-  });
-  json names = json::array();
-  while (names.empty()) names = get("/api/controllers").json();
-  const std::string socket = names.at(0);
+  Elsewhere other({TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world",
+                   "--record-limit", "30kBx3"});
+  const std::string socket = await_controller();
   EXPECT_THAT(socket, testing::StartsWith("line_follower."));
+  const fs::path recording = folder_ / "project/.tessera/last/recording.tsr";
+  const auto await_segment = [&](std::uint64_t number) {
+    while (!fs::exists(segment_path(recording.string(), number))) ASSERT_TRUE(other.runs());
+  };
+  await_segment(2);
   const std::string run = start({{"kind", "attach"}, {"socket", socket}});
   ASSERT_FALSE(await_state(run, "running").is_null());
   EXPECT_FALSE(events_->next("firings").at("firings").empty());
+  const json value = events_->next("values").at("values");
+  EXPECT_FALSE(value.empty());
   const json shown = events_->next("subsystems");
   EXPECT_EQ(shown.at("run"), run);
   EXPECT_TRUE(shown.at("subsystems").at(0).at("iterations").is_number());
-  EXPECT_EQ(info(run).at("kind"), "attach");
+  EXPECT_FALSE(events_->next("pose").is_null());
+  // On and on in the next segment.
+  const std::int64_t before = info(run).at("t");
+  await_segment(5);
+  EXPECT_FALSE(
+      events_->next("firings", [&](const json& data) { return data.at("t") > before + 1'000'000'000; })
+          .is_null());
+  const json info_of_run = info(run);
+  EXPECT_FALSE(info_of_run.at("marking").empty());
+  EXPECT_FALSE(info_of_run.at("path").empty());
+  EXPECT_EQ(info_of_run.at("kind"), "attach");
   EXPECT_EQ(control(run, {{"command", "pause"}}), 409);
 
   ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
   EXPECT_THAT(await_state(run, "ended").at("why").get<std::string>(), HasSubstr("runs on"));
   EXPECT_THAT(get("/api/controllers").json().get<std::vector<std::string>>(), testing::Contains(socket));
-  enough = true;
-  other.join();
-  EXPECT_THAT(exit.text, HasSubstr("SIGINT"));
+  EXPECT_THAT(other.stop(), HasSubstr("SIGINT"));
 
   const Reply gone = post("/api/runs", {{"kind", "attach"}, {"socket", socket}});
   EXPECT_EQ(gone.status, 400);
   EXPECT_THAT(gone.body, HasSubstr("nobody listens"));
   EXPECT_EQ(post("/api/runs", {{"kind", "attach"}, {"socket", "../x.sock"}}).status, 400);
+}
+
+TEST_F(RunOfTheStudio, ARecordingThatIsElsewhereComesThroughTheControlSocketToItsEnd) {
+  const fs::path recording = folder_ / "elsewhere.tsr";
+  Elsewhere other({TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world",
+                   "--record", recording.string()});
+  const std::string run = start({{"kind", "attach"}, {"socket", await_controller()}});
+  while (!info(run).at("values").contains("robot.control.motion") || info(run).at("marking").empty())
+    ASSERT_EQ(info(run).at("why"), "");
+  EXPECT_THAT(other.stop(), HasSubstr("SIGINT"));
+  while (info(run).at("state") == "running") continue;
+  EXPECT_EQ(info(run).at("why"), "it has ended");
+
+  fs::rename(recording, folder_ / "project/elsewhere.tsr");
+  const std::size_t all = get("/api/recordings/elsewhere.tsr").json().at("firings").size();
+  EXPECT_GT(all, 50U);
+  std::size_t shown = 0;
+  EXPECT_FALSE(events_
+                   ->next("firings",
+                          [&](const json& data) {
+                            shown += data.at("firings").size() + data.at("dropped").get<std::size_t>();
+                            return shown >= all;
+                          })
+                   .is_null());
+  EXPECT_EQ(shown, all);
 }
 
 TEST_F(RunOfTheStudio, EndsWithTheServer) {

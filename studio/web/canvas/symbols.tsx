@@ -14,8 +14,6 @@ interface PartProps {
   selected: boolean;
 }
 
-const idOf = (path: string) => `element-${path || "system"}`;
-
 function Labels({ box, direction, lines }: { box: Box; direction: "down" | "right"; lines: { text: string; kind: string }[] }) {
   const shown = lines.filter((line) => line.text);
   const down = direction === "down";
@@ -37,7 +35,6 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
   return (
     <g
       className={`element place${node.fusion === null ? "" : " fused"}${selected ? " selected" : ""}`}
-      id={`${idOf(path)}@${page}`}
       data-path={path}
       role="img"
       aria-label={spoken(net, path)}
@@ -69,7 +66,6 @@ export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direct
   return (
     <g
       className={`element bar${never ? " never" : ""}${selected ? " selected" : ""}`}
-      id={idOf(path)}
       data-path={path}
       data-transition={flat}
       role="img"
@@ -123,7 +119,6 @@ export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
   return (
     <g
       className={`element page ${of.layer}${folded ? " folded" : ""}${selected ? " selected" : ""}`}
-      id={idOf(of.path)}
       data-path={of.path}
       data-page={child}
       role="img"

@@ -52,7 +52,7 @@ test("a folded page is a double circle, and opens again", () =>
     await button(page, "Fold control").click();
     await page.locator('.page.folded[data-path="robot.control"]').waitFor();
     assert.equal(await page.locator('[data-sheet="robot.control"]').count(), 0);
-    await element(page, "robot.control").dispatchEvent("dblclick"); // the view may still move
+    await element(page, "robot.control").dblclick({ timeout: 4000 });
     await page.locator('[data-sheet="robot.control"]').waitFor();
   }));
 

@@ -58,9 +58,7 @@ function Nets({ players }: { players: React.ReactNode[] }) {
   return (
     <>
       {old && (
-        <div className="strip">
-          The text changed since; this is the net that {old.pane.id === "run" ? "runs" : "is played"}.
-        </div>
+        <div className="strip">The text changed since; this is the net that {old.pane.id === "run" ? "runs" : "is played"}.</div>
       )}
       {!current && !old && (
         <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>

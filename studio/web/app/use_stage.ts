@@ -12,8 +12,7 @@ export function useRunning(stage: Stage): ReadonlyMap<string, string> {
   const told = useStore(studio.runner.store, (all) => all.behaviours);
   const [text, setText] = useState("");
   useEffect(() => {
-    const look = () =>
-      setText(net && stage.mode !== "edit" && stage.is(net) ? running(net, stage.marking) : "");
+    const look = () => setText(net && stage.mode !== "edit" && stage.is(net) ? running(net, stage.marking) : "");
     look();
     return stage.subscribe(look);
   }, [net, stage]);

@@ -1,4 +1,12 @@
-import { Background, BackgroundVariant, Controls, ReactFlow, useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
+import {
+  Background,
+  BackgroundVariant,
+  Controls,
+  ReactFlow,
+  useReactFlow,
+  useStore as useFlow,
+  type ReactFlowState,
+} from "@xyflow/react";
 import { useEffect, useMemo, type KeyboardEvent, type MouseEvent } from "react";
 import { useStore, useStudio } from "../app/use";
 import type { Pane } from "../live/scene";

@@ -113,7 +113,9 @@ export class Api {
       const own = (await this.project()).simulation?.track;
       const name = chosen || own?.image;
       if (!name) return null;
-      const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, { headers: { Authorization: `Bearer ${this.token}` } });
+      const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, {
+        headers: { Authorization: `Bearer ${this.token}` },
+      });
       if (!answer.ok) return null;
       return { image: await createImageBitmap(await answer.blob()), metresPerPixel: own?.metres_per_pixel ?? 0.005 };
     } catch {

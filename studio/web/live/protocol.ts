@@ -63,6 +63,16 @@ export interface VerifyEvent {
   error?: string;
 }
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
+/** What a controller says at its end. */
+export interface Outcome {
+  simulated_s: number;
+  wall_s: number;
+  real_time_factor: number;
+  firings: number;
+  lost_events: number;
+  warnings: string[];
+  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+}
 export interface RunInfo {
   run: string;
   kind?: RunRequest["kind"];
@@ -70,7 +80,7 @@ export interface RunInfo {
   track?: string | null;
   state: RunState;
   why?: string;
-  outcome?: unknown;
+  outcome?: Outcome | null;
   marking?: number[];
   net_hash?: string;
   t?: number;

@@ -7,6 +7,7 @@ import type {
   Breakpoint,
   ControlRequest,
   FiringsEvent,
+  Outcome,
   PoseEvent,
   RunInfo,
   RunRequest,
@@ -18,12 +19,22 @@ import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
 
+/** The next run as its form has it. */
+export interface Wishes {
+  kind: RunRequest["kind"];
+  /** Empty: that of the specification. */
+  track: string;
+  time: string;
+  seed: string;
+  speed: string;
+}
+
 export interface RunnerState {
   run: string | null;
   state: RunState | "idle";
   kind: RunRequest["kind"];
   why: string;
-  outcome: string;
+  outcome: Outcome | null;
   build: readonly string[];
   speed: number;
   problem: string;
@@ -44,7 +55,7 @@ const idle: RunnerState = {
   state: "idle",
   kind: "simulate",
   why: "",
-  outcome: "",
+  outcome: null,
   build: [],
   speed: 1,
   problem: "",
@@ -57,6 +68,7 @@ const idle: RunnerState = {
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
   readonly stage = new Stage();
+  readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
 
@@ -145,7 +157,7 @@ export class Runner {
     this.store.set({
       state: info.state,
       why: info.why ?? "",
-      outcome: info.outcome === undefined || info.outcome === null ? "" : outcomeText(info.outcome),
+      outcome: info.outcome ?? null,
     });
     if (info.marking && this.track) this.stage.setMarked(info.marking);
     if (info.values) this.valued({ t: info.t ?? 0, values: info.values });
@@ -227,11 +239,4 @@ export class Runner {
     this.track = null;
     this.store.set({ ...idle, breakpoints: this.store.get().breakpoints });
   }
-}
-
-function outcomeText(outcome: unknown): string {
-  if (typeof outcome === "string") return outcome;
-  return Object.entries(outcome as Record<string, unknown>)
-    .map(([key, value]) => `${key}: ${typeof value === "object" ? JSON.stringify(value) : String(value)}`)
-    .join(" · ");
 }

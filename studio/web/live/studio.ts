@@ -78,7 +78,10 @@ export class Studio {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
-    this.connection.on<{ revision: string }>("spec", (event) => void this.draft.changedOnDisk(event.revision));
+    this.connection.on<{ revision: string }>("spec", (event) => {
+      void this.draft.changedOnDisk(event.revision);
+      void this.describeProject();
+    });
     this.connection.on<{ server_start: string | number }>("hello", (event) => void this.greeted(String(event.server_start)));
   }
 
@@ -91,6 +94,15 @@ export class Studio {
     }
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
+  }
+
+  /** What the file says of the project may be new: its name, its simulated world. */
+  private async describeProject(): Promise<void> {
+    try {
+      this.project.set({ project: await this.api.project() });
+    } catch {
+      // The connection tells when the server has gone.
+    }
   }
 
   /** Another server than before: what it knows of the file may be new. */

@@ -12,12 +12,7 @@ export function ComparisonBar() {
   return (
     <div className="comparison" role="group" aria-label="Comparison">
       <label className="switch" title="The right one shows the moment that the left one shows">
-        <input
-          type="checkbox"
-          role="switch"
-          checked={sameTime}
-          onChange={(event) => studio.scene.lock(event.target.checked)}
-        />{" "}
+        <input type="checkbox" role="switch" checked={sameTime} onChange={(event) => studio.scene.lock(event.target.checked)} />{" "}
         Same time
       </label>
       {comparison && (

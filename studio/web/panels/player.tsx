@@ -28,12 +28,7 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
       <button className="icon" aria-label="Back to the last firing" disabled={fixed} onClick={() => replay.step(-1)}>
         <Icon name="back" />
       </button>
-      <button
-        className="icon"
-        aria-label={playing ? "Pause" : "Play"}
-        disabled={fixed}
-        onClick={() => replay.play(!playing)}
-      >
+      <button className="icon" aria-label={playing ? "Pause" : "Play"} disabled={fixed} onClick={() => replay.play(!playing)}>
         <Icon name={playing ? "pause" : "play"} />
       </button>
       <button className="icon" aria-label="To the next firing" disabled={fixed} onClick={() => replay.step(1)}>
@@ -73,7 +68,7 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
 /** What a run beside something else needs most. */
 function RunBar({ track }: { track: Track }) {
   const studio = useStudio();
-  const state = useStore(studio.runner.store, (all) => all.state);
+  const { state, kind } = useStore(studio.runner.store, (all) => all);
   const position = useRef<HTMLSpanElement>(null);
   useEffect(() => {
     const tell = () => {
@@ -86,23 +81,14 @@ function RunBar({ track }: { track: Track }) {
   const paused = state === "paused";
   return (
     <div className="player" role="group" aria-label="The run">
-      {(paused || state === "running") && (
-        <>
-          <button
-            className="icon"
-            aria-label={paused ? "Let the run go on" : "Pause the run"}
-            onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
-          >
-            <Icon name={paused ? "play" : "pause"} />
-          </button>
-          <button
-            className="icon"
-            aria-label="Stop the run"
-            onClick={() => void studio.runner.control({ command: "stop" })}
-          >
-            <Icon name="stop" />
-          </button>
-        </>
+      {kind !== "run" && (paused || state === "running") && (
+        <button
+          className="icon"
+          aria-label={paused ? "Let the run go on" : "Pause the run"}
+          onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
+        >
+          <Icon name={paused ? "play" : "pause"} />
+        </button>
       )}
       <span className="faint">{stateTitles[state]}</span>
       <span className="spring" />

@@ -83,10 +83,12 @@ function Verdicts() {
   if (verdicts.length === 0 || text !== now) return null;
   const violated = verdicts.filter((one) => one.verdict === "violated" && !one.warning).length;
   const unknown = verdicts.filter((one) => one.verdict === "unknown").length;
+  const warnings = verdicts.filter((one) => one.verdict === "violated" && one.warning).length;
   const said = violated > 0 ? `${violated} violated` : unknown > 0 ? `${unknown} unknown` : "verified";
+  const besides = violated === 0 && warnings > 0 ? `, ${warnings} ${warnings === 1 ? "warning" : "warnings"}` : "";
   return (
     <button className="quiet" onClick={() => studio.view.set({ panel: "verify" })}>
-      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said}
+      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said + besides}
     </button>
   );
 }

@@ -51,12 +51,7 @@ describe("differences", () => {
     run.forEach((name, at) => timeline.add(at * 10, named(name)));
     return timeline;
   };
-  const toFollow = after(
-    "robot.control.t_in",
-    "robot.control.init.t1",
-    "robot.control.t_init_1",
-    "robot.control.follow.t1",
-  );
+  const toFollow = after("robot.control.t_in", "robot.control.init.t1", "robot.control.t_init_1", "robot.control.follow.t1");
   const inInit = after("robot.control.t_in", "robot.control.init.t1");
   it("names the subsystems that do something else at a moment", () => {
     expect(differences(toFollow, inInit, 25)).toEqual([{ path: "robot.control", behaviours: ["follow", "init"] }]);

@@ -91,6 +91,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
       onKeyDown={keys}
     >
       <ReactFlow<SheetNode>
+        id={lead ? "net" : "net-beside"}
         nodes={nodes}
         edges={noEdges}
         nodeTypes={nodeTypes}
@@ -104,8 +105,8 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
         disableKeyboardA11y
         proOptions={{ hideAttribution: true }}
       >
-        <Background id={pane.id} variant={BackgroundVariant.Dots} gap={28} size={1} />
-        <Controls showInteractive={false} position="bottom-right" />
+        <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+        {lead && <Controls showInteractive={false} position="bottom-right" />}
       </ReactFlow>
     </div>
   );

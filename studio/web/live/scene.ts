@@ -20,8 +20,8 @@ export interface Comparison {
   /** Nanoseconds. */
   time: number;
   differences: readonly Difference[];
-  /** Which of them has nothing at that moment. */
-  missing: "left" | "right" | null;
+  /** Why there is nothing to compare: one of them was not yet, or no longer, there; or the left one is known in samples only. */
+  missing: "left" | "right" | "sampled" | null;
 }
 
 export interface SceneState {
@@ -121,7 +121,8 @@ function compared(left: Track, right: Track, sameTime: boolean): Comparison {
   const moment = sameTime ? left.now : right.now;
   if (moment > right.end) return { time: moment, differences: [], missing: "right" };
   if (!sameTime && moment > left.known) return { time: moment, differences: [], missing: "left" };
-  // Of a live run, what fired is known a little later than that it is that late.
+  if (!sameTime && left.dropped > 0) return { time: moment, differences: [], missing: "sampled" };
+  // Of a live run, what fired is known a little later than that it is that late; with it comes the marking.
   const time = Math.min(moment, left.known);
   return { time, differences: differences(left.timeline, right.timeline, time), missing: null };
 }

@@ -2,6 +2,12 @@ import { useStore, useStudio } from "../app/use";
 import type { Difference } from "../model/timeline";
 import { clock } from "./clock";
 
+const missing = {
+  left: "the left one has not come so far",
+  right: "the right one has ended by then",
+  sampled: "the run was too fast to be known in full; its recording is",
+};
+
 /** More than that are counted. */
 const most = 6;
 
@@ -20,7 +26,7 @@ export function ComparisonBar() {
           At {clock(comparison.time)} s
         </span>
       )}
-      {comparison?.missing && <span className="faint">the {comparison.missing} one has nothing to compare</span>}
+      {comparison?.missing && <span className="faint">{missing[comparison.missing]}</span>}
       {comparison && !comparison.missing && <Differences all={comparison.differences} />}
     </div>
   );

@@ -33,7 +33,7 @@ export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; bet
       <div className="panes">
         {panes.map((drawn, at) => (
           // By position: when something else comes to be shown, the drawing stays where it is.
-          <section key={at} className="net-pane" aria-label={drawn.title}>
+          <section key={at} className="net-pane" aria-label={`Net of ${drawn.title}`}>
             {drawn.head}
             <ReactFlowProvider>
               <Drawing

@@ -33,6 +33,7 @@ export function Painted({
   onPick,
   every = 48,
 }: {
+  /** What is to be seen; empty: nothing that is not said beside it. */
   label: string;
   /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
   every?: number;
@@ -69,8 +70,7 @@ export function Painted({
     <canvas
       ref={ref}
       className="painted"
-      role="img"
-      aria-label={label}
+      {...(label ? { role: "img", "aria-label": label } : { "aria-hidden": true })}
       onClick={(event) =>
         onPick?.(event.clientX - event.currentTarget.getBoundingClientRect().left, event.currentTarget.clientWidth)
       }

@@ -1,7 +1,7 @@
 // A recording beside the run, and beside another recording.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, drawn, element, example, onPage, tab, until } from "./page.mjs";
+import { button, drawn, element, example, judges, onPage, tab, until } from "./page.mjs";
 
 const fill = async (page, label, value) => {
   await page.getByRole("textbox", { name: label, exact: true }).fill(value);
@@ -35,6 +35,14 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
     await compared.waitFor();
     assert.equal(await panes(page).count(), 2);
     assert.equal(await page.locator(".watch").count(), 2);
+
+    const objections = [];
+    const judge = await judges(page, objections);
+    for (const theme of ["light", "dark"]) {
+      await judge(`${theme}, side by side`);
+      await button(page, "Dark colours").click();
+    }
+    assert.deepEqual(objections, []);
 
     // The slider moves the recording alone.
     const slider = page.getByRole("slider", { name: "Time" });

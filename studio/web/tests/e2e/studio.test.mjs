@@ -1,9 +1,8 @@
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { button, changes, draftText, drawn, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, changes, draftText, drawn, element, example, find, folder, judges, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -217,14 +216,23 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
-    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
+    const replayed = page.getByRole("region", { name: /^2/ }).locator(".watch-pane");
+    await replayed.getByText("robot.control.motion.linear").waitFor();
     await button(page, "Play").click();
     await until(
       page,
-      async () => Number((await page.locator(".player .position").innerText()).split(" ")[0]) > 0.05,
+      async () =>
+        Number(
+          (
+            await page
+              .getByRole("group", { name: /^Recording/ })
+              .locator(".position")
+              .innerText()
+          ).split(" ")[0],
+        ) > 0.05,
       "the recording plays",
     );
-    await button(page, "Close").click();
+    await page.getByRole("button", { name: /^Close 2/ }).click();
   }));
 
 test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
@@ -361,13 +369,8 @@ test("a view is exported as a drawing that stands on its own", () =>
 
 test("axe finds nothing to object to, light and dark, in every view and panel", () =>
   onPage(lineFollower, async (page) => {
-    const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-    await page.evaluate(axe);
     const found = [];
-    const judge = async (where) => {
-      const { violations } = await page.evaluate(() => axe.run());
-      found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
-    };
+    const judge = await judges(page, found);
     await page.locator(".sheet").first().waitFor();
     for (const theme of ["light", "dark"]) {
       for (const name of ["Element", "Verify", "Play", "Run", "Recordings"]) {

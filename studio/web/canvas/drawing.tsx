@@ -7,7 +7,7 @@ import {
   useStore as useFlow,
   type ReactFlowState,
 } from "@xyflow/react";
-import { useEffect, useMemo, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
 import { useStore, useStudio } from "../app/use";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
@@ -64,14 +64,17 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
   );
 
   const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
+  // The view may move between the two clicks of a double one; the first says what is meant.
+  const first = useRef<string | null>(null);
   const click = (event: MouseEvent) => {
     const path = pathAt(event);
+    if (event.detail <= 1) first.current = path;
     const transition = path === null ? undefined : net.transitionByName.get(path);
     if (stage.mode === "game" && transition !== undefined) studio.play.choose(transition);
     studio.select(path);
   };
-  const doubleClick = (event: MouseEvent) => {
-    const path = pathAt(event);
+  const doubleClick = () => {
+    const path = first.current;
     if (path === null) return;
     const page = net.pageByPath.get(path);
     if (page !== undefined && sheets.folded(page)) studio.fold(path, false);

@@ -12,7 +12,7 @@ export interface Lane {
   subsystem: number;
   segments: Segment[];
   firings: number[];
-  /** Those that ran, in the order in which they first did. */
+  /** Those that it has, in the order of the specification. */
   behaviours: string[];
   /** From when on all segments are kept. */
   since: number;
@@ -36,7 +36,8 @@ export class Timeline {
     this.lanes = net.subsystemPages().map((page, lane) => {
       const { path, subsystem } = net.page(page);
       if (subsystem !== null) this.laneOf.set(subsystem, lane);
-      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours: [], since: -Infinity };
+      const behaviours = net.children(page).map((child) => net.page(child).name);
+      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours, since: -Infinity };
     });
     this.entered = net.transitions.map((transition) => {
       for (const arc of transition.outputs) {
@@ -66,7 +67,6 @@ export class Timeline {
     if ((lane.segments.at(-1)?.behaviour ?? "") === behaviour) return;
     if (lane.segments.length >= this.limit) lane.since = bounded(lane.segments, this.limit)[0]!.start;
     lane.segments.push({ start: time, behaviour });
-    if (behaviour && !lane.behaviours.includes(behaviour)) lane.behaviours.push(behaviour);
   }
 
   /** What ran at a moment, "" for nothing; undefined when that is no longer known. */

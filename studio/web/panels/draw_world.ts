@@ -23,6 +23,9 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
   drawScale(context, size, colours, scale);
 }
 
+/** Poses further apart in time than that (in ns) say nothing of the way between them. */
+const apart = 1.5e9;
+
 /** What was driven so far; what a recording has beyond the moment that is shown, as a faint line. */
 function drawPath(
   context: CanvasRenderingContext2D,
@@ -33,16 +36,24 @@ function drawPath(
   y: (at: number) => number,
 ): void {
   const every = Math.max(1, Math.floor(path.length / 4000));
-  const line = (from: number, to: number, colour: string, width: number) => {
-    context.strokeStyle = colour;
-    context.lineWidth = width;
+  const line = (from: number, to: number, colour: string) => {
+    context.strokeStyle = context.fillStyle = colour;
+    context.lineWidth = 1.5;
     context.beginPath();
-    for (let at = from; at < to; at += every) context.lineTo(x(path[at]!.x), y(path[at]!.y));
-    if (to > from) context.lineTo(x(path[to - 1]!.x), y(path[to - 1]!.y));
+    let before: Pose | undefined;
+    for (let at = from; at < to; at = at === to - 1 ? to : Math.min(at + every, to - 1)) {
+      const pose = path[at]!;
+      if (before && pose.t - before.t < apart * every) context.lineTo(x(pose.x), y(pose.y));
+      else {
+        context.moveTo(x(pose.x), y(pose.y));
+        context.fillRect(x(pose.x) - 0.75, y(pose.y) - 0.75, 1.5, 1.5);
+      }
+      before = pose;
+    }
     context.stroke();
   };
-  line(Math.max(0, driven - 1), path.length, colours.line, 1.5);
-  line(0, driven, colours.accent, 1.5);
+  line(Math.max(0, driven - 1), path.length, colours.line);
+  line(0, driven, colours.accent);
 }
 
 /** The picture's lower left corner is the floor's origin. */

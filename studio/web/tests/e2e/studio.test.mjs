@@ -477,3 +477,30 @@ test("all that is loaded packs into less than a megabyte, and nothing moves for 
     const moving = await page.evaluate(() => document.getAnimations().filter((one) => one.playState === "running").length);
     assert.equal(moving, 0);
   }));
+
+test("of a run that is too fast to be drawn, all firings are counted, and the page says how many were not shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    for (const [label, value] of [
+      ["For", "20min"],
+      ["Speed", "0"],
+    ]) {
+      await page.getByRole("textbox", { name: label, exact: true }).fill(value);
+      await page.keyboard.press("Enter");
+    }
+    await button(page, "Run").click();
+    const facts = page.getByTestId("run-facts");
+    await facts.getByText(/only counted/).waitFor();
+    // It answers meanwhile: another layer is drawn while firings come.
+    await find(page, "robot.control.follow");
+    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await drawn(page);
+    const number = (pattern, text) => Number(pattern.exec(text)[1].replaceAll(",", ""));
+    const outcome = number(/([\d,]+) firings/, await page.locator(".run-panel").innerText());
+    await until(page, async () => number(/([\d,]+) firings/, await facts.innerText()) === outcome, "as many as there were");
+    const dropped = number(/([\d,]+) only counted/, await facts.innerText());
+    assert.ok(outcome > 100_000 && dropped > 0 && dropped < outcome, `${dropped} of ${outcome}`);
+    const shown = await page.locator(".firings").allInnerTexts();
+    assert.ok(shown.some((text) => text !== ""));
+  }));

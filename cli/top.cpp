@@ -164,6 +164,7 @@ int top_command(const Options& options) {
   while (const std::optional<std::string> line = watched->line()) {
     json now = json::parse(*line, nullptr, false);
     if (now.is_discarded()) return complain("the controller sent what this version does not understand");
+    if (now.contains("ended")) break;
     if (options.lines) {
       fmt::print("{}\n", *line);
       if (options.once) return ok;

@@ -24,6 +24,11 @@ std::optional<ValueTrack::Change> ValueTrack::follow(const Recording::Entry& ent
                 held.hashed,  held.layout ? &*held.layout : nullptr};
 }
 
+ValueTrack::Value ValueTrack::value(std::uint32_t buffer) const {
+  const Held& held = held_.at(buffer);
+  return {held.bytes, held.hashed, held.layout ? &*held.layout : nullptr};
+}
+
 std::string text_of(const ValueTrack::Change& change) {
   if (change.event.has(ValueFlags::silent)) return "no value";
   if (change.event.has(ValueFlags::failed)) return "the device has failed";

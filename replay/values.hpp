@@ -28,6 +28,14 @@ class ValueTrack {
   /// call.
   [[nodiscard]] std::optional<Change> follow(const Recording::Entry& entry);
 
+  struct Value {
+    std::string_view bytes;  ///< empty: there was none yet
+    bool hashed = false;
+    const ValueLayout* layout;  ///< nullptr: of a type that is not known
+  };
+  /// What a buffer, by its number, holds now. Valid until the next call of `follow`.
+  [[nodiscard]] Value value(std::uint32_t buffer) const;
+
  private:
   struct Held {
     std::string bytes;

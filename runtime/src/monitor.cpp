@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "console.hpp"
 #include "tessera/monitor.hpp"
@@ -76,7 +77,10 @@ Monitor::~Monitor() {
     [[maybe_unused]] const ssize_t written = write(ending_, &one, sizeof one);
     thread_.join();
   }
-  for (const Client& client : clients_) close(client.socket);
+  for (Client& client : clients_) {
+    say_goodbye(client);
+    close(client.socket);
+  }
   if (ending_ >= 0) close(ending_);
   if (listening_ < 0) return;
   close(listening_);
@@ -119,7 +123,7 @@ void Monitor::serve() {
     std::vector<pollfd> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
                                 pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
     for (const Client& client : clients_) {
-      const int wanted = (remote_ == nullptr ? 0 : POLLIN) | (client.waiting.empty() ? 0 : POLLOUT);
+      const int wanted = POLLIN | (client.waiting.empty() ? 0 : POLLOUT);
       sources.push_back({.fd = client.socket, .events = static_cast<short>(wanted), .revents = 0});
     }
     const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
@@ -150,7 +154,7 @@ void Monitor::admit() {
     close(client);
     return;
   }
-  clients_.push_back({.socket = client, .said = {}, .waiting = {}});
+  clients_.push_back({.socket = client, .said = {}, .waiting = {}, .recording = nullptr});
   send_to_all();
 }
 
@@ -159,7 +163,7 @@ void Monitor::hear(Client& client) {
   const ssize_t count = recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   client.gone = count <= 0;
-  if (client.gone || remote_ == nullptr) return;
+  if (client.gone) return;
   client.said.append(bytes.data(), static_cast<std::size_t>(count));
   for (std::size_t end; (end = client.said.find('\n')) != std::string::npos; client.said.erase(0, end + 1))
     obey(client, client.said.substr(0, end));
@@ -168,20 +172,54 @@ void Monitor::hear(Client& client) {
 
 void Monitor::obey(Client& client, const std::string& line) {
   const nlohmann::json command = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
-  if (command.is_object() && command.contains("command") && command["command"] == "own") {
+  const bool named = command.is_object() && command.contains("command");
+  if (named && command["command"] == "own") {
     client.owner = true;
     return;
   }
+  if (client.waiting.empty()) client.took_ns = monotonic_ns();
+  if (named && command["command"] == "recording") {
+    // Who always has a piece on the way would never get a line.
+    if (std::exchange(client.missed_a_line, false)) client.waiting += snapshot() + '\n';
+    add_piece(client);
+  } else {
+    client.waiting += answer_to(command);
+  }
+  deliver(client);
+}
+
+std::string Monitor::answer_to(const nlohmann::json& command) {
   std::string wrong = "this is no command";
   std::int64_t id = 0;
   try {
     id = command.value("id", id);
-    wrong = remote_->command(command);
+    wrong = remote_ == nullptr ? "a controller in real time can only be watched" : remote_->command(command);
   } catch (const nlohmann::json::exception&) {  // members of another type
   }
-  if (client.waiting.empty()) client.took_ns = monotonic_ns();
-  client.waiting += nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
+  return nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
+}
+
+/// false: there was nothing new.
+bool Monitor::add_piece(Client& client) {
+  if (client.recording == nullptr)
+    client.recording =
+        std::make_unique<GrowingRecording>(assembly_.options.recording, GrowingRecording::From::newest);
+  const GrowingRecording::Piece piece = client.recording->next(longest_piece);
+  const nlohmann::json head{
+      {"recording_bytes", piece.bytes.size()}, {"begins", piece.begins}, {"more", piece.more}};
+  client.waiting += head.dump() + '\n' + piece.bytes;
+  return !piece.bytes.empty();
+}
+
+/// The end, and what it has not seen of the recording.
+void Monitor::say_goodbye(Client& client) {
+  client.waiting += "{\"ended\":true}\n";
   deliver(client);
+  bool more = client.recording != nullptr;
+  while (more && client.waiting.empty() && !client.gone) {
+    more = add_piece(client);
+    deliver(client);
+  }
 }
 
 void Monitor::drop_the_gone() {
@@ -206,9 +244,11 @@ void Monitor::deliver(Client& client) {
 /// Who has not taken the last line yet goes without this one, and who takes nothing at all is dropped.
 void Monitor::send_to_all() {
   std::string line;
+  if (remote_ != nullptr && !clients_.empty()) remote_->show_recording();
   for (Client& client : clients_) {
     if (!client.waiting.empty()) {
       client.gone = client.gone || monotonic_ns() - client.took_ns > patience_ns;
+      client.missed_a_line = true;
       continue;
     }
     if (line.empty()) line = snapshot() + '\n';
@@ -263,9 +303,7 @@ std::string Monitor::snapshot() const {
   all["pauses"] = shown.pauses;
   all["speed"] = shown.speed;
   all["broke_at"] = shown.broke_at;
-  std::string text = all.dump();
-  if (!shown.values.empty()) text.replace(text.size() - 1, 1, ",\"values\":" + shown.values + "}");
-  return text;
+  return all.dump();
 }
 
 }  // namespace tessera

@@ -1,17 +1,20 @@
 #pragma once
 
-#include <atomic>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "assembly.hpp"
 #include "remote_control.hpp"
+#include "tessera/growing_recording.hpp"
 
 namespace tessera {
 
-/// Serves what the subsystems show (tessera/monitor.hpp) in a thread of its own, from construction to
-/// destruction. Takes no part in the run: what goes wrong with it is in `failure` and ends nothing.
+/// Serves what the subsystems show, and the recording (tessera/monitor.hpp), in a thread of its own, from
+/// construction to destruction, which is best after the recorder was closed: the last clients see all of it.
+/// Takes no part in the run: what goes wrong with it is in `failure` and ends nothing.
 ///
 /// Threads: made and destroyed by one; the assembly must outlive it.
 class Monitor {
@@ -31,9 +34,11 @@ class Monitor {
   void admit();
   struct Client {
     int socket;
-    std::string said;          ///< the beginning of a command
-    std::string waiting;       ///< what its socket had no room for
-    std::int64_t took_ns = 0;  ///< when it last took some of that
+    std::string said;                             ///< the beginning of a command
+    std::string waiting;                          ///< what its socket had no room for
+    std::int64_t took_ns = 0;                     ///< when it last took some of that
+    std::unique_ptr<GrowingRecording> recording;  ///< nullptr: it has not asked for it
+    bool missed_a_line = false;                   ///< since it had not taken what came before
     bool owner = false;
     bool gone = false;
   };
@@ -41,6 +46,9 @@ class Monitor {
   static void deliver(Client& client);
   void hear(Client& client);
   void obey(Client& client, const std::string& line);
+  [[nodiscard]] std::string answer_to(const nlohmann::json& command);
+  bool add_piece(Client& client);
+  void say_goodbye(Client& client);
   void drop_the_gone();
   [[nodiscard]] std::string snapshot() const;
 

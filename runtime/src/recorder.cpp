@@ -16,7 +16,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::string_view magic = "TESSREC1";
 constexpr std::int64_t drain_period_ns = 5'000'000;
 constexpr std::uint32_t stuck_after_rounds = 100;  // half a second, and more
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
@@ -34,10 +33,7 @@ void remove_segments(const std::string& path) {
   std::error_code ignored;
   const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string number = entry.path().stem().extension().string();
-    const bool numbered = number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (numbered && entry.path().stem().stem() == whole.stem() &&
-        entry.path().extension() == whole.extension())
+    if (fs::path(without_segment_number(entry.path().string())).filename() == whole.filename())
       fs::remove(entry.path(), ignored);
   }
 }
@@ -75,8 +71,8 @@ bool RecordingFile::open_segment() {
   }
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
-  start.reserve(magic.size() + sizeof length + header.size() + 8);  // with the padding
-  start.append(magic);
+  start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.append(recording_magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');

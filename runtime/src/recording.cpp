@@ -12,8 +12,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::string_view magic = "TESSREC1";
-
 [[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
   for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
                                Recording::Direction::real_input, Recording::Direction::real_output})
@@ -117,15 +115,16 @@ void RecordingReader::give_up(std::string problem) {
 /// 0: it is not whole yet.
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
-  const std::size_t before_header = magic.size() + sizeof length;
-  if (!bytes.starts_with(magic.substr(0, bytes.size()))) {
+  const std::size_t before_header = recording_magic.size() + sizeof length;
+  if (!bytes.starts_with(recording_magic.substr(0, bytes.size()))) {
     give_up("is no recording of Tessera");
     return 0;
   }
   if (bytes.size() < before_header) return 0;
-  std::memcpy(&length, bytes.data() + magic.size(), sizeof length);
+  std::memcpy(&length, bytes.data() + recording_magic.size(), sizeof length);
+  if (length > longest_recording_header) give_up("has a damaged header");
   const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
-  if (bytes.size() < start_of_events) return 0;
+  if (state_ == State::damaged || bytes.size() < start_of_events) return 0;
   recording_.header = bytes.substr(before_header, length);
   if (!read_header(recording_)) {
     give_up("has a damaged header");
@@ -228,12 +227,6 @@ namespace {
   return std::move(reader.recording());
 }
 
-/// "run.3.tsr" and the like.
-[[nodiscard]] bool has_number(const std::filesystem::path& path) {
-  const std::string number = path.stem().extension().string();
-  return number.size() > 1 && number.find_first_not_of("0123456789", 1) == std::string::npos;
-}
-
 /// What the headers of segments of one run have in common.
 [[nodiscard]] std::string_view without_segment(std::string_view header) {
   return header.substr(0, header.rfind(",\"segment\":"));
@@ -248,11 +241,18 @@ std::string segment_path(const std::string& path, std::uint64_t number) {
       .string();
 }
 
+std::string without_segment_number(const std::string& path) {
+  const std::filesystem::path whole(path), stem = whole.stem();
+  const std::string number = stem.extension().string();
+  if (number.size() < 2 || number.find_first_not_of("0123456789", 1) != std::string::npos) return {};
+  return (whole.parent_path() / (stem.stem().string() + whole.extension().string())).string();
+}
+
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   const bool folder = std::filesystem::is_directory(path);
   const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
   std::optional<Recording> newest = read_segment(file, error);
-  if (!newest || newest->segment.value_or(0) == 0 || has_number(file)) return newest;
+  if (!newest || newest->segment.value_or(0) == 0 || !without_segment_number(file).empty()) return newest;
   std::vector<Recording> segments;
   std::uint64_t number = *newest->segment;
   segments.push_back(std::move(*newest));

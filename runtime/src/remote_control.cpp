@@ -15,16 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t values_period_ns = 40'000'000;
-constexpr std::size_t largest_value = 4096, most_values = std::size_t{256} << 10U;  // bytes
 constexpr double fastest = 1000;
-
-void append_hex(const void* value, std::size_t size, std::string& to) {
-  for (const auto* byte = static_cast<const unsigned char*>(value); size > 0; ++byte, --size) {
-    to += "0123456789abcdef"[*byte >> 4U];
-    to += "0123456789abcdef"[*byte & 15U];
-  }
-}
 
 }  // namespace
 
@@ -129,7 +120,7 @@ bool RemoteControl::find(Breakpoint& breakpoint) const {
 
 RemoteControl::Shown RemoteControl::shown() const {
   const std::lock_guard lock(mutex_);
-  return {resting(), speed_, broke_at_, pauses_, values_};
+  return {resting(), speed_, broke_at_, pauses_};
 }
 
 void RemoteControl::abandon() {
@@ -147,7 +138,7 @@ void RemoteControl::take_news() const {
   [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
 }
 
-bool RemoteControl::wait_while_paused(const StopSignals& signals, Time now) {
+bool RemoteControl::wait_while_paused(const StopSignals& signals) {
   bool waited = false;
   while (StopSignals::pending() == 0 && !assembly_.control.stopping()) {
     {
@@ -155,7 +146,6 @@ bool RemoteControl::wait_while_paused(const StopSignals& signals, Time now) {
       if (!resting()) return waited;
       if (!waited) {
         ++pauses_;
-        keep_values(now);
         if (assembly_.recorder != nullptr) assembly_.recorder->flush();
       }
     }
@@ -225,36 +215,10 @@ void RemoteControl::fired(std::uint32_t instance) {
   update();
 }
 
-void RemoteControl::show_values(Time now) {
-  const std::int64_t wall_ns = monotonic_ns();
-  if (wall_ns - values_at_ns_ < values_period_ns) return;
-  values_at_ns_ = wall_ns;
-  const std::lock_guard lock(mutex_);
-  keep_values(now);
-}
-
-/// {"time_s", "buffers": {"robot.sensor.line": bytes in hexadecimal}}
-void RemoteControl::keep_values(Time now) {
-  values_ = "{\"time_s\":" + std::to_string(static_cast<double>(now.time_since_epoch().count()) * 1e-9) +
-            ",\"buffers\":{";
-  const char* separator = "\"";
-  const auto add = [&](const std::string& path, const auto& buffers) {
-    for (const auto& buffer : buffers) {
-      // A value that is more than its bytes is an image or the like: too much to send so often.
-      if (buffer.type != nullptr || buffer.size > largest_value || values_.size() > most_values) continue;
-      values_.append(separator).append(path).append(".").append(buffer.name).append("\":\"");
-      append_hex(buffer.value, buffer.size, values_);
-      separator = "\",\"";
-    }
-  };
-  for (const auto& executor : assembly_.executors) {
-    const Bindings& bindings = executor->operations().parts().bindings;
-    add(executor->path(), bindings.inputs);
-    add(executor->path(), bindings.outputs);
-    add(executor->path(), bindings.real_inputs);
-    add(executor->path(), bindings.real_outputs);
-  }
-  values_ += *separator == '"' && separator[1] == '\0' ? "}}" : "\"}}";
+void RemoteControl::keep_recording_live() {
+  if (!recording_wanted_.load(std::memory_order_relaxed)) return;
+  recording_wanted_.store(false, std::memory_order_relaxed);
+  if (assembly_.recorder != nullptr) assembly_.recorder->flush();
 }
 
 }  // namespace tessera

@@ -34,9 +34,10 @@ class RemoteControl {
     double speed = 0;
     std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
     std::uint64_t pauses = 0;  ///< how often it has come to rest
-    std::string values;        ///< JSON of the last values; empty: none yet
   };
   [[nodiscard]] Shown shown() const;
+  /// What has been recorded shall be in the file soon.
+  void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
   /// The run shall end because who started it has gone.
   void abandon();
 
@@ -45,14 +46,14 @@ class RemoteControl {
   /// Whether `fired` has to be told of every firing by itself.
   [[nodiscard]] bool one_by_one() const { return one_by_one_.load(std::memory_order_relaxed); }
   /// Returns at once unless it is paused (false); else when that is over or a signal has come.
-  bool wait_while_paused(const StopSignals& signals, Time now);
+  bool wait_while_paused(const StopSignals& signals);
   /// Returns when it is time (false: before that, because of a command or a signal).
   [[nodiscard]] bool wait_for(Duration time, const StopSignals& signals);
   /// Around each firing that is told of.
   void about_to_fire();
   void fired(std::uint32_t instance);
-  /// Keeps the values of all buffers for `shown`, at most every 40 ms.
-  void show_values(Time now);
+  /// Writes what has been recorded into the file if somebody wants to see it.
+  void keep_recording_live();
 
  private:
   struct Breakpoint {
@@ -69,7 +70,6 @@ class RemoteControl {
   [[nodiscard]] std::string set_breakpoints(const nlohmann::json& command);
   [[nodiscard]] std::string step_iteration(const nlohmann::json& command);
   void update();
-  void keep_values(Time now);
   void take_news() const;
 
   Assembly& assembly_;
@@ -80,11 +80,10 @@ class RemoteControl {
   std::uint32_t iterating_ = UINT32_MAX;   ///< UINT32_MAX: any
   std::vector<std::uint64_t> iterations_;  ///< when that was asked for; empty: to be filled by the run
   std::vector<Breakpoint> breakpoints_;
-  std::string broke_at_, values_;
+  std::string broke_at_;
   std::uint64_t pauses_ = 0;
-  std::int64_t values_at_ns_ = 0;
   std::atomic<double> speed_;
-  std::atomic<bool> one_by_one_{false};
+  std::atomic<bool> one_by_one_{false}, recording_wanted_{false};
   int news_ = -1;  ///< eventfd: a command has come
 };
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "console.hpp"
-#include "monitor.hpp"
 #include "stillness.hpp"
 
 namespace tessera {
@@ -114,23 +113,22 @@ bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, co
   bool waited = false;
   while ((unfinished_ || !ready_.empty()) && !assembly.control.stopping()) {
     if (remote_ != nullptr) {
-      waited = remote_->wait_while_paused(signals, clock_.now()) || waited;
+      waited = remote_->wait_while_paused(signals) || waited;
       if (StopSignals::pending() != 0) break;
     }
     const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready();
     unfinished_.reset();
     if (!has_ended_[instance]) step(assembly, upper, instance);
   }
-  if (remote_ != nullptr) waited = remote_->wait_while_paused(signals, clock_.now()) || waited;
+  if (remote_ != nullptr) waited = remote_->wait_while_paused(signals) || waited;
   return waited;
 }
 
 Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
-  std::optional<Monitor> monitor;
   if (assembly.options.monitor) {
     remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused, assembly.options.speed);
-    monitor.emplace(assembly, clock_, remote_.get());
-    monitor->complain_of_failure(clock_.now());
+    monitor_.emplace(assembly, clock_, remote_.get());
+    monitor_->complain_of_failure(clock_.now());
   }
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
@@ -216,7 +214,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
-    if (remote_ != nullptr) remote_->show_values(clock_.now());
+    if (remote_ != nullptr) remote_->keep_recording_live();
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {
       move_to(assembly, end);

@@ -9,6 +9,7 @@
 
 #include "assembly.hpp"
 #include "deadline_queue.hpp"
+#include "monitor.hpp"
 #include "remote_control.hpp"
 #include "stop_signals.hpp"
 #include "upper_layers.hpp"
@@ -54,6 +55,7 @@ class SimulatedRun final : public Waker {
   std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
   DeadlineQueue deadlines_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
+  std::optional<Monitor> monitor_;                      // the last: it looks at the others
 };
 
 }  // namespace tessera

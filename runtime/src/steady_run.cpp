@@ -13,7 +13,6 @@
 #include <system_error>
 
 #include "console.hpp"
-#include "monitor.hpp"
 #include "realtime.hpp"
 #include "stillness.hpp"
 #include "watchdogs.hpp"
@@ -107,10 +106,9 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
     assembly.control.request_stop(fmt::format("no thread for every subsystem: {}", error.what()),
                                   /*fault=*/true);
   }
-  std::optional<Monitor> monitor;
   if (assembly.options.monitor) {
-    monitor.emplace(assembly, clock_);
-    monitor->complain_of_failure(clock_.now());
+    monitor_.emplace(assembly, clock_);
+    monitor_->complain_of_failure(clock_.now());
   }
   supervise(assembly, upper, signals);
   await_threads(assembly);

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "assembly.hpp"
+#include "monitor.hpp"
 #include "simulated_run.hpp"
 #include "stop_signals.hpp"
 #include "upper_layers.hpp"
@@ -50,6 +52,7 @@ class SteadyRun final : public Waker {
   std::uint32_t started_ = 0;  // threads of the first so many instances
   bool duration_over_ = false;
   std::atomic<bool> denied_{false};  // that real time was not permitted has been said
+  std::optional<Monitor> monitor_;   // the last: it looks at the others
 };
 
 }  // namespace tessera

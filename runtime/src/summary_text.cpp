@@ -20,6 +20,7 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
       {"lost_events", summary.lost_events},
       {"warnings", summary.warnings},
   };
+  if (options.world && !options.world->track.empty()) json["track"] = options.world->track;
   json["subsystems"] = nlohmann::ordered_json::array();
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     json["subsystems"].push_back({{"path", subsystem.path},

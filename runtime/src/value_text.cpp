@@ -109,7 +109,8 @@ class ValueLayoutParser {
     for (const Name& name : {Name{"string(", Kind::text}, Name{"bytes(", Kind::bytes}}) {
       if (!accept(name.text)) continue;
       const std::optional<std::size_t> size = number();
-      return size && accept(")") ? make(name.kind, *size) : nullptr;
+      const bool known = size && (name.kind == Kind::text || *size > 0) && accept(")");
+      return known ? make(name.kind, *size) : nullptr;
     }
     return nullptr;
   }
@@ -304,6 +305,8 @@ void collect_paths(const Node& type, const std::string& path, std::vector<std::s
 }
 
 }  // namespace
+
+std::size_t ValueLayout::scalars() const { return root_->scalars; }
 
 std::vector<std::string> ValueLayout::paths() const {
   std::vector<std::string> paths;

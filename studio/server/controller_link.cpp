@@ -1,19 +1,23 @@
 #include "server/controller_link.hpp"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
 
 using nlohmann::json;
+using Clock = std::chrono::steady_clock;
 
 namespace {
 
@@ -67,27 +71,79 @@ bool ControllerLink::say(const std::string& line) {
   return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
 }
 
-std::optional<json> ControllerLink::snapshot() {
-  if (socket_ < 0) return std::nullopt;
+bool ControllerLink::is_process(std::int64_t id) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
+}
+
+/// What has come by now.
+void ControllerLink::hear() {
+  constexpr std::size_t most = std::size_t{64} << 20U;  // more makes no sense
   std::array<char, 65536> bytes{};
   ssize_t count = 0;
-  while ((count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0)
+  while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
+    if (count < 0) break;
     heard_.append(bytes.data(), static_cast<std::size_t>(count));
-  if (count == 0) close();
-  std::optional<json> last;
-  for (std::size_t end; (end = heard_.find('\n')) != std::string::npos; heard_.erase(0, end + 1)) {
-    json line =
-        json::parse(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
-    if (!line.is_object()) continue;
-    if (!line.contains("answer")) {
-      last = std::move(line);
-      continue;
-    }
+    understand();
+    if (heard_.size() > most) return close();
+  }
+  const bool lost = count < 0 && errno != EAGAIN && errno != EINTR;
+  if (socket_ >= 0 && (count == 0 || lost)) close();
+}
+
+/// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
+void ControllerLink::understand() {
+  std::size_t taken = 0;
+  for (std::size_t end; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
+    const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
+    json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+    const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;
+    if (bytes > heard_.size() - end - 1) break;
+    if (line.is_object() && line.contains("recording_bytes"))
+      piece_ = {heard_.substr(end + 1, bytes), line.value("begins", false), line.value("more", false)};
+    else if (line.is_object())
+      take(std::move(line));
+    taken = end + 1 + bytes;
+  }
+  heard_.erase(0, taken);
+}
+
+void ControllerLink::take(json line) {
+  if (line.contains("ended")) {
+    ended_ = true;
+  } else if (!line.contains("answer")) {
+    snapshot_ = std::move(line);
+  } else {
     const std::lock_guard lock(mutex_);
     answers_[line.value("answer", 0)] = line.value("error", "");
     answered_.notify_all();
   }
-  return last;
+}
+
+GrowingRecording::Piece ControllerLink::recording() {
+  const auto until = Clock::now() + std::chrono::milliseconds(100);
+  if (!asked_ && !ended_ && socket_ >= 0) {
+    const std::lock_guard lock(mutex_);
+    asked_ = say("{\"command\":\"recording\"}\n");
+  }
+  for (hear(); !piece_ && asked_ && socket_ >= 0 && Clock::now() < until; hear()) {
+    pollfd source{.fd = socket_, .events = POLLIN, .revents = 0};
+    poll(&source, 1, 10);
+  }
+  if (!piece_) understand();  // what was left behind by who has closed
+  GrowingRecording::Piece piece;
+  piece.more = asked_ && socket_ >= 0;
+  if (!piece_) return piece;
+  piece = *std::exchange(piece_, std::nullopt);
+  asked_ = false;
+  if (socket_ < 0) piece.more = !piece.bytes.empty();
+  return piece;
+}
+
+std::optional<json> ControllerLink::snapshot() {
+  hear();
+  return std::exchange(snapshot_, std::nullopt);
 }
 
 std::string ControllerLink::command(json command) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -8,6 +9,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "tessera/growing_recording.hpp"
 
 namespace tessera::server {
 
@@ -24,21 +27,34 @@ class ControllerLink {
   /// Connects to the socket, if somebody listens there by now. own: makes the run end with this connection.
   /// true: connected.
   bool connect(const std::filesystem::path& socket, bool own);
+  /// It is that process of this machine, and not the end of a tunnel.
+  [[nodiscard]] bool is_process(std::int64_t id);
   /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<nlohmann::json> snapshot();
+  /// What the controller's recording holds besides what was asked for before, as it was after the last
+  /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
+  [[nodiscard]] GrowingRecording::Piece recording();
   /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
   /// seconds each. Meanwhile somebody has to call connect and snapshot.
   [[nodiscard]] std::string command(nlohmann::json command);
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();
+  /// It has said that its run is over. Otherwise, when it is over, the connection was lost.
+  [[nodiscard]] bool has_ended() const { return ended_; }
   /// No answers come any more.
   void close();
 
  private:
   [[nodiscard]] bool say(const std::string& line);
+  void hear();
+  void understand();
+  void take(nlohmann::json line);
   int socket_ = -1;
   std::string heard_;
-  std::mutex mutex_;  ///< of what follows, and of writing and closing the socket
+  std::optional<nlohmann::json> snapshot_;
+  bool asked_ = false, ended_ = false;
+  std::optional<GrowingRecording::Piece> piece_;  ///< what comes after it waits until it is taken
+  std::mutex mutex_;                              ///< of what follows, and of writing and closing the socket
   std::condition_variable answered_;
   std::map<int, std::string> answers_;
   int last_ = 0;

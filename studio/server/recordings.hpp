@@ -12,23 +12,23 @@
 namespace tessera::server {
 
 /// The recordings in a project: of the last `tessera simulate` or `run`, of the studio's runs, and *.tsr
-/// beside the specification.
+/// beside the specification. One in segments (`--record-limit`) is one, as far as it is left.
 ///
 /// Threads: any.
 class Recordings {
  public:
   Recordings(SpecFile& file, Analyses& analyses) : file_(file), analyses_(analyses) {}
 
-  static constexpr std::size_t most_firings = 200'000, most_samples = 400'000;
+  static constexpr std::size_t most_firings = 200'000, most_samples = 400'000, most_points = 20'000;
 
-  /// [{"name", "bytes", "modified", "system", "duration"}]
+  /// [{"name", "bytes", "modified", "system", "net_hash", "clock", "duration"}]
   [[nodiscard]] std::string list() const;
   struct Span {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
-  /// {"net_hash", "system", "subsystems", "firings", "dropped", "values", "truncated"}: at most most_firings
-  /// and most_samples (of values, together) of the span. nullopt: there is none of that name. Throws
-  /// std::runtime_error when it cannot be read.
+  /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "values", "truncated", "path",
+  /// "track"} of docs/studio.md: at most most_firings, most_samples (of values, together) and most_points of
+  /// the span. nullopt: there is none of that name. Throws std::runtime_error when it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
 
  private:

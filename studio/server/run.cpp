@@ -208,7 +208,8 @@ void Run::execute(const project::Controller& controller) {
 }
 
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
-  Follower follower(folder / "recording.tsr", folder / "path.csv", *analysis_);
+  Follower follower(RecordingStream::of_file(folder / "recording.tsr", GrowingRecording::From::newest),
+                    folder / "path.csv", *analysis_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
@@ -221,19 +222,18 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
 
 /// true: there is more to tell at once.
 bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
-  Follower::News news = follower.look(std::move(snapshot));
+  Follower::News news = follower.look(std::move(snapshot), last);
   std::optional<State> changed;
   {
     const std::lock_guard lock(mutex_);
     time_ns_ = std::max(time_ns_, news.time_ns);
     if (news.marking) marking_ = *news.marking;
-    if (!news.values.is_null()) values_ = news.values.at("values");
+    if (!news.values.is_null()) values_.update(news.values.at("values"));
     if (!news.pose.is_null()) pose_ = news.pose;
+    for (const PathPoint& point : news.path) path_.add(point);
     if (!news.subsystems.is_null()) subsystems_ = news.subsystems;
     const State now = news.paused ? State::paused : State::running;
-    // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
-    const bool rested_again = news.paused && news.pauses != std::exchange(pauses_, news.pauses);
-    if (news.has_state && (now != state_ || rested_again) && !last) changed = now;
+    if (news.has_state && (now != state_ || news.rested) && !last) changed = now;
   }
   controllable_ = controllable_ || news.has_state;
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
@@ -251,12 +251,14 @@ std::string Run::refused(const json& snapshot) const {
                      snapshot.value("system", "?"));
 }
 
-/// The controller's recording when it is within the project; else an empty path.
-std::filesystem::path Run::readable(const json& snapshot) const {
+/// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
+/// names a file of another machine, where this one may have an old one.
+std::filesystem::path Run::readable(const json& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);
   const auto [end, ignored] = std::ranges::mismatch(place_.folder, file);
-  return !missing && end == place_.folder.end() ? file : std::filesystem::path();
+  const bool within = !missing && end == place_.folder.end();
+  return within && link_.is_process(snapshot.value("pid", std::int64_t{-1})) ? file : std::filesystem::path();
 }
 
 void Run::attach() {
@@ -269,16 +271,20 @@ void Run::attach() {
   }
   if (!snapshot) return set_state(State::ended, "it has ended");
   if (const std::string why = refused(*snapshot); !why.empty()) return set_state(State::failed, why);
-  const std::filesystem::path recording = readable(*snapshot);
-  Follower follower(recording, recording.empty() ? recording : recording.parent_path() / "path.csv",
-                    *analysis_);
+  const std::filesystem::path file = readable(*snapshot);
+  Follower follower(file.empty() ? [this] { return link_.recording(); }
+                                 : RecordingStream::of_file(file, GrowingRecording::From::newest),
+                    file.empty() ? file : file.parent_path() / "path.csv", *analysis_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
     if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) Follower::rest();
     snapshot = link_.snapshot();
   }
+  while (!stop_ && tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/true)) continue;
   link_.close();
-  set_state(State::ended, stop_ ? "let go; it runs on" : "it has ended");
+  if (stop_ || link_.has_ended())
+    return set_state(State::ended, stop_ ? "let go; it runs on" : "it has ended");
+  set_state(State::failed, "the connection to the controller is lost; it may still be running");
 }
 
 json Run::info(bool all) const {
@@ -289,6 +295,7 @@ json Run::info(bool all) const {
   info["marking"] = marking_;
   info["values"] = values_;
   info["pose"] = pose_;
+  info["path"] = path_.rows();
   info["verdicts"] = verdicts_;
   info["outcome"] = outcome_;
   info["subsystems"] = subsystems_;

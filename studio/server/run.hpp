@@ -15,6 +15,7 @@
 #include "server/controller_link.hpp"
 #include "server/events.hpp"
 #include "server/follower.hpp"
+#include "server/path.hpp"
 
 namespace tessera::server {
 
@@ -64,7 +65,7 @@ class Run {
   void execute(const project::Controller& controller);
   void attach();
   [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
-  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
   [[nodiscard]] bool tell(Follower& follower, std::optional<nlohmann::json> snapshot, bool last);
   void set_state(State state, const std::string& why = {});
@@ -78,13 +79,13 @@ class Run {
   Events& events_;
   ControllerLink link_;
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
-  std::uint64_t pauses_ = 0;  ///< the follower's: how often the controller had come to rest
   std::thread follower_, thread_;
 
   mutable std::mutex mutex_;  ///< of what follows
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
+  ThinPath path_{5000};
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
 };

@@ -1,44 +1,59 @@
 #include "server/tail.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 
+#include "server/value_json.hpp"
+
 namespace tessera::server {
 
-GrowingFile::~GrowingFile() {
-  if (descriptor_ >= 0) close(descriptor_);
+// ------------------------------------------------------------------------------------------------ names
+
+template <class Elements>
+NetNames::Numbers NetNames::numbers_of(const Elements& elements) {
+  Numbers numbers;
+  for (std::uint32_t index = 0; index < elements.size(); ++index)
+    numbers.emplace_back(elements[index].name, index);
+  std::ranges::sort(numbers);
+  return numbers;
 }
 
-std::string GrowingFile::more(std::size_t most) {
-  if (descriptor_ < 0) descriptor_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor_ < 0) return {};
-  std::string bytes(most, '\0');
-  const ssize_t count = read(descriptor_, bytes.data(), bytes.size());
-  bytes.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
-  return bytes;
+NetNames::NetNames(const net::Net& net)
+    : places_(numbers_of(net.places())), transitions_(numbers_of(net.transitions())) {}
+
+std::uint32_t NetNames::find(const Numbers& numbers, std::string_view name) {
+  const auto found = std::ranges::lower_bound(numbers, name, {}, &Numbers::value_type::first);
+  return found != numbers.end() && found->first == name ? found->second : UINT32_MAX;
 }
 
-TransitionMap::TransitionMap(const net::Net& net) {
-  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-    by_name_.emplace_back(net.transitions()[index].name, index);
-  std::ranges::sort(by_name_);
-}
-
-std::vector<std::uint32_t> TransitionMap::of(const Recording& recording) const {
+std::vector<std::uint32_t> NetNames::transitions_of(const Recording& recording) const {
   std::vector<std::uint32_t> indices;
-  for (const Recording::TransitionName& one : recording.transitions) {
-    const auto found =
-        std::ranges::lower_bound(by_name_, one.name, {}, &decltype(by_name_)::value_type::first);
-    indices.push_back(found != by_name_.end() && found->first == one.name ? found->second : UINT32_MAX);
-  }
+  for (const Recording::TransitionName& one : recording.transitions)
+    indices.push_back(find(transitions_, one.name));
   return indices;
 }
 
-RecordingTail::RecordingTail(std::filesystem::path file, const net::Net& net)
-    : file_(std::move(file)), net_(net), map_(net) {
+std::vector<std::uint32_t> NetNames::marked(std::string_view lines) const {
+  std::vector<std::uint32_t> places;
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    if (const std::uint32_t place = find(places_, lines.substr(0, end)); place != UINT32_MAX)
+      places.push_back(place);
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return places;
+}
+
+// ------------------------------------------------------------------------------------------------ tail
+
+RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names)
+    : recording(std::move(its_recording)),
+      transitions(names.transitions_of(*recording)),
+      values(*recording),
+      has_changed(recording->buffers.size()) {}
+
+RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net)
+    : net_(net), names_(net), stream_(std::move(source)) {
   for (const net::Place& place : net.places()) tokens_.push_back(static_cast<std::int32_t>(place.tokens));
 }
 
@@ -50,28 +65,28 @@ void RecordingTail::play(std::uint32_t transition) {
     tokens_[arc.place.value] += static_cast<std::int32_t>(arc.weight);
 }
 
-bool RecordingTail::read_header() {
-  if (!reader_.has_header()) return false;
-  if (!hash_.empty()) return true;
-  hash_ = reader_.recording().net_hash;
-  transitions_ = map_.of(reader_.recording());
-  return true;
+void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
+  const Event& event = entry.event;
+  batch.time_ns = std::max(batch.time_ns, event.time_ns);
+  if (event.kind() == Event::Kind::firing) {
+    const std::uint32_t transition = segment_->transitions[event.subject];
+    if (transition == UINT32_MAX) return;
+    play(transition);
+    batch.firings.emplace_back(event.time_ns, transition);
+  } else if (event.kind() == Event::Kind::value) {
+    const auto change = segment_->values.follow(entry);
+    if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
+    segment_->has_changed[change->number] = true;
+    segment_->changed.push_back(change->number);
+  } else if (event.kind() == Event::Kind::marking && event.version == 0) {
+    std::ranges::fill(tokens_, 0);
+    for (const std::uint32_t place : names_.marked(entry.text)) tokens_[place] = 1;
+    batch.jumped = true;
+  }
 }
 
 /// Of many firings, only the last are kept.
-void RecordingTail::take(Batch& batch) {
-  for (Recording::Entry& entry : std::exchange(reader_.recording().entries, {})) {
-    if (entry.event.kind() != Event::Kind::firing) {
-      batch.messages.emplace_back(entry.event.time_ns, std::move(entry.text));
-      continue;
-    }
-    ++count_;
-    batch.time_ns = std::max(batch.time_ns, entry.event.time_ns);
-    const std::uint32_t transition = transitions_[entry.event.subject];
-    if (transition == UINT32_MAX) continue;
-    play(transition);
-    batch.firings.emplace_back(entry.event.time_ns, transition);
-  }
+void RecordingTail::keep_the_last(Batch& batch) {
   // Threads write one after the other; the page shows time.
   std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
   if (batch.firings.size() <= most_firings) return;
@@ -80,21 +95,22 @@ void RecordingTail::take(Batch& batch) {
   batch.firings.erase(batch.firings.begin(), batch.firings.begin() + static_cast<std::ptrdiff_t>(beyond));
 }
 
-std::optional<RecordingTail::Batch> RecordingTail::next() {
+RecordingTail::Batch RecordingTail::next() {
   using Clock = std::chrono::steady_clock;
-  constexpr std::size_t piece = std::size_t{1} << 20U;
   constexpr auto patience = std::chrono::milliseconds(30);
   const Clock::time_point until = Clock::now() + patience;
   Batch batch;
   do {
-    const std::string bytes = file_.more(piece);
-    batch.more = bytes.size() == piece;
-    if (bytes.empty()) break;
-    reader_.feed(bytes);
-    if (read_header()) take(batch);
-  } while (batch.more && Clock::now() < until);
-  const bool nothing = batch.firings.empty() && batch.dropped == 0 && batch.messages.empty() && !batch.more;
-  return nothing ? std::nullopt : std::optional(std::move(batch));
+    if (stream_.next() && stream_.begins()) {
+      values_ = take_changed_values();
+      segment_.emplace(stream_.recording(), names_);
+    }
+    if (!stream_.recording()) continue;
+    for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);
+    keep_the_last(batch);
+  } while (stream_.more() && Clock::now() < until);
+  batch.more = stream_.more();
+  return batch;
 }
 
 std::vector<std::uint32_t> RecordingTail::marking() const {
@@ -102,6 +118,18 @@ std::vector<std::uint32_t> RecordingTail::marking() const {
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0) marked.push_back(place);
   return marked;
+}
+
+nlohmann::json RecordingTail::take_changed_values() {
+  if (!segment_) return nlohmann::json::object();
+  for (const std::uint32_t buffer : std::exchange(segment_->changed, {})) {
+    segment_->has_changed[buffer] = false;
+    const replay::ValueTrack::Value held = segment_->values.value(buffer);
+    if (held.hashed || held.layout == nullptr || held.bytes.size() > largest_value) continue;
+    if (nlohmann::json value = json_of(*held.layout, held.bytes); !value.is_null())
+      values_[segment_->recording->buffers[buffer].path] = std::move(value);
+  }
+  return std::exchange(values_, nlohmann::json::object());
 }
 
 }  // namespace tessera::server

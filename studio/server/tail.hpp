@@ -1,76 +1,77 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "net/net.hpp"
+#include "replay/values.hpp"
+#include "server/recording_stream.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server {
 
-/// The bytes that a file has grown by. It need not exist yet.
-class GrowingFile {
+/// What the elements of a net are numbered: recordings have names.
+class NetNames {
  public:
-  explicit GrowingFile(std::filesystem::path file) : path_(std::move(file)) {}
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
-  /// At most `most` bytes at a time; empty: nothing new.
-  [[nodiscard]] std::string more(std::size_t most = std::size_t{4} << 20U);
+  explicit NetNames(const net::Net& net);
+  /// Per transition of the recording; UINT32_MAX: the net has no such transition.
+  [[nodiscard]] std::vector<std::uint32_t> transitions_of(const Recording& recording) const;
+  /// Places with a token, as an event `marking` lists them.
+  [[nodiscard]] std::vector<std::uint32_t> marked(std::string_view lines) const;
 
  private:
-  std::filesystem::path path_;
-  int descriptor_ = -1;
+  using Numbers = std::vector<std::pair<std::string_view, std::uint32_t>>;  // sorted
+  template <class Elements>
+  [[nodiscard]] static Numbers numbers_of(const Elements& elements);
+  [[nodiscard]] static std::uint32_t find(const Numbers& numbers, std::string_view name);
+  Numbers places_, transitions_;
 };
 
-/// Names of a recording's transitions to indices of a net.
-class TransitionMap {
- public:
-  explicit TransitionMap(const net::Net& net);
-  /// UINT32_MAX: the net has no such transition.
-  [[nodiscard]] std::vector<std::uint32_t> of(const Recording& recording) const;
-
- private:
-  std::vector<std::pair<std::string, std::uint32_t>> by_name_;  // sorted
-};
-
-/// Follows a run by the recording that it writes, at no cost to it: what has fired, and where the tokens are.
+/// Follows a run by its recording: what has fired, where the tokens are, and what the buffers hold.
 class RecordingTail {
  public:
-  RecordingTail(std::filesystem::path file, const net::Net& net);
+  /// net: must outlive it.
+  RecordingTail(RecordingStream::Source source, const net::Net& net);
 
-  static constexpr std::size_t most_firings = 2000;
+  static constexpr std::size_t most_firings = 2000, largest_value = 4096;
   struct Batch {
-    std::int64_t time_ns = 0;   ///< of the last firing
+    std::int64_t time_ns = 0;   ///< of the last event
     std::uint64_t dropped = 0;  ///< firings that are not listed, before those that are
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
-    std::vector<std::pair<std::int64_t, std::string>> messages;   ///< of the log, and why it stopped
-    bool more = false;                                            ///< the file may have more already
+    bool jumped = false;  ///< the marking is what a segment began with, and not only what has fired
+    bool more = false;    ///< there may be more already
   };
-  /// What has been written since, as far as it can be read in a few milliseconds; nullopt: nothing.
-  [[nodiscard]] std::optional<Batch> next();
+  /// What has been written since, as far as it can be read in a few milliseconds.
+  [[nodiscard]] Batch next();
   /// Places with a token after all that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const;
-  /// Of the recording; empty before its header has been read.
-  [[nodiscard]] std::string net_hash() const { return hash_; }
-  [[nodiscard]] std::uint64_t firings() const { return count_; }
+  /// {"robot.sensor.line": number, bool, text, list or object} of the buffers whose values have changed since
+  /// the last call. Not of those that are not recorded whole, or larger than largest_value.
+  [[nodiscard]] nlohmann::json take_changed_values();
 
  private:
+  struct Segment {
+    Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names);
+    std::shared_ptr<const Recording> recording;
+    std::vector<std::uint32_t> transitions;  // of the recording: indices of the net
+    replay::ValueTrack values;
+    std::vector<std::uint32_t> changed;  // buffers
+    std::vector<bool> has_changed;       // per buffer
+  };
   void play(std::uint32_t transition);
-  [[nodiscard]] bool read_header();
-  void take(Batch& batch);
-  GrowingFile file_;
+  void keep(Batch& batch, const Recording::Entry& entry);
+  static void keep_the_last(Batch& batch);
   const net::Net& net_;
-  TransitionMap map_;
-  RecordingReader reader_;
-  std::string hash_;
-  std::vector<std::uint32_t> transitions_;  ///< of the recording: indices of the net
+  NetNames names_;
+  RecordingStream stream_;
+  std::optional<Segment> segment_;
+  nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
   std::vector<std::int32_t> tokens_;  ///< may be below 0 for a moment: threads write when they come to it
-  std::uint64_t count_ = 0;
 };
 
 }  // namespace tessera::server

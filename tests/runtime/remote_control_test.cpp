@@ -78,22 +78,48 @@ class Controlled : public ::testing::Test {
     while (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
       ASSERT_FALSE(over_) << summary_.ended;
   }
-  /// The next line that it accepts.
+  bool hear() {
+    char bytes[65536];
+    const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
+    if (count > 0) said_.append(bytes, static_cast<std::size_t>(count));
+    return count > 0;
+  }
+  /// The next line that it accepts; null: the run is over.
   template <class Wanted>
   json await(Wanted wanted) {
     for (;;) {
       const std::size_t end = said_.find('\n');
       if (end == std::string::npos) {
-        char bytes[65536];
-        const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
-        if (count <= 0) return nullptr;
-        said_.append(bytes, static_cast<std::size_t>(count));
+        if (!hear()) return nullptr;
         continue;
       }
       const json line = json::parse(said_.substr(0, end), nullptr, false);
       said_.erase(0, end + 1);
       if (wanted(line)) return line;
     }
+  }
+  /// The bytes of the recording that come next.
+  std::string next_piece() {
+    const json head = await([](const json& line) { return line.contains("recording_bytes"); });
+    if (head.is_null()) return "";
+    more_ = head.at("more");
+    const std::size_t size = head.at("recording_bytes");
+    EXPECT_LE(size, longest_piece);
+    while (said_.size() < size && hear()) continue;
+    std::string bytes = said_.substr(0, size);
+    said_.erase(0, size);
+    return bytes;
+  }
+  std::string piece() {
+    const std::string line = "{\"command\":\"recording\"}\n";
+    send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
+    return next_piece();
+  }
+  std::string what_comes_at_the_end() {
+    EXPECT_FALSE(await([](const json& line) { return line.contains("ended"); }).is_null());
+    std::string bytes;
+    for (std::string some = next_piece(); !some.empty(); some = next_piece()) bytes += some;
+    return bytes;
   }
   /// What was wrong with it.
   std::string command(json what) {
@@ -120,6 +146,7 @@ class Controlled : public ::testing::Test {
   std::thread running_;
   std::atomic<bool> over_{false};
   int socket_ = -1, last_ = 0;
+  bool more_ = false;  // of the recording
   std::string said_;
 };
 
@@ -226,12 +253,42 @@ TEST_F(Controlled, ABreakpointPausesWhenItsConditionComesToHoldBeforeItFires) {
   finish();
 }
 
-TEST_F(Controlled, ShowsTheBytesOfEveryBufferWhilePaused) {
+TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {
   start();
-  const json line = rest(1);
-  const json& buffers = line.at("values").at("buffers");
-  EXPECT_EQ(buffers.at("robot.a.x").get<std::string>().size(), 2 * sizeof(double));
-  EXPECT_TRUE(buffers.contains("robot.b.x"));
+  rest(1);
+  std::string recorded;
+  for (std::uint64_t step = 2; step < 10; ++step) {
+    do recorded += piece();
+    while (more_);
+    EXPECT_EQ(recorded, bytes_of(options_.recording));
+    EXPECT_EQ(command({{"command", "step_firing"}}), "");
+    rest(step);
+  }
+  finish();
+  recorded += what_comes_at_the_end();
+  EXPECT_EQ(recorded, bytes_of(options_.recording));
+}
+
+TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
+  options_.clock = RunOptions::Clock::steady;
+  options_.duration = 300ms;
+  start();
+  std::string recorded;
+  while (recorded.size() < 10'000 || more_) recorded += piece();
+  EXPECT_EQ(bytes_of(options_.recording).substr(0, recorded.size()), recorded);
+  EXPECT_NE(command({{"command", "pause"}}), "");
+  running_.join();
+  EXPECT_EQ(summary_.ended, "duration");
+  recorded += what_comes_at_the_end();
+  EXPECT_EQ(recorded, bytes_of(options_.recording));
+}
+
+TEST_F(Controlled, WithoutARecordingThereAreNoBytes) {
+  options_.recording.clear();
+  start();
+  rest(1);
+  EXPECT_EQ(piece(), "");
+  EXPECT_FALSE(more_);
   finish();
 }
 

@@ -62,9 +62,36 @@ class RunOfTheStudio : public Served {
     return 0;
   }
 
+  std::string await_controller() {
+    json names = json::array();
+    while (names.empty()) names = get("/api/controllers").json();
+    return names.at(0);
+  }
+
   std::atomic<bool> stop_{false};
   std::thread command_;
   std::unique_ptr<EventStream> events_;
+};
+
+/// The command, run by somebody else.
+class Elsewhere {
+ public:
+  explicit Elsewhere(project::Command words) {
+    words.insert(words.begin(), TESSERA_BINARY_DIR "/tessera");
+    running_ = std::thread([this, words] { exit_ = project::capture_apart(words, enough_); });
+  }
+  ~Elsewhere() { static_cast<void>(stop()); }
+  /// How it ended.
+  [[nodiscard]] std::string stop() {
+    enough_ = true;
+    if (running_.joinable()) running_.join();
+    return exit_.text;
+  }
+
+ private:
+  std::atomic<bool> enough_{false};
+  project::Exit exit_;
+  std::thread running_;
 };
 
 TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording) {
@@ -81,9 +108,21 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json first = events_->next("pose"),
              later = events_->next("pose", [](const json&data) { return data.at("t") > 3'000'000'000; });
   EXPECT_NE(first.at("x"), later.at("x"));
+  const json path = info(run).at("path");
+  ASSERT_GT(path.size(), 10U);
+  EXPECT_EQ(path.front()[0], 0);
+  EXPECT_GE(path.back()[0], later.at("t"));
 
   ASSERT_EQ(control(run, {{"command", "pause"}}), 200);
   ASSERT_FALSE(await_state(run, "paused").is_null());
+  // What is shown is what the buffers hold at this moment.
+  const std::string recorded = get("/api/recordings").json().at(0).at("name");
+  const json samples = get("/api/recordings/" + recorded).json().at("values");
+  EXPECT_EQ(info(run).at("values").at("robot.control.motion").at("linear"),
+            samples.at("robot.control.motion.linear").back()[1]);
+  EXPECT_EQ(info(run).at("values").at("robot.control.motion").at("angular"),
+            samples.at("robot.control.motion.angular").back()[1]);
+
   // A step is one firing, seen by everybody.
   ASSERT_EQ(control(run, {{"command", "step_firing"}}), 200);
   const std::int64_t rest = info(run).at("t");
@@ -113,6 +152,9 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   const json recording = get("/api/recordings/" + name).json();
   EXPECT_EQ(recording.at("net_hash"), get("/api/spec").json().at("analysis").at("net_hash"));
   ASSERT_GT(recording.at("firings").size(), 100U);
+  EXPECT_TRUE(recording.at("marking").is_null());
+  EXPECT_GT(recording.at("path").size(), path.size());
+  EXPECT_TRUE(recording.at("track").is_string());
   const json part = get("/api/recordings/" + name + "?from=1000000000&to=2000000000").json();
   ASSERT_FALSE(part.at("firings").empty());
   EXPECT_GE(part.at("firings").front()[0], 1'000'000'000);
@@ -152,36 +194,54 @@ TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
 }
 
 TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoOfIt) {
-  std::atomic<bool> enough{false};
-  project::Exit exit;
-  std::thread other([&] {
-    exit = project::capture_apart(
-        {TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world"}, enough);
-  });
-  json names = json::array();
-  while (names.empty()) names = get("/api/controllers").json();
-  const std::string socket = names.at(0);
+  Elsewhere other({"run", (folder_ / "project").string(), "--world"});
+  const std::string socket = await_controller();
   EXPECT_THAT(socket, testing::StartsWith("line_follower."));
   const std::string run = start({{"kind", "attach"}, {"socket", socket}});
   ASSERT_FALSE(await_state(run, "running").is_null());
   EXPECT_FALSE(events_->next("firings").at("firings").empty());
+  const json value = events_->next("values").at("values");
+  EXPECT_FALSE(value.empty());
   const json shown = events_->next("subsystems");
   EXPECT_EQ(shown.at("run"), run);
   EXPECT_TRUE(shown.at("subsystems").at(0).at("iterations").is_number());
+  EXPECT_FALSE(events_->next("pose").is_null());
   EXPECT_EQ(info(run).at("kind"), "attach");
   EXPECT_EQ(control(run, {{"command", "pause"}}), 409);
 
   ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
   EXPECT_THAT(await_state(run, "ended").at("why").get<std::string>(), HasSubstr("runs on"));
   EXPECT_THAT(get("/api/controllers").json().get<std::vector<std::string>>(), testing::Contains(socket));
-  enough = true;
-  other.join();
-  EXPECT_THAT(exit.text, HasSubstr("SIGINT"));
+  EXPECT_THAT(other.stop(), HasSubstr("SIGINT"));
 
   const Reply gone = post("/api/runs", {{"kind", "attach"}, {"socket", socket}});
   EXPECT_EQ(gone.status, 400);
   EXPECT_THAT(gone.body, HasSubstr("nobody listens"));
   EXPECT_EQ(post("/api/runs", {{"kind", "attach"}, {"socket", "../x.sock"}}).status, 400);
+}
+
+TEST_F(RunOfTheStudio, ARecordingThatIsElsewhereComesThroughTheControlSocketToItsEnd) {
+  const fs::path recording = folder_ / "elsewhere.tsr";
+  Elsewhere other({"run", (folder_ / "project").string(), "--world", "--record", recording.string()});
+  const std::string run = start({{"kind", "attach"}, {"socket", await_controller()}});
+  while (!info(run).at("values").contains("robot.control.motion") || info(run).at("marking").empty())
+    ASSERT_EQ(info(run).at("why"), "");
+  EXPECT_THAT(other.stop(), HasSubstr("SIGINT"));
+  while (info(run).at("state") == "running") continue;
+  EXPECT_EQ(info(run).at("why"), "it has ended");
+
+  fs::rename(recording, folder_ / "project/elsewhere.tsr");
+  const std::size_t all = get("/api/recordings/elsewhere.tsr").json().at("firings").size();
+  EXPECT_GT(all, 50U);
+  std::size_t shown = 0;
+  EXPECT_FALSE(events_
+                   ->next("firings",
+                          [&](const json& data) {
+                            shown += data.at("firings").size() + data.at("dropped").get<std::size_t>();
+                            return shown >= all;
+                          })
+                   .is_null());
+  EXPECT_EQ(shown, all);
 }
 
 TEST_F(RunOfTheStudio, EndsWithTheServer) {

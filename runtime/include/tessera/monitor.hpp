@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 /// A controller can be looked at while it runs: on the steady clock it listens on a Unix socket
@@ -14,20 +15,25 @@
 ///
 /// It never waits for a client: who has not taken a line goes without the next ones, and who takes nothing
 /// for five seconds is dropped. Of a large system the lines come less often, so that its thread takes at most
-/// a fiftieth of a processor.
+/// a fiftieth of a processor. The last line is {"ended": true}; without it the connection was lost.
+///
+/// Clients may send commands, one JSON object a line. One is taken from any:
+///
+///     {"command": "recording"}
+///
+/// It is answered by a line {"recording_bytes": N, "begins": bool, "more": bool} and the next N bytes of the
+/// recording (tessera/recording.hpp), at most `longest_piece` at a time, as they are in the file by now. The
+/// first answer begins at the beginning, or with the newest segment of a recording with a limit; where the
+/// next segment begins, `begins` says so. more: there is more already. Whoever has asked gets what was
+/// missing unasked after {"ended": true}, as far as there is room in the socket.
 ///
 /// Under the simulated clock only a run that was started with `--controlled` listens. It sends 25 lines a
-/// second, with what follows besides:
-///
-///     {"paused", "pauses", "speed", "broke_at",
-///      "values": {"time_s", "buffers": {"robot.sensor.line": bytes of the buffer in hexadecimal}}}
-///
-/// and takes commands, one JSON object a line; each is answered by a line {"answer": its id, "error": ""}:
+/// second, with {"paused", "pauses", "speed", "broke_at"} besides, and takes more commands; each is answered
+/// by a line {"answer": its id, "error": ""}:
 ///
 ///     {"id": 1, "command": "pause" | "resume" | "step_firing"}
 ///     {"command": "step_iteration", "subsystem": path}   until its transition function is called again;
-///     without
-///                                                        a subsystem: that of any
+///                                                        without a subsystem: that of any
 ///     {"command": "speed", "value": 0.1}                 simulated seconds a second; 0: as fast as possible
 ///     {"command": "breakpoints", "places": [name...], "transitions": [name...], "conditions": [name...]}
 ///         instead of those before: pause when one of these places gets a token, one of these transitions has
@@ -37,6 +43,8 @@
 ///     {"command": "own"}                                 without an answer: the run ends with this
 ///     connection
 namespace tessera {
+
+inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;
 
 /// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID. Only its owner may enter it.
 [[nodiscard]] std::string monitor_folder();

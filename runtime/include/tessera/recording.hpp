@@ -24,7 +24,10 @@ enum class Fault : std::uint8_t {
 /// "not finite"; empty: no fault of this version.
 [[nodiscard]] std::string_view name_of(Fault fault);
 
-/// The file a run leaves: 8 bytes "TESSREC1", a little-endian uint32 length, that many bytes of JSON
+inline constexpr std::string_view recording_magic = "TESSREC1";
+inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
+
+/// The file a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
 ///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a
@@ -150,6 +153,9 @@ class RecordingReader {
 /// Where segment `number` of the recording `path` is when it is no longer the newest: "run.tsr" ->
 /// "run.3.tsr".
 [[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
+
+/// The other way: "run.3.tsr" -> "run.tsr"; empty: that is no name of a segment.
+[[nodiscard]] std::string without_segment_number(const std::string& path);
 
 /// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
 /// before the file that is named; of one named by its number, that one alone. nullopt and `error` when it is

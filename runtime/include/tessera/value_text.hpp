@@ -34,7 +34,9 @@ class ValueLayout {
   /// visited.
   [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit) const;
 
-  /// Paths of the scalars of every such value.
+  /// How many scalars every such value has.
+  [[nodiscard]] std::size_t scalars() const;
+  /// Their paths.
   [[nodiscard]] std::vector<std::string> paths() const;
   /// "{linear: 0.3, angular: -1}", cut after `most` bytes.
   [[nodiscard]] std::string shown(std::string_view bytes, std::size_t most = 200) const;

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "tessera/growing_recording.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::server {
+
+/// The entries of a recording as they come, from wherever and in as many segments as they come.
+class RecordingStream {
+ public:
+  /// What has been written since the last call.
+  using Source = std::function<GrowingRecording::Piece()>;
+  /// A file on this machine.
+  [[nodiscard]] static Source of_file(const std::filesystem::path& file, GrowingRecording::From from);
+
+  explicit RecordingStream(Source source) : source_(std::move(source)) {}
+
+  /// Reads a piece. false: there was nothing new.
+  bool next();
+  /// The header of the segment, and the entries of the last piece; nullptr: there is no header yet.
+  [[nodiscard]] const std::shared_ptr<const Recording>& recording() const { return recording_; }
+  /// The last `next` has come to a segment: `recording` is another one than before, in the same run.
+  [[nodiscard]] bool begins() const { return begins_; }
+  /// There may be more at once.
+  [[nodiscard]] bool more() const { return more_; }
+  /// A segment was damaged, or the last piece ended within an entry.
+  [[nodiscard]] bool is_cut() const { return damaged_ || (reader_ && is_cut(*reader_)); }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  [[nodiscard]] static bool is_cut(const RecordingReader& reader) {
+    return !reader.problem().empty() || reader.pending() > 0;
+  }
+  Source source_;
+  std::shared_ptr<RecordingReader> reader_;
+  std::shared_ptr<const Recording> recording_;
+  bool begins_ = false, more_ = false, damaged_ = false;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace tessera::server

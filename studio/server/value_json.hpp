@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "tessera/value_text.hpp"
+
+namespace tessera::server {
+
+/// A number, bool or text.
+[[nodiscard]] nlohmann::json json_of(const ValueLayout::Scalar& scalar);
+
+/// A number, bool, text, list, or {field: value}; null: these are not the bytes of such a value.
+[[nodiscard]] nlohmann::json json_of(const ValueLayout& layout, std::string_view bytes);
+
+}  // namespace tessera::server

@@ -1,0 +1,164 @@
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+#include "served.hpp"
+#include "server/analysis.hpp"
+#include "server/tail.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+
+/// Recordings of the line follower, made by hand.
+class RecordingOfTheStudio : public Served {
+ protected:
+  RecordingOfTheStudio() { analysis_ = server::analyse("spec.yaml", content_of(spec())); }
+
+  [[nodiscard]] std::string header(std::uint64_t segment) const {
+    json transitions = json::array();
+    for (const auto& transition : analysis_.net->transitions()) transitions.push_back({transition.name, 0});
+    const json header{
+        {"system", "line_follower"},
+        {"net_hash", analysis_.net_hash},
+        {"verification_hash", ""},
+        {"seed", 1},
+        {"clock", "steady"},
+        {"instances", {"robot.control"}},
+        {"transitions", transitions},
+        {"values", {{"limit", 4096}, {"buffers", {{"robot.control.line", 0, "in", "{left: bool}"}}}}}};
+    std::string text = header.dump();
+    text.back() = ',';
+    text += "\"segment\":" + std::to_string(segment) + "}";
+    const auto length = static_cast<std::uint32_t>(text.size());
+    std::string bytes(recording_magic);
+    bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
+    bytes.resize((bytes.size() + 7) / 8 * 8);
+    return bytes;
+  }
+  static std::string event(std::int64_t time_ns, Event::Kind kind, std::uint32_t subject,
+                           const std::string& text = "") {
+    const Event event{.time_ns = time_ns, .subject = subject, .origin = static_cast<std::uint32_t>(kind)};
+    std::string bytes(reinterpret_cast<const char*>(&event), sizeof event);
+    bytes += text;
+    bytes.resize((bytes.size() + sizeof event - 1) / sizeof event * sizeof event);
+    return bytes;
+  }
+  static std::string firing(std::int64_t time_ns, std::uint32_t transition) {
+    return event(time_ns, Event::Kind::firing, transition);
+  }
+  static std::string marking(const std::string& places) {
+    return event(0, Event::Kind::marking, static_cast<std::uint32_t>(places.size()), places);
+  }
+  static std::string value(const std::string& bytes) {
+    return event(0, Event::Kind::value, static_cast<std::uint32_t>(bytes.size()), bytes);
+  }
+  [[nodiscard]] std::string name_of_place(std::uint32_t place) const {
+    return analysis_.net->places()[place].name;
+  }
+
+  server::Analysis analysis_;
+};
+
+TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirstThatIsLeft) {
+  const fs::path last = folder_ / "project/.tessera/last";
+  write(last / "recording.3.tsr",
+        header(3) + marking(name_of_place(2) + "\n" + name_of_place(5)) + firing(10, 1) + firing(20, 2));
+  write(last / "recording.tsr", header(4) + marking(name_of_place(7)) + firing(30, 3) + value("\1"));
+  write(folder_ / "project/run.tsr", header(0) + firing(10, 4));
+  write(folder_ / "project/alone.7.tsr", header(7) + marking("nowhere"));
+  serve();
+  const json list = get("/api/recordings").json();
+  std::map<std::string, json> by_name;
+  for (const json& one : list) by_name[one.at("name")] = one;
+  ASSERT_EQ(by_name.size(), 3U) << list;
+  EXPECT_EQ(by_name.at("last").at("bytes"),
+            fs::file_size(last / "recording.3.tsr") + fs::file_size(last / "recording.tsr"));
+  EXPECT_DOUBLE_EQ(by_name.at("last").at("duration"), 30e-9);
+
+  const json whole = get("/api/recordings/last").json();
+  EXPECT_EQ(whole.at("marking"), json({2, 5}));
+  EXPECT_EQ(whole.at("firings"), json({{10, 1}, {20, 2}, {30, 3}}));
+  EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
+  EXPECT_EQ(whole.at("truncated"), false);
+  EXPECT_EQ(whole.at("path"), json::array());
+  EXPECT_TRUE(whole.at("track").is_null());
+  EXPECT_TRUE(get("/api/recordings/run.tsr").json().at("marking").is_null());
+  EXPECT_EQ(get("/api/recordings/alone.7.tsr").json().at("marking"), json::array());
+  // A part of a recording that is there has no page of its own.
+  fs::copy_file(folder_ / "project/run.tsr", folder_ / "project/alone.tsr");
+  EXPECT_EQ(get("/api/recordings/alone.7.tsr").status, 404);
+}
+
+TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {
+  const fs::path last = folder_ / "project/.tessera/last";
+  write(last / "recording.tsr", header(0) + firing(10, 1));
+  std::string path = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line\n";
+  for (int point = 0; point < 50'000; ++point) path += std::to_string(point) + ",1.5,-2,0.5,0,0,1\n";
+  write(last / "path.csv", path + "half a line");
+  write(last / "summary.json", R"({"track": "/somewhere/tracks/oval.png"})");
+  serve();
+  const json whole = get("/api/recordings/last").json();
+  EXPECT_EQ(whole.at("track"), "oval.png");
+  EXPECT_LE(whole.at("path").size(), 20'000U);
+  EXPECT_GE(whole.at("path").size(), 10'000U);
+  EXPECT_EQ(whole.at("path").front(), json({0, 1.5, -2.0, 0.5}));
+  EXPECT_EQ(whole.at("path").back()[0], 49'999'000'000'000);
+  const json part = get("/api/recordings/last?from=1000000000&to=3000000000").json();
+  EXPECT_EQ(part.at("path").size(), 3U);
+}
+
+TEST_F(RecordingOfTheStudio, WhatIsBesideItMayBeAnything) {
+  const fs::path last = folder_ / "project/.tessera/last";
+  write(last / "recording.tsr", header(0) + firing(10, 1));
+  serve();
+  const std::vector<std::string> noise{"", std::string(3'000'000, '\xff'), "{\"track\":[]}", "[[[[",
+                                       "{\"track\":\"..\"}"};
+  for (const std::string& one : noise) {
+    write(last / "path.csv", one);
+    write(last / "summary.json", one);
+    const Reply reply = get("/api/recordings/last");
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.json().at("path"), json::array());
+  }
+  fs::remove(last / "path.csv");
+  write(folder_ / "secret.csv", "1,2,3,4,5\n");
+  fs::create_symlink(folder_ / "secret.csv", last / "path.csv");
+  EXPECT_EQ(get("/api/recordings/last").json().at("path"), json::array());
+}
+
+TEST_F(RecordingOfTheStudio, IsFollowedFromSegmentToSegment) {
+  std::vector<GrowingRecording::Piece> pieces;
+  server::RecordingTail tail(
+      [&] {
+        if (pieces.empty()) return GrowingRecording::Piece{};
+        GrowingRecording::Piece piece = pieces.front();
+        pieces.erase(pieces.begin());
+        piece.more = !pieces.empty();
+        return piece;
+      },
+      *analysis_.net);
+  EXPECT_TRUE(tail.next().firings.empty());
+  const std::string first = header(7) + marking(name_of_place(2)) + value("\1");
+  pieces = {{first.substr(0, 100), true, false}, {first.substr(100), false, false}};
+  EXPECT_TRUE(tail.next().jumped);
+  EXPECT_EQ(tail.marking(), std::vector<std::uint32_t>{2});
+
+  // The value was not taken before the next segment began, which does not repeat it.
+  pieces = {{header(9) + marking(name_of_place(5)) + firing(40, 1), true, false}};
+  const server::RecordingTail::Batch batch = tail.next();
+  EXPECT_TRUE(batch.jumped);
+  EXPECT_EQ(batch.firings.size(), 1U);
+  EXPECT_EQ(tail.take_changed_values(), json::parse(R"({"robot.control.line": {"left": true}})"));
+  EXPECT_EQ(tail.take_changed_values(), json::object());
+
+  pieces = {{value(std::string(1, '\0')) + firing(50, 2), false, false}};
+  EXPECT_FALSE(tail.next().jumped);
+  EXPECT_EQ(tail.take_changed_values(), json::parse(R"({"robot.control.line": {"left": false}})"));
+
+  pieces = {{"damaged for ever and ever", false, false}, {firing(60, 1), false, false}};
+  EXPECT_TRUE(tail.next().firings.empty());
+}
+
+}  // namespace tessera::server_test

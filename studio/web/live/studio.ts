@@ -1,4 +1,5 @@
 import { Api, shareToken, takeToken } from "./api";
+import { Camera } from "./camera";
 import { Connection } from "./connection";
 import { Draft, message } from "./draft";
 import type { Project } from "./protocol";
@@ -6,6 +7,7 @@ import { Play } from "./play";
 import { findThing, type Structure } from "../model/structure";
 import { Recordings } from "./recordings";
 import { Runner } from "./runner";
+import { Scene } from "./scene";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Verifier } from "./verifier";
@@ -44,11 +46,14 @@ export class Studio {
   readonly api = new Api(takeToken());
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
-  readonly stage = new Stage();
-  readonly play = new Play(this.stage);
+  /** Where the net of the text is drawn, and games are played on it. */
+  readonly desk = new Stage();
+  readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection);
-  readonly runner = new Runner(this.api, this.draft, this.stage, this.connection);
-  readonly recordings = new Recordings(this.api, this.draft, this.stage);
+  readonly runner = new Runner(this.api, this.draft, this.connection);
+  readonly recordings = new Recordings(this.api, this.draft);
+  readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly camera = new Camera();
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "net",
@@ -71,7 +76,7 @@ export class Studio {
     });
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
-      if (net && this.stage.mode === "edit" && !this.stage.is(net)) this.stage.reset(net, "edit");
+      if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
     this.connection.on<{ revision: string }>("spec", (event) => {
       void this.draft.changedOnDisk(event.revision);

@@ -6,16 +6,8 @@ import type { NetModel } from "../model/net";
 import { Choice } from "./field";
 import { Icon } from "./icons";
 import { OutcomeOf } from "./outcome";
+import { stateTitles } from "./pane_title";
 import { StartForm } from "./start_form";
-
-const states = {
-  idle: "",
-  building: "Building the controller…",
-  running: "Running",
-  paused: "Paused",
-  ended: "Ended",
-  failed: "Failed",
-};
 
 export function RunPanel() {
   const studio = useStudio();
@@ -25,11 +17,16 @@ export function RunPanel() {
     <div className="run-panel">
       {runner.state !== "idle" && (
         <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
-          <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {states[runner.state]}
+          <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}
           {runner.why && ` — ${runner.why}`}
         </p>
       )}
       {runner.problem && <p className="problem-hint">{runner.problem}</p>}
+      {active && !runner.shown && (
+        <div className="buttons">
+          <button onClick={() => studio.runner.show(true)}>Show it in the drawing</button>
+        </div>
+      )}
       {active ? <Controls /> : <StartForm />}
       {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
@@ -124,7 +121,7 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
 /** What is running now, in one look. */
 function RunningNow() {
   const studio = useStudio();
-  const running = useRunning();
+  const running = useRunning(studio.runner.stage);
   return (
     <>
       <h3>Running now</h3>

@@ -1,0 +1,18 @@
+import { useStore, useStudio } from "../app/use";
+import type { Pane } from "../live/scene";
+
+export const stateTitles = {
+  idle: "",
+  building: "Building the controller…",
+  running: "Running",
+  paused: "Paused",
+  ended: "Ended",
+  failed: "Failed",
+};
+
+/** What a pane shows, in few words. */
+export function usePaneTitle(): (pane: Pane) => string {
+  const studio = useStudio();
+  const state = useStore(studio.runner.store, (all) => all.state);
+  return (pane) => pane.replay?.name ?? (pane.id === "run" ? `Run: ${stateTitles[state].toLowerCase()}` : "The text");
+}

@@ -18,7 +18,7 @@ export function RunPanel() {
       {runner.state !== "idle" && (
         <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
           <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}
-          {runner.why && ` — ${runner.why}`}
+          {runner.why && ` — ${runner.why === "duration" ? "its time is over" : runner.why}`}
         </p>
       )}
       {runner.problem && <p className="problem-hint">{runner.problem}</p>}

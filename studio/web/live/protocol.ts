@@ -132,7 +132,7 @@ export interface Recording {
   values?: Record<string, [number, unknown][]>;
   dropped?: number;
   truncated?: boolean;
-  /** Places that hold a token before the first firing, when that is not the run's first. */
+  /** Places that hold a token before the first firing, when that is not the run's first; none: it is not known which. */
   marking?: number[] | null;
   path?: PathRow[];
   /** The floor picture, when it is another than that of the specification. */

@@ -1,4 +1,4 @@
-import { fire, runningBehaviours } from "../model/game";
+import { fire, markingBefore, runningBehaviours } from "../model/game";
 import type { NetModel } from "../model/net";
 import { count } from "../model/sorted";
 import type { FiringRow, Recording } from "./protocol";
@@ -43,6 +43,13 @@ export class Replay {
     this.first = this.firings[0]?.[0] ?? 0;
     this.last = this.firings.at(-1)?.[0] ?? this.first;
     this.stage.reset(net, "recording", recording.marking);
+    if (recording.marking?.length === 0)
+      this.stage.setMarking(
+        markingBefore(
+          net,
+          this.firings.map(([, transition]) => transition),
+        ),
+      );
     this.prepare(this.stage.marking.slice());
     this.track = this.trackOf(recording);
     this.store = new Store<ReplayState>({ time: this.first, playing: false, speed: 1 });

@@ -32,6 +32,8 @@ export interface SceneState {
   comparison: Comparison | null;
 }
 
+/** What fires last does so a little before the end of a run (in ns). */
+const slack = 0.5e9;
 /** So many milliseconds between two comparisons. */
 const pause = 100;
 
@@ -119,7 +121,7 @@ export class Scene {
 
 function compared(left: Track, right: Track, sameTime: boolean): Comparison {
   const moment = sameTime ? left.now : right.now;
-  if (moment > right.end) return { time: moment, differences: [], missing: "right" };
+  if (moment > right.end + slack) return { time: moment, differences: [], missing: "right" };
   if (!sameTime && moment > left.known) return { time: moment, differences: [], missing: "left" };
   if (!sameTime && left.dropped > 0) return { time: moment, differences: [], missing: "sampled" };
   // Of a live run, what fired is known a little later than that it is that late; with it comes the marking.

@@ -4,9 +4,13 @@ import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
 
+/** Milliseconds between two pictures. */
+const pause = 30;
+
 /**
  * What one pane of the drawing shows: the marking, and what just fired. The edited net and the games on it have a stage, the
- * live run and each recording have their own. Listeners are told once per frame, however many events came.
+ * live run and each recording have their own. Listeners are told at most thirty times a second, however many events came: more
+ * is not seen, and the time is that of the drawing.
  */
 export class Stage {
   mode: StageMode = "edit";
@@ -23,6 +27,7 @@ export class Stage {
   private net: NetModel | null = null;
   private readonly listeners = new Set<() => void>();
   private frame = 0;
+  private told = -Infinity;
 
   /** Shows a net with its initial marking, or with a token in each of the places. */
   reset(net: NetModel, mode: StageMode, marked?: readonly number[] | null): void {
@@ -78,13 +83,19 @@ export class Stage {
   };
 
   private touch(): void {
-    if (this.frame) return;
-    this.frame = requestAnimationFrame(() => {
-      this.frame = 0;
-      this.occupy();
-      this.listeners.forEach((listener) => listener());
-    });
+    if (!this.frame) this.frame = requestAnimationFrame(this.tell);
   }
+
+  private tell = (now: number): void => {
+    if (now - this.told < pause) {
+      this.frame = requestAnimationFrame(this.tell);
+      return;
+    }
+    this.told = now;
+    this.frame = 0;
+    this.occupy();
+    this.listeners.forEach((listener) => listener());
+  };
 
   private occupy(): void {
     const { net } = this;

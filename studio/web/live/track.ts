@@ -15,8 +15,12 @@ export interface Pose {
 /** Of an endless run, as many poses as half an hour has. */
 const most = 40_000;
 
+let made = 0;
+
 /** What a run left behind so far; read by what draws it, once per frame. */
 export class Track {
+  /** Another one for each. */
+  readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
   path: Pose[] = [];

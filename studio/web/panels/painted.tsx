@@ -26,10 +26,11 @@ function coloursOf(element: Element): Colours {
   };
 }
 
-/** A canvas that is painted every frame in which it can be seen. */
+/** A canvas that is painted again while what it shows changes. */
 export function Painted({
   label,
   draw,
+  of,
   onPick,
   every = 48,
 }: {
@@ -38,30 +39,36 @@ export function Painted({
   /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
   every?: number;
   draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
+  /** What the picture depends on: it is painted again only when that is another. */
+  of: () => string;
   onPick?: ((x: number, width: number) => void) | undefined;
 }) {
   const ref = useRef<HTMLCanvasElement>(null);
   const pause = useRef(every);
-  const latest = useRef(draw);
-  latest.current = draw;
+  const latest = useRef({ draw, of });
+  latest.current = { draw, of };
   useEffect(() => {
     const canvas = ref.current!;
     const context = canvas.getContext("2d")!;
     let frame = 0;
     let before = -Infinity;
+    let painted = "";
     const paint = (now: number) => {
       frame = requestAnimationFrame(paint);
       if (now - before < pause.current) return;
       before = now;
       const { clientWidth: width, clientHeight: height } = canvas;
       const ratio = devicePixelRatio;
+      const state = [latest.current.of(), width, height, ratio, document.documentElement.dataset.theme].join();
+      if (state === painted) return;
+      painted = state;
       if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
         canvas.width = Math.round(width * ratio);
         canvas.height = Math.round(height * ratio);
       }
       context.setTransform(ratio, 0, 0, ratio, 0, 0);
       context.clearRect(0, 0, width, height);
-      latest.current(context, { width, height }, coloursOf(canvas));
+      latest.current.draw(context, { width, height }, coloursOf(canvas));
     };
     frame = requestAnimationFrame(paint);
     return () => cancelAnimationFrame(frame);

@@ -1,6 +1,6 @@
 import { useStudio } from "../app/use";
 import type { Pane } from "../live/scene";
-import { Icon } from "./icons";
+import { IconButton } from "./icons";
 
 /** Above each of two panes: what it shows, and how to put it away. */
 export function PaneHead({ pane, title }: { pane: Pane; title: string }) {
@@ -9,14 +9,12 @@ export function PaneHead({ pane, title }: { pane: Pane; title: string }) {
     <header className="pane-head">
       <h2 title={title}>{title}</h2>
       <span className="spring" />
-      <button
-        className="icon"
-        aria-label={`Close ${title}`}
+      <IconButton
+        name="remove"
+        label={`Close ${title}`}
         title={pane.id === "run" && studio.runner.active ? "Put this pane away; the run goes on" : "Put this away"}
         onClick={() => studio.scene.close(pane)}
-      >
-        <Icon name="remove" />
-      </button>
+      />
     </header>
   );
 }

@@ -10,6 +10,9 @@ export const stateTitles = {
   failed: "Failed",
 };
 
+/** Why a run ended, in words; what is not here is words already. */
+export const reason = (why: string): string => ({ duration: "the time asked for is over" })[why] ?? why;
+
 /** What a pane shows, in few words. */
 export function usePaneTitle(): (pane: Pane) => string {
   const studio = useStudio();

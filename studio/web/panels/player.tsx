@@ -4,7 +4,7 @@ import type { Replay } from "../live/replay";
 import type { Pane } from "../live/scene";
 import type { Track } from "../live/track";
 import { clock } from "./clock";
-import { Icon } from "./icons";
+import { IconButton } from "./icons";
 import { stateTitles } from "./pane_title";
 
 /** Below a drawing that is stepped through: back, forward, let it run, to any position. `beside`: there is another pane. */
@@ -25,15 +25,14 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
           {name}
         </span>
       )}
-      <button className="icon" aria-label="Back to the last firing" disabled={fixed} onClick={() => replay.step(-1)}>
-        <Icon name="back" />
-      </button>
-      <button className="icon" aria-label={playing ? "Pause" : "Play"} disabled={fixed} onClick={() => replay.play(!playing)}>
-        <Icon name={playing ? "pause" : "play"} />
-      </button>
-      <button className="icon" aria-label="To the next firing" disabled={fixed} onClick={() => replay.step(1)}>
-        <Icon name="forward" />
-      </button>
+      <IconButton name="back" label="Back to the last firing" disabled={fixed} onClick={() => replay.step(-1)} />
+      <IconButton
+        name={playing ? "pause" : "play"}
+        label={playing ? "Pause" : "Play"}
+        disabled={fixed}
+        onClick={() => replay.play(!playing)}
+      />
+      <IconButton name="forward" label="To the next firing" disabled={fixed} onClick={() => replay.step(1)} />
       <input
         type="range"
         aria-label="Time"
@@ -46,7 +45,8 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
         onChange={(event) => replay.seek(Number(event.target.value))}
       />
       <span className="position">
-        {clock(time)} / {clock(last)} s
+        {clock(time)}
+        <span className="whole"> / {clock(last)} s</span>
       </span>
       <select
         aria-label="Speed"
@@ -82,13 +82,11 @@ function RunBar({ track }: { track: Track }) {
   return (
     <div className="player" role="group" aria-label="The run">
       {kind !== "run" && (paused || state === "running") && (
-        <button
-          className="icon"
-          aria-label={paused ? "Let the run go on" : "Pause the run"}
+        <IconButton
+          name={paused ? "play" : "pause"}
+          label={paused ? "Let the run go on" : "Pause the run"}
           onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
-        >
-          <Icon name={paused ? "play" : "pause"} />
-        </button>
+        />
       )}
       <span className="faint">{stateTitles[state]}</span>
       <span className="spring" />
@@ -105,21 +103,15 @@ function StepPlayer() {
   return (
     <div className="player" role="group" aria-label={play.title}>
       <span className="title">{play.title.replaceAll("_", " ")}</span>
-      <button className="icon" aria-label="To the beginning" onClick={() => player.seek(0)}>
-        <Icon name="first" />
-      </button>
-      <button className="icon" aria-label="Step back" disabled={play.position === 0} onClick={() => player.back()}>
-        <Icon name="back" />
-      </button>
-      <button className="icon" aria-label={play.running ? "Pause" : "Let it run"} onClick={() => player.run(!play.running)}>
-        <Icon name={play.running ? "pause" : "play"} />
-      </button>
-      <button className="icon" aria-label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()}>
-        <Icon name="forward" />
-      </button>
-      <button className="icon" aria-label="To the end" onClick={() => player.seek(play.length)}>
-        <Icon name="last" />
-      </button>
+      <IconButton name="first" label="To the beginning" onClick={() => player.seek(0)} />
+      <IconButton name="back" label="Step back" disabled={play.position === 0} onClick={() => player.back()} />
+      <IconButton
+        name={play.running ? "pause" : "play"}
+        label={play.running ? "Pause" : "Let it run"}
+        onClick={() => player.run(!play.running)}
+      />
+      <IconButton name="forward" label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()} />
+      <IconButton name="last" label="To the end" onClick={() => player.seek(play.length)} />
       <input
         type="range"
         aria-label="Position"

@@ -4,9 +4,9 @@ import { useStore, useStudio } from "../app/use";
 import type { Breakpoint } from "../live/protocol";
 import type { NetModel } from "../model/net";
 import { Choice } from "./field";
-import { Icon } from "./icons";
+import { Icon, IconButton } from "./icons";
 import { OutcomeOf } from "./outcome";
-import { stateTitles } from "./pane_title";
+import { reason, stateTitles } from "./pane_title";
 import { StartForm } from "./start_form";
 
 export function RunPanel() {
@@ -18,7 +18,7 @@ export function RunPanel() {
       {runner.state !== "idle" && (
         <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
           <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}
-          {runner.why && ` — ${runner.why === "duration" ? "its time is over" : runner.why}`}
+          {runner.why && ` — ${reason(runner.why)}`}
         </p>
       )}
       {runner.problem && <p className="problem-hint">{runner.problem}</p>}
@@ -155,13 +155,11 @@ function Breakpoints() {
               <button className="choice" onClick={() => studio.flyTo(path)}>
                 {where}
               </button>
-              <button
-                className="icon"
-                aria-label={`Remove the breakpoint at ${where}`}
+              <IconButton
+                name="remove"
+                label={`Remove the breakpoint at ${where}`}
                 onClick={() => studio.runner.toggleBreakpoint(breakpoint)}
-              >
-                <Icon name="remove" />
-              </button>
+              />
             </li>
           );
         })}

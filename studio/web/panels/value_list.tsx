@@ -22,6 +22,7 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
           <Painted
             label={`Plot of ${plotted}`}
             draw={(context, size, colours) => plot(context, size, colours, large, track.now, seconds, true)}
+            of={() => `${track.id} ${track.now} ${plotted} ${seconds}`}
           />
         </div>
       )}
@@ -39,6 +40,7 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
                       every={200}
                       label=""
                       draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)}
+                      of={() => `${track.id} ${track.now} ${seconds}`}
                     />
                   )}
                 </span>

@@ -63,6 +63,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
         <Painted
           label="Behaviours and firings of each subsystem over time"
           draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
+          of={() => `${track.id} ${track.now} ${track.firings} ${seconds}`}
           onPick={replay && !fixed ? (x, width) => replay.seek(timeAt(track, seconds, x, width)) : undefined}
         />
       </div>
@@ -83,6 +84,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
             draw={(context, size, colours) =>
               drawWorld(context, size, colours, track, replay ? "This recording holds no path" : "No path yet")
             }
+            of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
           />
         </div>
       )}

@@ -15,7 +15,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await button(page, "Run").click();
     const rows = page.locator(".outcome tbody tr");
     await rows.first().waitFor();
-    assert.equal(await page.getByTestId("run-state").innerText(), "Ended — its time is over");
+    assert.equal(await page.getByTestId("run-state").innerText(), "Ended — the time asked for is over");
     assert.equal(await rows.count(), 2);
     assert.match(await rows.first().innerText(), /watcher\.control\s+201\s+0\s+0/);
     assert.equal(await page.getByRole("heading", { name: "World" }).count(), 0);

@@ -260,6 +260,54 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await page.getByRole("button", { name: /^Close 2/ }).click();
   }));
 
+/** How much of the world's picture is path. */
+const pathDrawn = (page) =>
+  page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let found = 0;
+    for (let at = 0; at < data.length; at += 4) if (data[at + 3] > 128 && data[at + 2] > data[at] + 80) found += 1;
+    return found;
+  });
+
+test("the robot's path is there after a reload, and in the recording up to the moment shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed", exact: true }).fill("5");
+    await page.keyboard.press("Enter");
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 150, "a path");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await drawn(page);
+    const before = await pathDrawn(page);
+    await page.reload();
+    await tab(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 0.8 * before, "the path of before");
+    // The values of before too, though none changes while it stands.
+    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await button(page, "Close this run").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    const slider = page.getByRole("slider", { name: "Time" });
+    const last = Number(await slider.getAttribute("max"));
+    const at = async (part) => {
+      await slider.fill(String(last * part));
+      await page.getByText(`${((last * part) / 1e9).toFixed(2)} s ·`).waitFor();
+      await drawn(page);
+      await drawn(page);
+      return pathDrawn(page);
+    };
+    const whole = await at(1);
+    const half = await at(0.5);
+    assert.ok(whole > 0.8 * before && half > 0.2 * whole && half < 0.8 * whole, `${before} before, ${half} of ${whole}`);
+    assert.ok((await at(0)) < 0.3 * half);
+    assert.ok((await at(1)) > 0.9 * whole);
+  }));
+
 test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
   onPage(example("02_gap"), async (page) => {
     const transition = "robot.control.follow.t4";

@@ -35,6 +35,17 @@ describe("Replay", () => {
     expect(held(replay)).not.toContain("robot.in");
     expect(held(replay)).toContain("robot.control.in");
   });
+  it("begins with what the firings need when nobody knows the marking", () => {
+    const firings: [number, number][] = [
+      [50, named("robot.t_in")],
+      [60, named("robot.control.t_in")],
+    ];
+    const replay = new Replay("x", net, { firings, marking: [] });
+    expect(held(replay)).toContain("robot.control.in");
+    replay.seek(60);
+    expect(held(replay)).toContain("robot.control.init.in");
+    expect([...replay.stage.marking].every((tokens) => tokens >= 0)).toBe(true);
+  });
   it("steps over what fired at the same moment", () => {
     const replay = new Replay("x", net, {
       firings: [

@@ -56,7 +56,7 @@ function AttachForm() {
         />
       )}
       <div className="buttons">
-        <button className="primary" disabled={!socket} onClick={() => void studio.runner.start({ kind: "attach", socket })}>
+        <button className="primary" disabled={!socket} onClick={() => void studio.run({ kind: "attach", socket })}>
           Watch it
         </button>
         <button onClick={() => void look()}>Look again</button>
@@ -88,7 +88,7 @@ export function StartForm() {
       ...(track ? { track } : {}),
       ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
     };
-    await studio.runner.start(request);
+    await studio.run(request);
   };
   return (
     <>

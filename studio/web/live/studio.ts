@@ -2,7 +2,7 @@ import { Api, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
 import { Connection } from "./connection";
 import { Draft, message } from "./draft";
-import type { Project } from "./protocol";
+import type { Project, RunRequest } from "./protocol";
 import { Play } from "./play";
 import { findThing, type Structure } from "../model/structure";
 import { Recordings } from "./recordings";
@@ -116,6 +116,24 @@ export class Studio {
       await this.draft.changedOnDisk("");
       this.draft.store.set({ notice: "The server was restarted; connected again" });
     }
+  }
+
+  /** Starts or watches a run; a game that is played makes room for it. */
+  async run(request: RunRequest): Promise<void> {
+    this.play.stop();
+    await this.runner.start(request);
+  }
+
+  /** Draws a run again whose pane was put away. */
+  showRun(): void {
+    this.play.stop();
+    this.runner.show(true);
+  }
+
+  /** Opens a recording beside the first `keep` of those that are open. */
+  async replay(name: string, keep: number): Promise<void> {
+    this.play.stop();
+    await this.recordings.open(name, keep);
   }
 
   select(path: string | null, showLine = true): void {

@@ -9,10 +9,7 @@ export function RecordingsPanel() {
   const { state, shown } = useStore(studio.runner.store, (all) => all);
   useEffect(() => void studio.recordings.refresh(), [studio, state]);
   const names = open.map((replay) => replay.name);
-  const show = (name: string, keep: number) => {
-    studio.play.stop();
-    void studio.recordings.open(name, keep);
-  };
+  const show = (name: string, keep: number) => void studio.replay(name, keep);
   return (
     <>
       {problem && <p className="problem-hint">{problem}</p>}

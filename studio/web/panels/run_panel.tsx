@@ -24,7 +24,7 @@ export function RunPanel() {
       {runner.problem && <p className="problem-hint">{runner.problem}</p>}
       {active && !runner.shown && (
         <div className="buttons">
-          <button onClick={() => studio.runner.show(true)}>Show it in the drawing</button>
+          <button onClick={() => studio.showRun()}>Show it in the drawing</button>
         </div>
       )}
       {active ? <Controls /> : <StartForm />}

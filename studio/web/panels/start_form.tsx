@@ -53,7 +53,7 @@ function AttachForm() {
         />
       )}
       <div className="buttons">
-        <button className="primary" disabled={!socket} onClick={() => void studio.runner.start({ kind: "attach", socket })}>
+        <button className="primary" disabled={!socket} onClick={() => void studio.run({ kind: "attach", socket })}>
           Watch it
         </button>
         <button onClick={() => void look()}>Look again</button>
@@ -85,7 +85,7 @@ export function StartForm() {
       ...(track ? { track } : {}),
       ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
     };
-    await studio.runner.start(request);
+    await studio.run(request);
   };
   return (
     <>

@@ -131,4 +131,9 @@ test("a run that goes on is put away and shown again; a game has the drawing for
     await button(page, "Close").click();
     await page.locator(".watch").waitFor();
     await element(page, "robot.control").locator(".running").getByText("follow").waitFor();
+    // What is opened during a game ends the game.
+    await button(page, "Play the token game").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    await until(page, async () => (await panes(page).count()) === 2, "the run and the recording");
   }));

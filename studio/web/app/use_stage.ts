@@ -1,21 +1,21 @@
 import { useEffect, useState } from "react";
 import { runningBehaviours } from "../model/game";
+import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import { useStore, useStudio } from "./use";
 
-/** Running behaviour by path of subsystem ("robot.control" -> "follow"), while something plays. */
-export function useRunning(): ReadonlyMap<string, string> {
+/** Running behaviour by path of subsystem ("robot.control" -> "follow"), while something plays on the stage. */
+export function useRunning(stage: Stage): ReadonlyMap<string, string> {
   const studio = useStudio();
-  const net = useStore(studio.stage.shown, (all) => all.net);
-  const live = useStore(studio.stage.shown, (all) => all.mode === "live");
+  const net = useStore(stage.shown, (all) => all.net);
+  const live = useStore(stage.shown, (all) => all.mode === "live");
   const told = useStore(studio.runner.store, (all) => all.behaviours);
   const [text, setText] = useState("");
   useEffect(() => {
-    const look = () =>
-      setText(net && studio.stage.mode !== "edit" && studio.stage.is(net) ? running(net, studio.stage.marking) : "");
+    const look = () => setText(net && stage.mode !== "edit" && stage.is(net) ? running(net, stage.marking) : "");
     look();
-    return studio.stage.subscribe(look);
-  }, [net, studio]);
+    return stage.subscribe(look);
+  }, [net, stage]);
   // Without its recording one knows of a controller only what it says.
   if (text === "" && live) return told;
   return new Map(

@@ -8,11 +8,11 @@ export function ExportButtons({ name }: { name: string }) {
   const studio = useStudio();
   const [busy, setBusy] = useState(false);
   const take = async (format: "svg" | "png") => {
-    const area = document.querySelector(".canvas-area");
-    if (!area) return;
+    const areas = [...document.querySelectorAll(".canvas-area")];
+    if (areas.length === 0) return;
     setBusy(true);
     try {
-      const picture = takePicture(area);
+      const picture = takePicture(areas);
       download(
         format === "svg" ? new Blob([picture.text], { type: "image/svg+xml" }) : await asPng(picture),
         `${name || "system"}.${format}`,

@@ -9,7 +9,7 @@ import type { Stage } from "../live/stage";
  */
 export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
   if (!stage.is(net)) return;
-  const { marking, occupied, counts, firedAt, mode } = stage;
+  const { marking, occupied, counts, firedAt, mode, differing } = stage;
   const playing = mode !== "edit";
   const now = performance.now();
   root.querySelectorAll<SVGGElement>("[data-place]").forEach((group) => {
@@ -32,6 +32,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     const layer = net.page(page).layer;
     const idle = layer === "system";
     group.classList.toggle("occupied", playing && !idle && occupied[page] === 1);
+    group.classList.toggle("differs", layer === "subsystem" && differing.has(net.page(page).path));
   });
   if (root instanceof SVGElement) root.classList.toggle("runs", playing && occupied[Number(root.dataset.of)] === 1);
   const running = playing ? runningBehaviours(net, marking) : new Map<number, string>();

@@ -26,23 +26,26 @@ export interface Picture {
   height: number;
 }
 
-/** What of `area` (an element with a flow in it) can be seen now. */
-export function takePicture(area: Element): Picture {
-  const frame = area.getBoundingClientRect();
-  const root = make("svg", {
-    xmlns: svg,
-    width: frame.width,
-    height: frame.height,
-    viewBox: `0 0 ${round(frame.width)} ${round(frame.height)}`,
-  });
-  root.append(
-    make("rect", { width: "100%", height: "100%", fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }),
-  );
+/** What of `areas` (elements with a flow in each) can be seen now. */
+export function takePicture(areas: readonly Element[]): Picture {
+  const frames = areas.map((area) => area.getBoundingClientRect());
+  const [left, top] = [Math.min(...frames.map((one) => one.left)), Math.min(...frames.map((one) => one.top))];
+  const width = Math.max(...frames.map((one) => one.right)) - left;
+  const height = Math.max(...frames.map((one) => one.bottom)) - top;
+  const root = make("svg", { xmlns: svg, width, height, viewBox: `0 0 ${round(width)} ${round(height)}` });
   const markers = make("defs", {});
   document.querySelectorAll("marker[id^='tip'], marker[id='channel-tip']").forEach((marker) => markers.append(copy(marker)));
   root.append(markers);
-  for (const part of stacked(area)) add(part, root, frame);
-  return { text: new XMLSerializer().serializeToString(root), width: frame.width, height: frame.height };
+  areas.forEach((area, at) => {
+    const frame = frames[at]!;
+    // An SVG within one cuts off what is outside of it.
+    const size = { width: round(frame.width), height: round(frame.height) };
+    const inner = make("svg", { x: round(frame.left - left), y: round(frame.top - top), ...size });
+    inner.append(make("rect", { ...size, fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }));
+    for (const part of stacked(area)) add(part, inner, frame);
+    root.append(inner);
+  });
+  return { text: new XMLSerializer().serializeToString(root), width, height };
 }
 
 /** The parts of a flow from the lowest to the highest. */

@@ -1,6 +1,7 @@
 import type { NodeProps, Node } from "@xyflow/react";
 import { memo, useEffect, useRef } from "react";
 import { useStudio } from "../app/use";
+import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import type { Placed } from "../model/sheets";
 import { paint } from "./paint";
@@ -16,6 +17,8 @@ export interface SheetData extends Record<string, unknown> {
   near: number;
   selected: string | null;
   flags: ReadonlyMap<string, "error" | "warning">;
+  /** Whose tokens are on it. */
+  stage: Stage;
 }
 export type SheetNode = Node<SheetData, "sheet">;
 
@@ -23,15 +26,15 @@ export type SheetNode = Node<SheetData, "sheet">;
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);
-  const { net, placed, open, folded, near, selected, flags } = data;
+  const { net, placed, open, folded, near, selected, flags, stage } = data;
   const { page, sheet, scale } = placed;
   const opened = new Set(open.split(",").map(Number));
   const closed = new Set(folded.split(",").map(Number));
   useEffect(() => {
-    const now = () => ref.current && paint(ref.current, net, studio.stage);
+    const now = () => ref.current && paint(ref.current, net, stage);
     now();
-    return studio.stage.subscribe(now);
-  }, [net, studio, sheet, open, folded, selected]);
+    return stage.subscribe(now);
+  }, [net, stage, sheet, open, folded, selected]);
   const far = near <= -3;
   const parts = { net, page, direction: sheet.direction };
   const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);

@@ -6,9 +6,9 @@ const windowOf = (state: ReactFlowState) => [...state.transform, state.width, st
 
 /**
  * Keeps what is seen of the drawing in view when the room for it changes, as when a panel opens below it, and brings the
- * old view back when the room does.
+ * old view back when the room does. Panes that follow another one are moved with it.
  */
-export function useSteadyView(drawing: Box | undefined): void {
+export function useSteadyView(drawing: Box | undefined, lead = true): void {
   const flow = useReactFlow();
   const [x, y, zoom, width, height] = useStore(windowOf).split(",").map(Number) as [number, number, number, number, number];
   const seen = useRef<{ box: Box; zoom: number; width: number; height: number } | null>(null);
@@ -16,7 +16,7 @@ export function useSteadyView(drawing: Box | undefined): void {
   useEffect(() => {
     if (width === 0 || height === 0 || !drawing) return;
     const last = seen.current;
-    if (last && (last.width !== width || last.height !== height)) {
+    if (last && lead && (last.width !== width || last.height !== height)) {
       const { box } = last;
       seen.current = { ...last, width, height };
       const near = Math.min(last.zoom, width / box.width, height / box.height);
@@ -27,5 +27,5 @@ export function useSteadyView(drawing: Box | undefined): void {
       const window = { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom };
       seen.current = { box: overlap(window, drawing) ?? window, zoom, width, height };
     }
-  }, [flow, drawing, x, y, zoom, width, height]);
+  }, [flow, drawing, lead, x, y, zoom, width, height]);
 }

@@ -1,4 +1,5 @@
 import { Handle, Position, type NodeProps } from "@xyflow/react";
+import { useStore, useStudio } from "../app/use";
 import { useRunning } from "../app/use_stage";
 import type { Agent, Buffer, Subsystem } from "../model/structure";
 import { head, ports, row } from "../model/structure_layout";
@@ -39,7 +40,8 @@ export function SubsystemNode({ data }: NodeProps) {
     selected: string | null;
     complaints: ReadonlyMap<string, Complaint>;
   };
-  const running = useRunning();
+  const studio = useStudio();
+  const running = useRunning(useStore(studio.scene.store, ({ panes }) => panes[0]!.stage));
   const now = running.get(subsystem.path) ?? [...running].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
   const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
   const isSelected = selected === subsystem.path;

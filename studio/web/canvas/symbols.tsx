@@ -14,8 +14,6 @@ interface PartProps {
   selected: boolean;
 }
 
-const idOf = (path: string) => `element-${path || "system"}`;
-
 function Labels({ box, direction, lines }: { box: Box; direction: "down" | "right"; lines: { text: string; kind: string }[] }) {
   const shown = lines.filter((line) => line.text);
   const down = direction === "down";
@@ -37,7 +35,6 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
   return (
     <g
       className={`element place${node.fusion === null ? "" : " fused"}${selected ? " selected" : ""}`}
-      id={`${idOf(path)}@${page}`}
       data-path={path}
       role="img"
       aria-label={spoken(net, path)}
@@ -69,7 +66,6 @@ export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direct
   return (
     <g
       className={`element bar${never ? " never" : ""}${selected ? " selected" : ""}`}
-      id={idOf(path)}
       data-path={path}
       data-transition={flat}
       role="img"
@@ -114,6 +110,7 @@ export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
   const group = (
     <>
       {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} />}
+      {folded && !far && <Reach box={box} direction={direction} name={of.name} />}
       {folded && !far && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
       {flagged && (
         <circle className={`flag ${flagged}`} cx={box.x + box.width - (folded ? 4 : 14)} cy={box.y + (folded ? 4 : 11)} r={4.5} />
@@ -123,7 +120,6 @@ export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
   return (
     <g
       className={`element page ${of.layer}${folded ? " folded" : ""}${selected ? " selected" : ""}`}
-      id={idOf(of.path)}
       data-path={of.path}
       data-page={child}
       role="img"
@@ -142,6 +138,19 @@ function FoldedPage({ box, far }: { box: Box; far: boolean }) {
       {!far && <circle className="ring" cx={cx} cy={cy} r={foldedPage / 2 - 4} />}
       {!far && <circle className="token inside" cx={cx} cy={cy} r={6} />}
     </>
+  );
+}
+
+/** What is between a folded page and its name is part of it, not of the frame below. */
+function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"; name: string }) {
+  const length = 6 + 6.2 * name.length;
+  const { x, y, width, height } = box;
+  const [cx, cy] = [x + width / 2, y + height / 2];
+  const [across, along] = [Math.max(width, length), height / 2 + 20];
+  return direction === "down" ? (
+    <rect className="reach" x={cx} y={cy - 9} width={width / 2 + length} height={18} />
+  ) : (
+    <rect className="reach" x={cx - across / 2} y={cy} width={across} height={along} />
   );
 }
 

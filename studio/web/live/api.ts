@@ -10,6 +10,12 @@ import type {
   VerifyEvent,
 } from "./protocol";
 
+/** The picture of a floor; its lower left corner is the origin. */
+export interface Floor {
+  image: ImageBitmap;
+  metresPerPixel: number;
+}
+
 /** An answer of the server that is not what was asked for; status 0: there was no answer. */
 export class ApiError extends Error {
   constructor(
@@ -101,11 +107,21 @@ export class Api {
       Array.isArray(answer) ? answer : answer.recordings,
     );
   recording = (name: string) => this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}`);
-  /** The floor picture of that name. */
-  async track(name: string): Promise<ImageBitmap> {
-    const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, { headers: { Authorization: `Bearer ${this.token}` } });
-    if (!answer.ok) throw new ApiError(answer.status, `There is no floor picture ${name}.`);
-    return createImageBitmap(await answer.blob());
+  /** The floor with that name, or that of the specification; nothing when there is no picture of it. */
+  async floor(chosen: string | null | undefined): Promise<Floor | null> {
+    try {
+      const own = (await this.project()).simulation?.track;
+      const name = chosen || own?.image;
+      if (!name) return null;
+      const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, {
+        headers: { Authorization: `Bearer ${this.token}` },
+      });
+      if (!answer.ok) return null;
+      return { image: await createImageBitmap(await answer.blob()), metresPerPixel: own?.metres_per_pixel ?? 0.005 };
+    } catch {
+      // Without the picture a path is drawn on nothing.
+      return null;
+    }
   }
   eventsAddress = () => `/api/events?token=${encodeURIComponent(this.token)}`;
 }

@@ -63,6 +63,16 @@ export interface VerifyEvent {
   error?: string;
 }
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
+/** What a controller says at its end. */
+export interface Outcome {
+  simulated_s: number;
+  wall_s: number;
+  real_time_factor: number;
+  firings: number;
+  lost_events: number;
+  warnings: string[];
+  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+}
 export interface RunInfo {
   run: string;
   kind?: RunRequest["kind"];
@@ -70,10 +80,16 @@ export interface RunInfo {
   track?: string | null;
   state: RunState;
   why?: string;
-  outcome?: unknown;
+  outcome?: Outcome | null;
   marking?: number[];
   net_hash?: string;
+  t?: number;
+  /** All of them; the events tell what changed since. */
+  values?: Record<string, unknown>;
+  path?: PathRow[];
 }
+/** Nanoseconds of the run's clock; metres and radians in the floor picture. */
+export type PathRow = [t: number, x: number, y: number, heading: number];
 export type FiringRow = [time_ns: number, transition: number];
 export interface FiringsEvent {
   run: string;
@@ -86,6 +102,7 @@ export interface FiringsEvent {
 export interface ValuesEvent {
   run: string;
   t: number;
+  /** Of the buffers that changed since the last event. */
   values: Record<string, unknown>;
 }
 /** What a controller says of itself; all there is of one whose recording cannot be read from here. */
@@ -115,6 +132,11 @@ export interface Recording {
   values?: Record<string, [number, unknown][]>;
   dropped?: number;
   truncated?: boolean;
+  /** Places that hold a token before the first firing, when that is not the run's first; none: it is not known which. */
+  marking?: number[] | null;
+  path?: PathRow[];
+  /** The floor picture, when it is another than that of the specification. */
+  track?: string | null;
 }
 export interface RunRequest {
   kind: "simulate" | "run" | "attach";

@@ -1,6 +1,5 @@
+import { runningBehaviours } from "../model/game";
 import type { NetModel } from "../model/net";
-import { Series } from "../model/series";
-import { Timeline } from "../model/timeline";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
@@ -8,6 +7,7 @@ import type {
   Breakpoint,
   ControlRequest,
   FiringsEvent,
+  Outcome,
   PoseEvent,
   RunInfo,
   RunRequest,
@@ -15,15 +15,26 @@ import type {
   SubsystemsEvent,
   ValuesEvent,
 } from "./protocol";
-import type { Stage } from "./stage";
+import { Stage } from "./stage";
 import { Store } from "./store";
+import { Track } from "./track";
+
+/** The next run as its form has it. */
+export interface Wishes {
+  kind: RunRequest["kind"];
+  /** Empty: that of the specification. */
+  track: string;
+  time: string;
+  seed: string;
+  speed: string;
+}
 
 export interface RunnerState {
   run: string | null;
   state: RunState | "idle";
   kind: RunRequest["kind"];
   why: string;
-  outcome: string;
+  outcome: Outcome | null;
   build: readonly string[];
   speed: number;
   problem: string;
@@ -31,6 +42,8 @@ export interface RunnerState {
   behaviours: ReadonlyMap<string, string>;
   /** Where the run pauses. */
   breakpoints: readonly Breakpoint[];
+  /** It has a pane of the drawing; a run goes on without one too. */
+  shown: boolean;
 }
 
 export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
@@ -42,49 +55,26 @@ const idle: RunnerState = {
   state: "idle",
   kind: "simulate",
   why: "",
-  outcome: "",
+  outcome: null,
   build: [],
   speed: 1,
   problem: "",
   behaviours: new Map(),
   breakpoints: [],
+  shown: false,
 };
-
-/** What a run left behind so far; read by what draws it, once per frame. */
-export class Track {
-  readonly timeline: Timeline;
-  readonly series = new Series();
-  readonly path: { t: number; x: number; y: number; heading: number }[] = [];
-  firings = 0;
-  dropped = 0;
-  /** The moment that is shown, and up to when it is known what happened: the same while it happens. */
-  now = 0;
-  private known = 0;
-  get end(): number {
-    return Math.max(this.now, this.known);
-  }
-  knownUntil(time: number): void {
-    this.known = time;
-  }
-
-  /** The floor, when there is a picture of it. */
-  floor: { image: ImageBitmap; metresPerPixel: number } | null = null;
-
-  constructor(readonly net: NetModel) {
-    this.timeline = new Timeline(net);
-  }
-}
 
 /** A run of the controller: started from here or found running, watched through the event stream. */
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
+  readonly stage = new Stage();
+  readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
 
   constructor(
     private readonly api: Api,
     private readonly draft: Draft,
-    private readonly stage: Stage,
     connection: Connection,
   ) {
     for (const name of ["build", "log"] as const)
@@ -116,16 +106,14 @@ export class Runner {
       kind: request.kind,
       speed: request.speed ?? 1,
     });
-    this.watch(net);
-    void this.showFloor(request.track);
+    this.watch(net, request.track);
     try {
       const { run } = await this.api.start(request);
       this.store.set({ run });
       // What happened before the answer came is asked for.
       this.told(await this.api.run(run));
     } catch (error) {
-      this.store.set({ state: "failed", problem: message(error) });
-      this.leave();
+      this.store.set({ state: "failed", problem: message(error), shown: false });
     }
   }
 
@@ -144,8 +132,7 @@ export class Runner {
           return;
         }
         this.store.set({ ...idle, run: going.run, state: going.state, kind: going.kind ?? "simulate" });
-        this.watch(net);
-        void this.showFloor(going.track ?? undefined);
+        this.watch(net, going.track);
       }
       this.told({ ...(await this.api.run(going.run)), run: going.run });
     } catch (error) {
@@ -153,20 +140,16 @@ export class Runner {
     }
   }
 
-  private watch(net: NetModel): void {
-    this.track = new Track(net);
+  private watch(net: NetModel, floor: string | null | undefined): void {
+    const track = (this.track = new Track(net));
     this.stage.reset(net, "live");
+    this.show(true);
+    void this.api.floor(floor).then((found) => (track.floor = found));
   }
 
-  private async showFloor(chosen: string | undefined): Promise<void> {
-    const { track } = this;
-    try {
-      const own = (await this.api.project()).simulation?.track;
-      const image = chosen || own?.image;
-      if (track && image) track.floor = { image: await this.api.track(image), metresPerPixel: own?.metres_per_pixel ?? 0.005 };
-    } catch {
-      // Without the picture the path is drawn on nothing.
-    }
+  /** Gives the run its pane of the drawing, or takes it away; the run itself goes on. */
+  show(shown: boolean): void {
+    this.store.set({ shown: shown && this.track !== null });
   }
 
   private told(info: Partial<RunInfo>): void {
@@ -174,48 +157,50 @@ export class Runner {
     this.store.set({
       state: info.state,
       why: info.why ?? "",
-      outcome: info.outcome === undefined || info.outcome === null ? "" : outcomeText(info.outcome),
+      outcome: info.outcome ?? null,
     });
-    if (info.marking && this.stage.mode === "live") this.stage.setMarked(info.marking);
+    if (info.marking && this.track) this.stage.setMarked(info.marking);
+    if (info.values) this.valued({ t: info.t ?? 0, values: info.values });
+    if (info.path) this.track?.pathUpTo(info.path);
     const { breakpoints } = this.store.get();
     if (info.state === "running" && breakpoints.length > 0)
       void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
   }
 
-  private fired({ t, firings, dropped, marking }: FiringsEvent): void {
+  private fired({ t, firings, dropped, marking }: Omit<FiringsEvent, "run">): void {
     const { track, stage } = this;
     if (!track) return;
-    track.now = Math.max(track.now, t);
+    track.reached(t);
+    track.known = Math.max(track.known, t);
     track.firings += firings.length + dropped;
     track.dropped += dropped;
-    const watching = stage.mode === "live";
     for (const [time, transition] of firings) {
       track.timeline.add(time, transition);
-      if (watching) stage.fired(transition, marking === undefined);
+      stage.fired(transition, marking === undefined);
     }
-    if (watching && marking) stage.setMarked(marking);
+    if (!marking) return;
+    stage.setMarked(marking);
+    track.timeline.tell(t, runningBehaviours(track.net, stage.marking));
   }
 
-  private valued({ t, values }: ValuesEvent): void {
+  private valued({ t, values }: Omit<ValuesEvent, "run">): void {
     const { track } = this;
-    if (!track) return;
-    track.now = Math.max(track.now, t);
-    for (const [path, value] of Object.entries(values)) track.series.add(t, path, value);
+    track?.reached(t);
+    // What was asked for may be older than what was told since.
+    track?.values(track.now, values);
   }
 
   private reported({ t, subsystems }: SubsystemsEvent): void {
-    if (this.track) this.track.now = Math.max(this.track.now, t);
+    this.track?.reached(t);
     const behaviours = new Map(subsystems.map(({ path, behaviour }) => [path, behaviour]));
     const known = this.store.get().behaviours;
     if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
       this.store.set({ behaviours });
   }
 
-  private posed({ t, x, y, heading }: PoseEvent): void {
-    const path = this.track?.path;
-    if (!path) return;
-    if (path.length > 40_000) path.splice(0, 10_000);
-    path.push({ t, x, y, heading });
+  private posed(pose: PoseEvent): void {
+    this.track?.reached(pose.t);
+    this.track?.pose(pose);
   }
 
   async control(request: ControlRequest): Promise<void> {
@@ -249,22 +234,9 @@ export class Runner {
     if (state === "running" || state === "paused") void this.control({ command: "breakpoints", breakpoints: next });
   }
 
-  /** Puts the run away: the drawing is that of the text again. */
+  /** Puts the run away. */
   close(): void {
     this.track = null;
     this.store.set({ ...idle, breakpoints: this.store.get().breakpoints });
-    this.leave();
   }
-
-  private leave(): void {
-    const { net } = this.draft.store.get();
-    if (net && this.stage.mode === "live") this.stage.reset(net, "edit");
-  }
-}
-
-function outcomeText(outcome: unknown): string {
-  if (typeof outcome === "string") return outcome;
-  return Object.entries(outcome as Record<string, unknown>)
-    .map(([key, value]) => `${key}: ${typeof value === "object" ? JSON.stringify(value) : String(value)}`)
-    .join(" · ");
 }

@@ -4,9 +4,13 @@ import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
 
+/** Milliseconds between two pictures. */
+const pause = 30;
+
 /**
- * What the drawing shows: the marking, and what just fired. Edited net, token game, counterexample, live run and recording
- * all show through it. Listeners are told once per frame, however many events came.
+ * What one pane of the drawing shows: the marking, and what just fired. The edited net and the games on it have a stage, the
+ * live run and each recording have their own. Listeners are told at most thirty times a second, however many events came: more
+ * is not seen, and the time is that of the drawing.
  */
 export class Stage {
   mode: StageMode = "edit";
@@ -16,20 +20,24 @@ export class Stage {
   firedAt = new Float64Array();
   /** Per page, whether a token is somewhere inside. */
   occupied = new Uint8Array();
+  /** Paths of the subsystems that do something else in what is shown beside. */
+  differing: ReadonlySet<string> = new Set();
   /** The net that is shown, and how it came there. */
   readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
   private net: NetModel | null = null;
   private readonly listeners = new Set<() => void>();
   private frame = 0;
+  private told = -Infinity;
 
-  /** Shows the initial marking of a net. */
-  reset(net: NetModel, mode: StageMode): void {
+  /** Shows a net with its initial marking, or with a token in each of the places. */
+  reset(net: NetModel, mode: StageMode, marked?: readonly number[] | null): void {
     this.net = net;
     this.mode = mode;
     this.marking = initialMarking(net);
     this.counts = new Uint32Array(net.transitions.length);
     this.firedAt = new Float64Array(net.transitions.length).fill(-Infinity);
     this.shown.set({ net, mode });
+    if (marked) this.setMarked(marked);
     this.touch();
   }
 
@@ -49,6 +57,11 @@ export class Stage {
     this.touch();
   }
 
+  setCounts(counts: Uint32Array): void {
+    this.counts.set(counts);
+    this.touch();
+  }
+
   /** Counts and shows a firing; the marking follows unless it will be told anew. */
   fired(transition: number, move = true): void {
     if (!this.net || transition >= this.counts.length) return;
@@ -58,19 +71,31 @@ export class Stage {
     this.touch();
   }
 
+  differ(paths: ReadonlySet<string>): void {
+    if (paths.size === this.differing.size && [...paths].every((path) => this.differing.has(path))) return;
+    this.differing = paths;
+    this.touch();
+  }
+
   subscribe = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   };
 
   private touch(): void {
-    if (this.frame) return;
-    this.frame = requestAnimationFrame(() => {
-      this.frame = 0;
-      this.occupy();
-      this.listeners.forEach((listener) => listener());
-    });
+    if (!this.frame) this.frame = requestAnimationFrame(this.tell);
   }
+
+  private tell = (now: number): void => {
+    if (now - this.told < pause) {
+      this.frame = requestAnimationFrame(this.tell);
+      return;
+    }
+    this.told = now;
+    this.frame = 0;
+    this.occupy();
+    this.listeners.forEach((listener) => listener());
+  };
 
   private occupy(): void {
     const { net } = this;

@@ -1,11 +1,13 @@
 import { Api, shareToken, takeToken } from "./api";
+import { Camera } from "./camera";
 import { Connection } from "./connection";
 import { Draft, message } from "./draft";
-import type { Project } from "./protocol";
+import type { Project, RunRequest } from "./protocol";
 import { Play } from "./play";
 import { findThing, type Structure } from "../model/structure";
 import { Recordings } from "./recordings";
 import { Runner } from "./runner";
+import { Scene } from "./scene";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Verifier } from "./verifier";
@@ -44,11 +46,14 @@ export class Studio {
   readonly api = new Api(takeToken());
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
-  readonly stage = new Stage();
-  readonly play = new Play(this.stage);
+  /** Where the net of the text is drawn, and games are played on it. */
+  readonly desk = new Stage();
+  readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection);
-  readonly runner = new Runner(this.api, this.draft, this.stage, this.connection);
-  readonly recordings = new Recordings(this.api, this.draft, this.stage);
+  readonly runner = new Runner(this.api, this.draft, this.connection);
+  readonly recordings = new Recordings(this.api, this.draft);
+  readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly camera = new Camera();
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "net",
@@ -71,9 +76,12 @@ export class Studio {
     });
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
-      if (net && this.stage.mode === "edit" && !this.stage.is(net)) this.stage.reset(net, "edit");
+      if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
-    this.connection.on<{ revision: string }>("spec", (event) => void this.draft.changedOnDisk(event.revision));
+    this.connection.on<{ revision: string }>("spec", (event) => {
+      void this.draft.changedOnDisk(event.revision);
+      void this.describeProject();
+    });
     this.connection.on<{ server_start: string | number }>("hello", (event) => void this.greeted(String(event.server_start)));
   }
 
@@ -88,6 +96,15 @@ export class Studio {
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
 
+  /** What the file says of the project may be new: its name, its simulated world. */
+  private async describeProject(): Promise<void> {
+    try {
+      this.project.set({ project: await this.api.project() });
+    } catch {
+      // The connection tells when the server has gone.
+    }
+  }
+
   /** Another server than before: what it knows of the file may be new. */
   private async greeted(start: string): Promise<void> {
     const known = this.serverStart;
@@ -99,6 +116,24 @@ export class Studio {
       await this.draft.changedOnDisk("");
       this.draft.store.set({ notice: "The server was restarted; connected again" });
     }
+  }
+
+  /** Starts or watches a run; a game that is played makes room for it. */
+  async run(request: RunRequest): Promise<void> {
+    this.play.stop();
+    await this.runner.start(request);
+  }
+
+  /** Draws a run again whose pane was put away. */
+  showRun(): void {
+    this.play.stop();
+    this.runner.show(true);
+  }
+
+  /** Opens a recording beside the first `keep` of those that are open. */
+  async replay(name: string, keep: number): Promise<void> {
+    this.play.stop();
+    await this.recordings.open(name, keep);
   }
 
   select(path: string | null, showLine = true): void {

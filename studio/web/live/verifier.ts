@@ -92,7 +92,7 @@ export class Verifier {
 
 /** The subsystems that wait for ever in some violation, by path: what the drawing marks. */
 export function stuck(verdicts: readonly Verdict[]): string[] {
-  const waits = verdicts.filter((one) => one.verdict === "violated").flatMap((one) => one.waits ?? []);
+  const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits ?? []);
   return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];
 }
 

@@ -27,6 +27,21 @@ export function fire(net: NetModel, marking: Marking, transition: number, times:
   for (const arc of outputs) marking[arc.place]! += times * arc.weight;
 }
 
+/** The fewest tokens with which a run can have begun: those that it takes before it puts any there. */
+export function markingBefore(net: NetModel, run: Iterable<number>): Marking {
+  const before: Marking = new Int32Array(net.places.length);
+  const now = before.slice();
+  for (const transition of run) {
+    for (const { place, weight } of net.transitions[transition]!.inputs) {
+      const missing = Math.max(0, weight - now[place]!);
+      before[place]! += missing;
+      now[place]! += missing;
+    }
+    fire(net, now, transition);
+  }
+  return before;
+}
+
 export function activeTransitions(net: NetModel, marking: Marking, conditions?: Conditions): number[] {
   return net.transitions.flatMap((_, index) => (isActive(net, marking, index, conditions) ? [index] : []));
 }

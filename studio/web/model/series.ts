@@ -1,44 +1,56 @@
-/** Numbers over time, by path of the value: "robot.sensor.line.left". Times in nanoseconds. */
-export interface Samples {
+import { bounded, count } from "./sorted";
+
+/** What a value was over time. Times in nanoseconds. */
+export interface Samples<T = number> {
   times: number[];
-  values: number[];
+  values: T[];
 }
 
+/** What is kept of a run that may go on for ever. */
 const most = 6000;
 
+/** Values over time, by path: "robot.sensor.line.left". A value holds until the next one. */
 export class Series {
+  /** Numbers, and what is true (1) or false (0). */
   readonly samples = new Map<string, Samples>();
-  /** The last value of anything, numbers or not. */
-  readonly latest = new Map<string, unknown>();
+  private readonly all = new Map<string, Samples<unknown>>();
 
+  constructor(private readonly limit = most) {}
+
+  get paths(): string[] {
+    return [...this.all.keys()].sort();
+  }
+
+  /** Tells what changed; the rest stays as it was. */
   add(time: number, path: string, value: unknown): void {
-    if (typeof value === "number" || typeof value === "boolean") {
-      this.latest.set(path, value);
-      this.sample(time, path, Number(value));
-    } else if (Array.isArray(value)) {
-      if (value.length > 16) this.latest.set(path, `${value.length} values`);
+    if (Array.isArray(value)) {
+      if (value.length > 16) this.sample(this.all, time, path, `${value.length} values`);
       else value.forEach((one, at) => this.add(time, `${path}[${at}]`, one));
     } else if (value !== null && typeof value === "object") {
       for (const [key, one] of Object.entries(value)) this.add(time, `${path}.${key}`, one);
     } else if (value !== undefined && value !== null) {
-      this.latest.set(path, value);
+      this.sample(this.all, time, path, value);
+      if (typeof value === "number" || typeof value === "boolean") this.sample(this.samples, time, path, Number(value));
     }
   }
 
-  private sample(time: number, path: string, value: number): void {
-    const known = this.samples.get(path) ?? { times: [], values: [] };
-    if (known.times.length === 0) this.samples.set(path, known);
-    if (known.times.length >= most) {
-      known.times.splice(0, most / 4);
-      known.values.splice(0, most / 4);
-    }
-    known.times.push(time);
-    known.values.push(value);
+  /** What it was at a moment; before the first one is known, nothing. */
+  at(path: string, time: number): unknown {
+    const { times, values } = this.all.get(path) ?? { times: [], values: [] };
+    return values[count(times, (one) => one <= time) - 1];
+  }
+
+  private sample<T>(to: Map<string, Samples<T>>, time: number, path: string, value: T): void {
+    let known = to.get(path);
+    if (!known) to.set(path, (known = { times: [], values: [] }));
+    bounded(known.times, this.limit).push(time);
+    bounded(known.values, this.limit).push(value);
   }
 }
 
 /** 0.3, 12.5, 1.2e+7: short, and stable in width. */
 export function shown(value: unknown): string {
+  if (value === undefined) return "";
   if (typeof value === "boolean") return value ? "true" : "false";
   if (typeof value !== "number") return String(value);
   if (Number.isInteger(value) && Math.abs(value) < 1e7) return String(value);

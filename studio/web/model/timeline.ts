@@ -1,4 +1,5 @@
 import type { NetModel } from "./net";
+import { bounded, count } from "./sorted";
 
 /** From when a behaviour ran; until the next one of its lane. */
 export interface Segment {
@@ -11,26 +12,32 @@ export interface Lane {
   subsystem: number;
   segments: Segment[];
   firings: number[];
-  /** Those that ran, in the order in which they first did. */
+  /** Those that it has, in the order of the specification. */
   behaviours: string[];
+  /** From when on all segments are kept. */
+  since: number;
 }
 
+/** What is kept of a run that may go on for ever. */
 const most = 20_000;
 
 /** Which behaviour of each subsystem ran when, and when its transitions fired. Times in nanoseconds. */
 export class Timeline {
   readonly lanes: Lane[];
-  first = Infinity;
-  last = -Infinity;
   private readonly laneOf = new Map<number, number>();
   /** Per transition the lane, and the behaviour in which it puts a token. */
   private readonly entered: (string | null)[];
+  private readonly subsystems: (number | null)[];
 
-  constructor(net: NetModel) {
+  constructor(
+    net: NetModel,
+    private readonly limit = most,
+  ) {
     this.lanes = net.subsystemPages().map((page, lane) => {
       const { path, subsystem } = net.page(page);
       if (subsystem !== null) this.laneOf.set(subsystem, lane);
-      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours: [] };
+      const behaviours = net.children(page).map((child) => net.page(child).name);
+      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours, since: -Infinity };
     });
     this.entered = net.transitions.map((transition) => {
       for (const arc of transition.outputs) {
@@ -42,34 +49,50 @@ export class Timeline {
     });
     this.subsystems = net.transitions.map((transition) => transition.subsystem);
   }
-  private readonly subsystems: (number | null)[];
 
   add(time: number, transition: number): void {
-    this.first = Math.min(this.first, time);
-    this.last = Math.max(this.last, time);
     const subsystem = this.subsystems[transition];
     const lane = subsystem === null || subsystem === undefined ? undefined : this.lanes[this.laneOf.get(subsystem) ?? -1];
     if (!lane) return;
-    bounded(lane.firings).push(time);
-    const behaviour = this.entered[transition] ?? "";
-    if (lane.segments.at(-1)?.behaviour === behaviour) return;
-    bounded(lane.segments).push({ start: time, behaviour });
-    if (behaviour && !lane.behaviours.includes(behaviour)) lane.behaviours.push(behaviour);
+    bounded(lane.firings, this.limit).push(time);
+    this.enter(lane, time, this.entered[transition] ?? "");
+  }
+
+  /** What was running at a moment, by subsystem; needed where not every firing is told. */
+  tell(time: number, running: ReadonlyMap<number, string>): void {
+    for (const lane of this.lanes) this.enter(lane, time, running.get(lane.subsystem) ?? "");
+  }
+
+  private enter(lane: Lane, time: number, behaviour: string): void {
+    if ((lane.segments.at(-1)?.behaviour ?? "") === behaviour) return;
+    if (lane.segments.length >= this.limit) lane.since = bounded(lane.segments, this.limit)[0]!.start;
+    lane.segments.push({ start: time, behaviour });
+  }
+
+  /** What ran at a moment, "" for nothing; undefined when that is no longer known. */
+  static behaviourAt(lane: Lane, time: number): string | undefined {
+    if (time < lane.since) return undefined;
+    return lane.segments[count(lane.segments, (one) => one.start <= time) - 1]?.behaviour ?? "";
   }
 
   /** Index of the first entry at or after a time. */
   static from(times: readonly number[], time: number): number {
-    let [low, high] = [0, times.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (times[middle]! < time) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+    return count(times, (one) => one < time);
   }
 }
 
-function bounded<T>(list: T[]): T[] {
-  if (list.length >= most) list.splice(0, most / 4);
-  return list;
+/** A subsystem that does not do the same in two runs at the same time. */
+export interface Difference {
+  path: string;
+  behaviours: readonly [string, string];
+}
+
+export function differences(one: Timeline, other: Timeline, time: number): Difference[] {
+  return one.lanes.flatMap((lane) => {
+    const twin = other.lanes.find(({ path }) => path === lane.path);
+    if (!twin) return [];
+    const behaviours = [Timeline.behaviourAt(lane, time), Timeline.behaviourAt(twin, time)] as const;
+    if (behaviours[0] === undefined || behaviours[1] === undefined || behaviours[0] === behaviours[1]) return [];
+    return [{ path: lane.path, behaviours: [behaviours[0], behaviours[1]] as const }];
+  });
 }

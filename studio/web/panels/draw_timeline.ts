@@ -1,6 +1,6 @@
-import type { Track } from "../live/runner";
+import type { Track } from "../live/track";
 import { Timeline } from "../model/timeline";
-import type { Colours, Size } from "./watch";
+import type { Colours, Size } from "./painted";
 
 const axis = 18;
 const names = 108;

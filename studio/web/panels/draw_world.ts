@@ -1,8 +1,8 @@
-import type { Track } from "../live/runner";
+import type { Pose, Track } from "../live/track";
 import { niceStep } from "./draw_timeline";
-import type { Colours, Size } from "./watch";
+import type { Colours, Size } from "./painted";
 
-/** The path of the robot over the floor, x to the right and y up, with a scale in metres. */
+/** The path of the robot over the floor up to the moment that is shown, x to the right and y up, with a scale in metres. */
 export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, none: string): void {
   const { path } = track;
   context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
@@ -16,17 +16,44 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
   const x = (at: number) => size.width / 2 + (at - (box.left + box.right) / 2) * scale;
   const y = (at: number) => (size.height - 10) / 2 - (at - (box.top + box.bottom) / 2) * scale;
   drawFloor(context, track.floor, x, y, scale);
-  context.strokeStyle = colours.accent;
-  context.lineWidth = 1.5;
-  context.beginPath();
-  const every = Math.max(1, Math.floor(path.length / 4000));
-  path.forEach((point, at) => {
-    if (at % every === 0 || at === path.length - 1) context.lineTo(x(point.x), y(point.y));
-  });
-  context.stroke();
-  const robot = path[path.length - 1]!;
+  const driven = track.driven;
+  drawPath(context, colours, path, driven, x, y);
+  const robot = path[Math.max(0, driven - 1)]!;
   drawRobot(context, colours, x(robot.x), y(robot.y), robot.heading);
   drawScale(context, size, colours, scale);
+}
+
+/** Poses further apart in time than that (in ns) say nothing of the way between them. */
+const apart = 1.5e9;
+
+/** What was driven so far; what a recording has beyond the moment that is shown, as a faint line. */
+function drawPath(
+  context: CanvasRenderingContext2D,
+  colours: Colours,
+  path: readonly Pose[],
+  driven: number,
+  x: (at: number) => number,
+  y: (at: number) => number,
+): void {
+  const every = Math.max(1, Math.floor(path.length / 4000));
+  const line = (from: number, to: number, colour: string) => {
+    context.strokeStyle = context.fillStyle = colour;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    let before: Pose | undefined;
+    for (let at = from; at < to; at = at === to - 1 ? to : Math.min(at + every, to - 1)) {
+      const pose = path[at]!;
+      if (before && pose.t - before.t < apart * every) context.lineTo(x(pose.x), y(pose.y));
+      else {
+        context.moveTo(x(pose.x), y(pose.y));
+        context.fillRect(x(pose.x) - 0.75, y(pose.y) - 0.75, 1.5, 1.5);
+      }
+      before = pose;
+    }
+    context.stroke();
+  };
+  line(Math.max(0, driven - 1), path.length, colours.line);
+  line(0, driven, colours.accent);
 }
 
 /** The picture's lower left corner is the floor's origin. */

@@ -33,3 +33,25 @@ export function Icon({ name }: { name: string }) {
     </svg>
   );
 }
+
+/** A button that is a picture; its name is told when one points at it. */
+export function IconButton({
+  name,
+  label,
+  title = label,
+  disabled = false,
+  onClick,
+}: {
+  name: string;
+  label: string;
+  /** Where there is more to say than the label does. */
+  title?: string;
+  disabled?: boolean;
+  onClick: () => void;
+}) {
+  return (
+    <button className="icon" aria-label={label} title={title} disabled={disabled} onClick={onClick}>
+      <Icon name={name} />
+    </button>
+  );
+}

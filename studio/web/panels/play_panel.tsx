@@ -99,7 +99,7 @@ function Choices({ net }: { net: NetModel }) {
 function Channels({ net }: { net: NetModel }) {
   const studio = useStudio();
   useStore(studio.play.store, (all) => all.position);
-  const { marking } = studio.stage;
+  const { marking } = studio.desk;
   const held = net.places.flatMap((place, index) =>
     place.channel !== null && (studio.play.marking?.[index] ?? marking[index]) ? [place.name] : [],
   );

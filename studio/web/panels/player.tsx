@@ -1,35 +1,38 @@
+import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../app/use";
-import { Icon } from "./icons";
+import type { Replay } from "../live/replay";
+import type { Pane } from "../live/scene";
+import type { Track } from "../live/track";
+import { clock } from "./clock";
+import { IconButton } from "./icons";
+import { stateTitles } from "./pane_title";
 
-/** Below the drawing while something is stepped through: back, forward, let it run, to any position. */
-export function Player() {
-  const studio = useStudio();
-  const recording = useStore(studio.recordings.store, (all) => all.open);
-  return recording === null ? <StepPlayer /> : <RecordingPlayer />;
+/** Below a drawing that is stepped through: back, forward, let it run, to any position. `beside`: there is another pane. */
+export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; fixed: boolean }) {
+  if (pane.replay) return <RecordingPlayer replay={pane.replay} beside={beside} fixed={fixed} />;
+  if (pane.track) return beside ? <RunBar track={pane.track} /> : null;
+  return <StepPlayer />;
 }
 
-const clock = (nanoseconds: number) => (nanoseconds / 1e9).toFixed(2);
-
-function RecordingPlayer() {
+function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: boolean; fixed: boolean }) {
   const studio = useStudio();
-  const { open, time, first, last, playing, speed } = useStore(studio.recordings.store, (all) => all);
-  const { recordings } = studio;
+  const { time, playing, speed } = useStore(replay.store, (all) => all);
+  const { name, first, last } = replay;
   return (
-    <div className="player" role="group" aria-label={`Recording ${open}`}>
-      <span className="title">{open}</span>
-      <button className="icon" aria-label="Back to the last firing" onClick={() => recordings.step(-1)}>
-        <Icon name="back" />
-      </button>
-      <button
-        className="icon"
-        aria-label={playing ? "Pause" : "Play"}
-        onClick={() => (time >= last && recordings.seek(first), recordings.play(!playing))}
-      >
-        <Icon name={playing ? "pause" : "play"} />
-      </button>
-      <button className="icon" aria-label="To the next firing" onClick={() => recordings.step(1)}>
-        <Icon name="forward" />
-      </button>
+    <div className="player" role="group" aria-label={`Recording ${name}`}>
+      {!beside && (
+        <span className="title" title={name}>
+          {name}
+        </span>
+      )}
+      <IconButton name="back" label="Back to the last firing" disabled={fixed} onClick={() => replay.step(-1)} />
+      <IconButton
+        name={playing ? "pause" : "play"}
+        label={playing ? "Pause" : "Play"}
+        disabled={fixed}
+        onClick={() => replay.play(!playing)}
+      />
+      <IconButton name="forward" label="To the next firing" disabled={fixed} onClick={() => replay.step(1)} />
       <input
         type="range"
         aria-label="Time"
@@ -38,19 +41,56 @@ function RecordingPlayer() {
         max={Math.max(first + 1, last)}
         step="any"
         value={time}
-        onChange={(event) => recordings.seek(Number(event.target.value))}
+        disabled={fixed}
+        onChange={(event) => replay.seek(Number(event.target.value))}
       />
       <span className="position">
-        {clock(time)} / {clock(last)} s
+        {clock(time)}
+        <span className="whole"> / {clock(last)} s</span>
       </span>
-      <select aria-label="Speed" value={speed} onChange={(event) => recordings.setSpeed(Number(event.target.value))}>
+      <select
+        aria-label="Speed"
+        value={speed}
+        disabled={fixed}
+        onChange={(event) => replay.store.set({ speed: Number(event.target.value) })}
+      >
         {[0.1, 0.5, 1, 2, 10, 100].map((one) => (
           <option key={one} value={one}>
             {one} ×
           </option>
         ))}
       </select>
-      <button onClick={() => recordings.close()}>Close</button>
+      {!beside && <button onClick={() => studio.recordings.close(replay)}>Close</button>}
+    </div>
+  );
+}
+
+/** What a run beside something else needs most. */
+function RunBar({ track }: { track: Track }) {
+  const studio = useStudio();
+  const { state, kind } = useStore(studio.runner.store, (all) => all);
+  const position = useRef<HTMLSpanElement>(null);
+  useEffect(() => {
+    const tell = () => {
+      if (position.current) position.current.textContent = `${clock(track.now)} s`;
+    };
+    tell();
+    const timer = setInterval(tell, 100);
+    return () => clearInterval(timer);
+  }, [track]);
+  const paused = state === "paused";
+  return (
+    <div className="player" role="group" aria-label="The run">
+      {kind !== "run" && (paused || state === "running") && (
+        <IconButton
+          name={paused ? "play" : "pause"}
+          label={paused ? "Let the run go on" : "Pause the run"}
+          onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
+        />
+      )}
+      <span className="faint">{stateTitles[state]}</span>
+      <span className="spring" />
+      <span ref={position} className="position" />
     </div>
   );
 }
@@ -63,21 +103,15 @@ function StepPlayer() {
   return (
     <div className="player" role="group" aria-label={play.title}>
       <span className="title">{play.title.replaceAll("_", " ")}</span>
-      <button className="icon" aria-label="To the beginning" onClick={() => player.seek(0)}>
-        <Icon name="first" />
-      </button>
-      <button className="icon" aria-label="Step back" disabled={play.position === 0} onClick={() => player.back()}>
-        <Icon name="back" />
-      </button>
-      <button className="icon" aria-label={play.running ? "Pause" : "Let it run"} onClick={() => player.run(!play.running)}>
-        <Icon name={play.running ? "pause" : "play"} />
-      </button>
-      <button className="icon" aria-label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()}>
-        <Icon name="forward" />
-      </button>
-      <button className="icon" aria-label="To the end" onClick={() => player.seek(play.length)}>
-        <Icon name="last" />
-      </button>
+      <IconButton name="first" label="To the beginning" onClick={() => player.seek(0)} />
+      <IconButton name="back" label="Step back" disabled={play.position === 0} onClick={() => player.back()} />
+      <IconButton
+        name={play.running ? "pause" : "play"}
+        label={play.running ? "Pause" : "Let it run"}
+        onClick={() => player.run(!play.running)}
+      />
+      <IconButton name="forward" label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()} />
+      <IconButton name="last" label="To the end" onClick={() => player.seek(play.length)} />
       <input
         type="range"
         aria-label="Position"

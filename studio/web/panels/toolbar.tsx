@@ -1,6 +1,6 @@
 import { useStore, useStudio } from "../app/use";
 import type { View } from "../live/studio";
-import { Icon } from "./icons";
+import { Icon, IconButton } from "./icons";
 
 export function Toolbar() {
   const studio = useStudio();
@@ -31,24 +31,14 @@ export function Toolbar() {
       </button>
       <span className="spring" />
       <Verdicts />
-      <button
-        className="icon"
-        aria-label="Undo"
-        title="Undo (Ctrl Z)"
-        disabled={!draft.canUndo}
-        onClick={() => studio.draft.undo()}
-      >
-        <Icon name="undo" />
-      </button>
-      <button
-        className="icon"
-        aria-label="Redo"
+      <IconButton name="undo" label="Undo" title="Undo (Ctrl Z)" disabled={!draft.canUndo} onClick={() => studio.draft.undo()} />
+      <IconButton
+        name="redo"
+        label="Redo"
         title="Redo (Ctrl Shift Z)"
         disabled={!draft.canRedo}
         onClick={() => studio.draft.redo()}
-      >
-        <Icon name="redo" />
-      </button>
+      />
       <button
         className="icon"
         aria-label="Text of the specification"
@@ -83,10 +73,12 @@ function Verdicts() {
   if (verdicts.length === 0 || text !== now) return null;
   const violated = verdicts.filter((one) => one.verdict === "violated" && !one.warning).length;
   const unknown = verdicts.filter((one) => one.verdict === "unknown").length;
+  const warnings = verdicts.filter((one) => one.verdict === "violated" && one.warning).length;
   const said = violated > 0 ? `${violated} violated` : unknown > 0 ? `${unknown} unknown` : "verified";
+  const besides = violated === 0 && warnings > 0 ? `, ${warnings} ${warnings === 1 ? "warning" : "warnings"}` : "";
   return (
     <button className="quiet" onClick={() => studio.view.set({ panel: "verify" })}>
-      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said}
+      <span className={`dot ${violated > 0 ? "error" : unknown > 0 ? "warning" : "good"}`} /> {said + besides}
     </button>
   );
 }

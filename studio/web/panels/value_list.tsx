@@ -1,7 +1,8 @@
 import { useEffect, useState } from "react";
-import type { Track } from "../live/runner";
+import type { Track } from "../live/track";
 import { shown, type Samples } from "../model/series";
-import { Painted, type Colours, type Size } from "./watch";
+import { count } from "../model/sorted";
+import { Painted, type Colours, type Size } from "./painted";
 
 /** Every value by its path, with what it was lately; a click plots it large. */
 export function ValueList({ track, seconds, none }: { track: Track; seconds: number; none: string }) {
@@ -11,7 +12,7 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
     const timer = setInterval(() => look((at) => at + 1), 150);
     return () => clearInterval(timer);
   }, []);
-  const paths = [...track.series.latest.keys()].sort();
+  const { paths } = track.series;
   const large = plotted === null ? undefined : track.series.samples.get(plotted);
   if (paths.length === 0) return <p className="faint pad">{none}</p>;
   return (
@@ -21,6 +22,7 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
           <Painted
             label={`Plot of ${plotted}`}
             draw={(context, size, colours) => plot(context, size, colours, large, track.now, seconds, true)}
+            of={() => `${track.id} ${track.now} ${plotted} ${seconds}`}
           />
         </div>
       )}
@@ -31,13 +33,14 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
             <li key={path}>
               <button aria-pressed={plotted === path} onClick={() => setPlotted(plotted === path ? null : path)} title={path}>
                 <span className="path">{path}</span>
-                <span className="now">{shown(track.series.latest.get(path))}</span>
+                <span className="now">{shown(track.series.at(path, track.now))}</span>
                 <span className="spark">
                   {samples && (
                     <Painted
                       every={200}
                       label=""
                       draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)}
+                      of={() => `${track.id} ${track.now} ${seconds}`}
                     />
                   )}
                 </span>
@@ -60,11 +63,10 @@ function plot(
   large: boolean,
 ): void {
   const start = now - seconds * 1e9;
-  let first = times.length;
-  while (first > 0 && times[first - 1]! >= start) first -= 1;
-  first = Math.max(0, first - 1);
+  const first = Math.max(0, count(times, (time) => time < start) - 1);
+  const end = count(times, (time) => time <= now);
   let [low, high] = [Infinity, -Infinity];
-  for (let at = first; at < values.length; at += 1) {
+  for (let at = first; at < end; at += 1) {
     low = Math.min(low, values[at]!);
     high = Math.max(high, values[at]!);
   }
@@ -76,12 +78,12 @@ function plot(
   context.strokeStyle = colours.accent;
   context.lineWidth = large ? 1.5 : 1;
   context.beginPath();
-  for (let at = first; at < values.length; at += 1) {
+  for (let at = first; at < end; at += 1) {
     // A value holds until the next one: steps, not slopes.
     if (at > first) context.lineTo(x(times[at]!), y(values[at - 1]!));
     context.lineTo(x(times[at]!), y(values[at]!));
   }
-  context.lineTo(size.width, y(values[values.length - 1]!));
+  context.lineTo(size.width, y(values[end - 1]!));
   context.stroke();
   if (!large) return;
   context.font = "10px system-ui, 'DejaVu Sans', sans-serif";

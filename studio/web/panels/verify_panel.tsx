@@ -75,19 +75,16 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
     studio.play.trace(net, steps, verdict.name, verdict.waits ?? []);
     studio.view.set({ view: "net", panel: "play" });
   };
-  const bad = verdict.verdict !== "holds" && !verdict.warning;
+  const onlyWarns = verdict.verdict === "violated" && verdict.warning;
+  const bad = verdict.verdict !== "holds" && !onlyWarns;
   return (
     <details className="verdict" open={bad}>
       <summary>
-        <span
-          className={`mark ${verdict.verdict === "violated" && verdict.warning ? "unknown" : verdict.verdict}`}
-          role="img"
-          aria-label={verdict.verdict}
-        >
+        <span className={`mark ${onlyWarns ? "unknown" : verdict.verdict}`} role="img" aria-label={verdict.verdict}>
           <Icon name={marks[verdict.verdict]} />
         </span>
         <span className="name">{verdict.name.replaceAll("_", " ")}</span>
-        <span className="method">{verdict.verdict}</span>
+        <span className="method">{onlyWarns ? "violated · a warning" : verdict.verdict}</span>
       </summary>
       <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
       {verdict.why && <p>{sentence(verdict.why)}</p>}

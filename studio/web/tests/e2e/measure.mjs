@@ -1,12 +1,18 @@
-// Times of the page with large fleets: node tests/e2e/measure.mjs 100 1000 (TESSERA as for the tests).
+// Times of the page, with TESSERA as for the tests: `node tests/e2e/measure.mjs 100 1000` with fleets of so many robots,
+// `stream` while a run fires as fast as it can, `beside` the same with a recording beside it.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { measureStream } from "./measure_stream.mjs";
 import { folder, onPage } from "./page.mjs";
 
 const fleet = readFileSync(join(folder("fleet"), "spec.yaml"), "utf8");
 
-for (const robots of process.argv.slice(2)) {
+for (const what of process.argv.slice(2))
+  if (what === "stream" || what === "beside") await measureStream(undefined, undefined, what === "beside");
+  else await measureFleet(what);
+
+async function measureFleet(robots) {
   const project = mkdtempSync(join(tmpdir(), "studio-fleet-"));
   writeFileSync(join(project, "spec.yaml"), fleet.replace("count: 100", `count: ${robots}`));
   await onPage(project, async (page) => {

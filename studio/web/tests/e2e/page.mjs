@@ -1,5 +1,7 @@
 // What the end-to-end tests share: a server for a copy of an example, a page on it, and what may never happen.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 import { launch } from "./browser.mjs";
 import { serve } from "./server.mjs";
@@ -76,3 +78,12 @@ export async function until(page, look, what) {
 /** Until what has arrived is drawn. */
 export const drawn = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** A function that lets axe look at the page as it is, and adds what it objects to. */
+export async function judges(page, found) {
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
+  return async (where) => {
+    const { violations } = await page.evaluate(() => axe.run());
+    found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
+  };
+}

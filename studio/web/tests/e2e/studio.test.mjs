@@ -1,9 +1,8 @@
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { button, changes, draftText, drawn, element, example, find, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, changes, draftText, drawn, element, example, find, folder, judges, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -52,8 +51,33 @@ test("a folded page is a double circle, and opens again", () =>
     await button(page, "Fold control").click();
     await page.locator('.page.folded[data-path="robot.control"]').waitFor();
     assert.equal(await page.locator('[data-sheet="robot.control"]').count(), 0);
-    await element(page, "robot.control").dispatchEvent("dblclick"); // the view may still move
+    // Beside its circle, where its name begins; the view may still move.
+    const middle = async () => {
+      const { x, y, width, height } = await element(page, "robot.control").boundingBox();
+      return [x + width / 2, y + height / 2];
+    };
+    await page.mouse.dblclick(...(await middle()));
     await page.locator('[data-sheet="robot.control"]').waitFor();
+  }));
+
+test("a double click is meant for what was under its first click, though the view moves", () =>
+  onPage(lineFollower, async (page) => {
+    await find(page, "robot.control");
+    await button(page, "Fold control").click();
+    const circle = element(page, "robot.control").locator(".shape").first();
+    await page.locator('.page.folded[data-path="robot.control"]').waitFor();
+    const { x, y, width, height } = await circle.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.up();
+    await page
+      .getByRole("navigation", { name: "Layers" })
+      .getByRole("button", { name: "system" })
+      .evaluate((one) => one.click());
+    await drawn(page);
+    await page.mouse.down({ clickCount: 2 });
+    await page.mouse.up({ clickCount: 2 });
+    await until(page, async () => (await page.locator('.page.folded[data-path="robot.control"]').count()) === 0, "it opens");
   }));
 
 test("an edit in the drawing is a clean diff, in the text too, and is undone", () =>
@@ -217,14 +241,71 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
-    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
+    const replayed = page.getByRole("region", { name: /^2/ }).locator(".watch-pane");
+    await replayed.getByText("robot.control.motion.linear").waitFor();
     await button(page, "Play").click();
     await until(
       page,
-      async () => Number((await page.locator(".player .position").innerText()).split(" ")[0]) > 0.05,
+      async () =>
+        Number(
+          (
+            await page
+              .getByRole("group", { name: /^Recording/ })
+              .locator(".position")
+              .innerText()
+          ).split(" ")[0],
+        ) > 0.05,
       "the recording plays",
     );
-    await button(page, "Close").click();
+    await page.getByRole("button", { name: /^Close 2/ }).click();
+  }));
+
+/** How much of the world's picture is path. */
+const pathDrawn = (page) =>
+  page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let found = 0;
+    for (let at = 0; at < data.length; at += 4) if (data[at + 3] > 128 && data[at + 2] > data[at] + 80) found += 1;
+    return found;
+  });
+
+test("the robot's path is there after a reload, and in the recording up to the moment shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed", exact: true }).fill("5");
+    await page.keyboard.press("Enter");
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 150, "a path");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await drawn(page);
+    const before = await pathDrawn(page);
+    await page.reload();
+    await tab(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 0.8 * before, "the path of before");
+    // The values of before too, though none changes while it stands.
+    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await button(page, "Close this run").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    const slider = page.getByRole("slider", { name: "Time" });
+    const last = Number(await slider.getAttribute("max"));
+    const at = async (part) => {
+      await slider.fill(String(last * part));
+      await page.getByText(`${((last * part) / 1e9).toFixed(2)} s ·`).waitFor();
+      await drawn(page);
+      await drawn(page);
+      return pathDrawn(page);
+    };
+    const whole = await at(1);
+    const half = await at(0.5);
+    assert.ok(whole > 0.8 * before && half > 0.2 * whole && half < 0.8 * whole, `${before} before, ${half} of ${whole}`);
+    assert.ok((await at(0)) < 0.3 * half);
+    assert.ok((await at(1)) > 0.9 * whole);
   }));
 
 test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
@@ -361,13 +442,8 @@ test("a view is exported as a drawing that stands on its own", () =>
 
 test("axe finds nothing to object to, light and dark, in every view and panel", () =>
   onPage(lineFollower, async (page) => {
-    const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-    await page.evaluate(axe);
     const found = [];
-    const judge = async (where) => {
-      const { violations } = await page.evaluate(() => axe.run());
-      found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
-    };
+    const judge = await judges(page, found);
     await page.locator(".sheet").first().waitFor();
     for (const theme of ["light", "dark"]) {
       for (const name of ["Element", "Verify", "Play", "Run", "Recordings"]) {
@@ -448,4 +524,31 @@ test("all that is loaded packs into less than a megabyte, and nothing moves for 
     await page.locator('[data-sheet="robot.control.follow.snd"]').waitFor();
     const moving = await page.evaluate(() => document.getAnimations().filter((one) => one.playState === "running").length);
     assert.equal(moving, 0);
+  }));
+
+test("of a run that is too fast to be drawn, all firings are counted, and the page says how many were not shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    for (const [label, value] of [
+      ["For", "20min"],
+      ["Speed", "0"],
+    ]) {
+      await page.getByRole("textbox", { name: label, exact: true }).fill(value);
+      await page.keyboard.press("Enter");
+    }
+    await button(page, "Run").click();
+    const facts = page.getByTestId("run-facts");
+    await facts.getByText(/only counted/).waitFor();
+    // It answers meanwhile: another layer is drawn while firings come.
+    await find(page, "robot.control.follow");
+    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await drawn(page);
+    const number = (pattern, text) => Number(pattern.exec(text)[1].replaceAll(",", ""));
+    const outcome = number(/([\d,]+) firings/, await page.locator(".run-panel").innerText());
+    await until(page, async () => number(/([\d,]+) firings/, await facts.innerText()) === outcome, "as many as there were");
+    const dropped = number(/([\d,]+) only counted/, await facts.innerText());
+    assert.ok(outcome > 100_000 && dropped > 0 && dropped < outcome, `${dropped} of ${outcome}`);
+    const shown = await page.locator(".firings").allInnerTexts();
+    assert.ok(shown.some((text) => text !== ""));
   }));

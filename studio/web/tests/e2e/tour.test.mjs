@@ -68,7 +68,7 @@ const followedBy = async (page, next) => {
   await page.getByRole("combobox", { name: "Then 1: to" }).fill(next);
   await page.keyboard.press("Enter");
 };
-const facts = (page) => page.getByTestId("run-facts").innerText();
+const facts = (page) => page.getByTestId("run-facts").first().innerText();
 const seconds = async (page) => Number((await facts(page)).split(" ")[0]);
 const firings = async (page) => Number(/([\d,]+) firings/.exec(await facts(page))[1].replaceAll(",", ""));
 const runningNow = (page, behaviour) => page.locator(".running-now").getByText(behaviour, { exact: true });
@@ -141,6 +141,19 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await time.fill(String(Number(await time.getAttribute("min")) + 3e9));
     await picture(page, "recording");
     await button(page, "To the next firing").click();
+    // 8. Side by side
+    await tab(page, "Run").click();
+    await page.getByRole("combobox", { name: "Track" }).selectOption("curves.png");
+    await button(page, "Run").click();
+    await runningNow(page, "turn").waitFor();
+    await page.getByRole("switch", { name: "Same time" }).check();
+    await until(page, async () => Number((await page.getByTestId("compared-at").innerText()).split(" ")[1]) > 4, "four seconds");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await picture(page, "beside");
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await page.getByRole("button", { name: /^Close Run/ }).click();
     await button(page, "Close").click();
   }));
 

@@ -4,9 +4,10 @@ import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
 import { plainColour } from "../../canvas/picture";
+import { channelLabels } from "../../model/channel_labels";
 import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
 import { readStructure } from "../../model/structure";
-import { Timeline } from "../../model/timeline";
+import { differences, Timeline } from "../../model/timeline";
 import { intersects } from "../../model/geometry";
 import { lineFollower } from "./line_follower";
 
@@ -45,19 +46,61 @@ describe("Timeline", () => {
   });
 });
 
+describe("differences", () => {
+  const after = (...run: string[]) => {
+    const timeline = new Timeline(net);
+    run.forEach((name, at) => timeline.add(at * 10, named(name)));
+    return timeline;
+  };
+  const toFollow = after("robot.control.t_in", "robot.control.init.t1", "robot.control.t_init_1", "robot.control.follow.t1");
+  const inInit = after("robot.control.t_in", "robot.control.init.t1");
+  it("names the subsystems that do something else at a moment", () => {
+    expect(differences(toFollow, inInit, 25)).toEqual([{ path: "robot.control", behaviours: ["follow", "init"] }]);
+    expect(differences(toFollow, inInit, 15)).toEqual([]);
+    expect(differences(toFollow, inInit, -1)).toEqual([]);
+  });
+  it("takes what runs from markings too, where firings are missing", () => {
+    const sampled = after("robot.control.t_in");
+    sampled.tell(21, new Map([[sampled.lanes[0]!.subsystem, "follow"]]));
+    expect(differences(toFollow, sampled, 25)).toEqual([]);
+    expect(Timeline.behaviourAt(sampled.lanes[0]!, 20)).toBe("init");
+  });
+  it("says nothing of what is forgotten", () => {
+    const long = new Timeline(net, 4);
+    for (let at = 0; at < 8; at += 1) long.add(at, named(at % 2 ? "robot.control.t_init_1" : "robot.control.t_in"));
+    expect(Timeline.behaviourAt(long.lanes[0]!, 0)).toBeUndefined();
+    expect(Timeline.behaviourAt(long.lanes[0]!, 7)).toBe("follow");
+  });
+});
+
 describe("Series", () => {
   it("takes structures, arrays and numbers apart", () => {
     const series = new Series();
     series.add(5, "a", { left: true, ranges: [1, 2], name: "x", big: new Array(40).fill(0) });
-    expect([...series.latest]).toEqual([
+    expect(series.paths.map((path) => [path, series.at(path, 5)])).toEqual([
+      ["a.big", "40 values"],
       ["a.left", true],
+      ["a.name", "x"],
       ["a.ranges[0]", 1],
       ["a.ranges[1]", 2],
-      ["a.name", "x"],
-      ["a.big", "40 values"],
     ]);
     expect(series.samples.get("a.left")).toEqual({ times: [5], values: [1] });
     expect(series.samples.has("a.name")).toBe(false);
+  });
+  it("says what a value was at a moment, and holds what is not told anew", () => {
+    const series = new Series();
+    series.add(5, "a", { left: true, name: "x" });
+    series.add(9, "b", 3);
+    series.add(12, "a", { left: false, name: "y" });
+    expect(["a.left", "a.name", "b"].map((path) => series.at(path, 11))).toEqual([true, "x", 3]);
+    expect(series.at("a.name", 12)).toBe("y");
+    expect(series.at("b", 8)).toBeUndefined();
+  });
+  it("forgets nothing of what has an end", () => {
+    const [run, recording] = [new Series(), new Series(Infinity)];
+    for (const series of [run, recording]) for (let at = 0; at < 9000; at += 1) series.add(at, "a", at);
+    expect(run.at("a", 10)).toBeUndefined();
+    expect(recording.at("a", 10)).toBe(10);
   });
   it("shows numbers short", () => {
     expect([0.2, 3, 1234567.5, 0.00001, true].map(shown)).toEqual(["0.2000", "3", "1.23e+6", "1.00e-5", "true"]);
@@ -133,6 +176,33 @@ describe("layoutStructure", () => {
           one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height,
         ).toBe(true);
     expect(intersects(agents[0]!, agents[1]!)).toBe(false);
+  });
+  it("leaves a channel with a long name a piece of line at either end", () => {
+    const between = (channel: string) => {
+      const [agent] = layoutStructure(
+        readStructure(`${text("one: {}")}channels:\n  - { from: a.r.o, to: a.control.i${channel} }\n`),
+      );
+      const at = (path: string) => agent!.subsystems.find((one) => one.path === path)!;
+      return at("a.control").x - at("a.r").x - at("a.r").width;
+    };
+    const name = "a_communication_model_of_its_own";
+    expect(between(`, model: ${name}`)).toBeGreaterThan(name.length * 6 + 40);
+    expect(between(`, model: ${name}`)).toBeGreaterThan(between(""));
+  });
+  it("sets the labels of channels that meet beside each other", () => {
+    const meeting = readStructure(
+      "agents:\n  a: { receptors: { r: { outputs: { o: bool } } }, control: { inputs: { i: bool, h: bool }, outputs: { s: bool } }, effectors: { e: {} } }\n" +
+        "  b: { control: { inputs: { s: bool }, outputs: { t: bool } } }\n" +
+        "channels:\n  - b.control.t -> a.control.i\n  - a.control.s -> b.control.s\n  - a.r.o -> a.control.h\n",
+    );
+    const boxes = layoutStructure(meeting);
+    const places = [...channelLabels(meeting, boxes, lanes(meeting, boxes)).values()];
+    expect(places.length).toBe(3);
+    places.forEach((one, at) =>
+      places
+        .slice(at + 1)
+        .forEach((other) => expect(Math.abs(one.x - other.x) > 50 || Math.abs(one.y - other.y) >= 20).toBe(true)),
+    );
   });
   it("makes room for many behaviours", () => {
     const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;

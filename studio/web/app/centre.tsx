@@ -1,0 +1,78 @@
+import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
+import { StructureCanvas } from "../canvas/structure_canvas";
+import { ComparisonBar } from "../panels/comparison";
+import { PaneHead } from "../panels/pane_head";
+import { usePaneTitle } from "../panels/pane_title";
+import { Player } from "../panels/player";
+import { useStore, useStudio } from "./use";
+
+/** Between the text and the side panel: what there is of the system to be seen. */
+export function Centre() {
+  const studio = useStudio();
+  const { project, problem } = useStore(studio.project, (all) => all);
+  const view = useStore(studio.view, (all) => all.view);
+  const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
+  const panes = useStore(studio.scene.store, (all) => all.panes);
+  const sameTime = useStore(studio.scene.store, (all) => all.sameTime);
+  if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
+  if (!loaded) return <Empty title="Opening…" text="" />;
+  const beside = panes.length > 1;
+  const players = panes.map((pane, at) => <Player key={pane.id} pane={pane} beside={beside} fixed={sameTime && at === 1} />);
+  return (
+    <main className="centre">
+      {view === "structure" ? (
+        <>
+          <StructureCanvas />
+          {players}
+        </>
+      ) : (
+        <Nets players={players} />
+      )}
+    </main>
+  );
+}
+
+function Nets({ players }: { players: React.ReactNode[] }) {
+  const studio = useStudio();
+  const title = usePaneTitle();
+  const edited = useStore(studio.draft.store, (draft) => draft.net);
+  const current = useStore(studio.draft.store, (draft) => draft.current);
+  const desk = useStore(studio.desk.shown, (all) => all);
+  const panes = useStore(studio.scene.store, (all) => all.panes);
+  const beside = panes.length > 1;
+  const drawn = panes.flatMap((pane, at): DrawnPane[] => {
+    // What plays or runs is drawn as it was when it began.
+    const net = pane.track?.net ?? (desk.mode === "edit" ? edited : desk.net);
+    if (!net) return [];
+    const head = beside && <PaneHead pane={pane} title={title(pane)} />;
+    return [{ pane, net, title: title(pane), head, foot: players[at] }];
+  });
+  if (drawn.length === 0)
+    return (
+      <Empty
+        title="No drawing yet"
+        text="The specification has errors. They are listed below and marked in the text; the drawing appears when they are gone."
+      />
+    );
+  const old = drawn.find(({ net }) => net !== edited);
+  return (
+    <>
+      {old && (
+        <div className="strip">The text changed since; this is the net that {old.pane.id === "run" ? "runs" : "is played"}.</div>
+      )}
+      {!current && !old && (
+        <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>
+      )}
+      <NetCanvas panes={drawn} between={beside && <ComparisonBar />} />
+    </>
+  );
+}
+
+function Empty({ title, text }: { title: string; text: string }) {
+  return (
+    <div className="empty">
+      <h2>{title}</h2>
+      <p>{text}</p>
+    </div>
+  );
+}

@@ -1,0 +1,128 @@
+import {
+  Background,
+  BackgroundVariant,
+  Controls,
+  ReactFlow,
+  useReactFlow,
+  useStore as useFlow,
+  type ReactFlowState,
+} from "@xyflow/react";
+import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
+import { useStore, useStudio } from "../app/use";
+import type { Pane } from "../live/scene";
+import { stuck } from "../live/verifier";
+import { flagsOf } from "../model/flags";
+import type { NetModel } from "../model/net";
+import type { Sheets } from "../model/sheets";
+import { canvasKey } from "./canvas_keys";
+import { currentPage } from "./current_page";
+import { useFlight } from "./flight";
+import { SheetNodeView, type SheetNode } from "./sheet_node";
+import { useNodes } from "./sheet_nodes";
+import { useSharedView } from "./shared_view";
+import { useSteadyView } from "./steady_view";
+
+const nodeTypes = { sheet: SheetNodeView };
+const noEdges: never[] = [];
+const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
+
+interface DrawingProps {
+  pane: Pane;
+  net: NetModel;
+  sheets: Sheets;
+  /** Grows when a sheet has arrived. */
+  version: number;
+  /** Others follow where it goes. */
+  lead: boolean;
+  label: string;
+  /** The page one looks at. */
+  onCurrent: (page: number) => void;
+}
+
+/** A net as one pane shows it: what can be seen of it now, with the tokens of the pane's stage. */
+export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: DrawingProps) {
+  const studio = useStudio();
+  const flow = useReactFlow();
+  const { stage } = pane;
+  const [x, y, zoom, width, height] = useFlow(windowOf).split(",").map(Number) as [number, number, number, number, number];
+  const selected = useStore(studio.view, (view) => view.selected);
+  const flags = useFlags(net);
+  useFlight(sheets, version, lead);
+  const root = sheets.placed(0)?.sheet;
+  const shown = useSharedView(root);
+  const window = useMemo(
+    () => ({ x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom, zoom }),
+    [x, y, zoom, width, height],
+  );
+  const visible = useMemo(() => (shown ? sheets.visible(window) : []), [sheets, version, shown, window]);
+  const nodes = useNodes(net, sheets, visible, zoom, selected, flags, stage);
+  const current = currentPage(visible, window);
+  useEffect(() => (lead ? onCurrent(current) : undefined), [lead, current, onCurrent]);
+  useSteadyView(
+    useMemo(() => root && { x: 0, y: 0, width: root.width, height: root.height }, [root]),
+    lead,
+  );
+
+  const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
+  // The view may move between the two clicks of a double one; the first says what is meant.
+  const first = useRef<string | null>(null);
+  const click = (event: MouseEvent) => {
+    const path = pathAt(event);
+    if (event.detail <= 1) first.current = path;
+    const transition = path === null ? undefined : net.transitionByName.get(path);
+    if (stage.mode === "game" && transition !== undefined) studio.play.choose(transition);
+    studio.select(path);
+  };
+  const doubleClick = () => {
+    const path = first.current;
+    if (path === null) return;
+    const page = net.pageByPath.get(path);
+    if (page !== undefined && sheets.folded(page)) studio.fold(path, false);
+    else studio.fly(path);
+  };
+  const keys = (event: KeyboardEvent) => {
+    if (canvasKey(event, { net, sheets, selected, current, studio, stage, flow })) event.preventDefault();
+  };
+  return (
+    <div
+      className="canvas-area"
+      role="application"
+      aria-label={`${label}. Arrow keys move, Enter opens, Escape goes up, F folds.`}
+      tabIndex={0}
+      onClick={click}
+      onDoubleClick={doubleClick}
+      onKeyDown={keys}
+    >
+      <ReactFlow<SheetNode>
+        id={lead ? "net" : "net-beside"}
+        nodes={nodes}
+        edges={noEdges}
+        nodeTypes={nodeTypes}
+        minZoom={0.02}
+        maxZoom={60}
+        nodesDraggable={false}
+        nodesConnectable={false}
+        nodesFocusable={false}
+        elementsSelectable={false}
+        zoomOnDoubleClick={false}
+        disableKeyboardA11y
+        proOptions={{ hideAttribution: true }}
+      >
+        <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+        {lead && <Controls showInteractive={false} position="bottom-right" />}
+      </ReactFlow>
+    </div>
+  );
+}
+
+/** What the text or a verification complains of, by path. */
+function useFlags(net: NetModel): ReadonlyMap<string, "error" | "warning"> {
+  const studio = useStudio();
+  const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);
+  const verified = useStore(studio.verifier.store, (all) => all);
+  return useMemo(() => {
+    const marked = flagsOf(net, diagnostics);
+    if (verified.net === net) for (const path of stuck(verified.verdicts)) marked.set(path, "error");
+    return marked;
+  }, [net, diagnostics, verified]);
+}

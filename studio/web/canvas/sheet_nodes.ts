@@ -1,0 +1,68 @@
+import { useMemo, useRef } from "react";
+import type { Stage } from "../live/stage";
+import type { NetModel } from "../model/net";
+import type { Placed, Sheets } from "../model/sheets";
+import type { SheetNode } from "./sheet_node";
+
+/** The sheets that are seen, as nodes of the flow; one that did not change stays the same object, and is not drawn anew. */
+export function useNodes(
+  net: NetModel,
+  sheets: Sheets,
+  visible: Placed[],
+  zoom: number,
+  selected: string | null,
+  flags: ReadonlyMap<string, "error" | "warning">,
+  stage: Stage,
+): SheetNode[] {
+  const before = useRef(new Map<number, SheetNode>());
+  return useMemo(() => {
+    const shown = new Set(visible.map((placed) => placed.page));
+    const next = new Map<number, SheetNode>();
+    for (const placed of visible) {
+      const children = net.children(placed.page);
+      const open = children.filter((child) => shown.has(child)).join();
+      const folded = children.filter((child) => sheets.folded(child)).join();
+      const mine = selected !== null && isOn(net, placed.page, selected) ? selected : null;
+      const near = Math.min(5, Math.max(-3, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
+      const data = { net, placed, open, folded, near, selected: mine, flags, stage };
+      const old = before.current.get(placed.page);
+      next.set(placed.page, old && alike(old, data) ? old : sheetNode(data));
+    }
+    before.current = next;
+    return [...next.values()];
+  }, [net, sheets, visible, zoom, selected, flags, stage]);
+}
+
+const isOn = (net: NetModel, page: number, path: string) => path.startsWith(net.page(page).path) || net.placeByName.has(path);
+
+function alike(node: SheetNode, data: SheetNode["data"]): boolean {
+  const old = node.data;
+  return (
+    old.net === data.net &&
+    old.stage === data.stage &&
+    old.open === data.open &&
+    old.folded === data.folded &&
+    old.near === data.near &&
+    old.selected === data.selected &&
+    old.flags === data.flags &&
+    old.placed.sheet === data.placed.sheet &&
+    node.position.x === data.placed.x &&
+    node.position.y === data.placed.y &&
+    old.placed.scale === data.placed.scale
+  );
+}
+
+function sheetNode(data: SheetNode["data"]): SheetNode {
+  const { page, x, y, sheet, scale } = data.placed;
+  const size = { width: sheet.width * scale, height: sheet.height * scale };
+  return {
+    id: String(page),
+    type: "sheet",
+    position: { x, y },
+    ...size,
+    measured: size,
+    data,
+    zIndex: data.net.ancestry(page).length,
+    style: { pointerEvents: "none" },
+  };
+}

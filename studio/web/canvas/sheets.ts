@@ -1,0 +1,28 @@
+import { useMemo, useRef, useState } from "react";
+import { useStore, useStudio } from "../app/use";
+import type { NetModel } from "../model/net";
+import { Sheets } from "../model/sheets";
+import { elk } from "./elk";
+
+/** Pages with more children than this open with them folded. */
+const many = 24;
+
+/** The sheets of each net that is drawn, and a number that grows when one has arrived. Folded is for all what is folded for one. */
+export function useSheets(nets: readonly NetModel[]): { of: (net: NetModel) => Sheets; version: number } {
+  const studio = useStudio();
+  const folds = useStore(studio.view, (view) => view.folds);
+  const [version, setVersion] = useState(0);
+  const before = useRef<Sheets | undefined>(undefined);
+  const sheets = useMemo(() => {
+    const made = new Map<NetModel, Sheets>();
+    for (const net of nets) {
+      if (made.has(net)) continue;
+      const crowded = net.pages.map((_, index) => net.children(index).length > many);
+      const folded = (page: number) => folds.get(net.page(page).path) ?? crowded[net.page(page).parent ?? 0]!;
+      before.current = new Sheets(net, folded, elk, () => setVersion((at) => at + 1), before.current);
+      made.set(net, before.current);
+    }
+    return made;
+  }, [folds, nets[0], nets[1]]);
+  return { of: (net) => sheets.get(net)!, version };
+}

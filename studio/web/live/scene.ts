@@ -1,0 +1,130 @@
+import { differences, type Difference } from "../model/timeline";
+import type { Recordings } from "./recordings";
+import type { Replay } from "./replay";
+import type { Runner } from "./runner";
+import type { Stage } from "./stage";
+import { Store } from "./store";
+import type { Track } from "./track";
+
+/** One drawing of a net: that of the text, of a run, or of a recording. */
+export interface Pane {
+  id: string;
+  stage: Stage;
+  track: Track | null;
+  /** The recording, when it is one. */
+  replay: Replay | null;
+}
+
+/** What two panes do at the moment that the right one shows; the left one when they show the same. */
+export interface Comparison {
+  /** Nanoseconds. */
+  time: number;
+  differences: readonly Difference[];
+  /** Why there is nothing to compare: one of them was not yet, or no longer, there; or the left one is known in samples only. */
+  missing: "left" | "right" | "sampled" | null;
+}
+
+export interface SceneState {
+  /** One, or two side by side. */
+  panes: readonly Pane[];
+  /** The right one shows the same moment as the left one. */
+  sameTime: boolean;
+  comparison: Comparison | null;
+}
+
+/** What fires last does so a little before the end of a run (in ns). */
+const slack = 0.5e9;
+/** So many milliseconds between two comparisons. */
+const pause = 100;
+
+/** Which panes there are, and what those side by side have to do with each other. */
+export class Scene {
+  readonly store: Store<SceneState>;
+  private frame = 0;
+  private compared = 0;
+
+  constructor(
+    private readonly desk: Stage,
+    private readonly runner: Runner,
+    private readonly recordings: Recordings,
+  ) {
+    this.store = new Store<SceneState>({ panes: this.panes([]), sameTime: false, comparison: null });
+    for (const told of [desk.shown, runner.store, recordings.store]) told.subscribe(() => this.look());
+  }
+
+  /** How many recordings fit beside what else is shown. */
+  get room(): number {
+    return this.runner.store.get().shown ? 1 : 2;
+  }
+
+  private look(): void {
+    const { panes } = this.store.get();
+    const next = this.panes(panes);
+    if (next.length === panes.length && next.every((pane, at) => pane === panes[at])) return;
+    this.store.set({ panes: next, comparison: null, ...(next.length < 2 ? { sameTime: false } : {}) });
+    for (const pane of [...panes, ...next]) pane.stage.differ(new Set());
+    cancelAnimationFrame(this.frame);
+    if (next.length === 2) this.tick();
+    this.recordings.keep(this.room);
+  }
+
+  private panes(before: readonly Pane[]): Pane[] {
+    const { desk, runner, recordings } = this;
+    const shown: Pane[] = [];
+    // A game on the text has the drawing for itself until it is closed.
+    if (desk.mode === "edit") {
+      if (runner.track && runner.store.get().shown)
+        shown.push({ id: "run", stage: runner.stage, track: runner.track, replay: null });
+      for (const replay of recordings.store.get().open)
+        shown.push({ id: replay.id, stage: replay.stage, track: replay.track, replay });
+    }
+    if (shown.length === 0) shown.push({ id: "desk", stage: desk, track: null, replay: null });
+    return shown.slice(0, 2).map((pane) => before.find(({ id, track }) => id === pane.id && track === pane.track) ?? pane);
+  }
+
+  lock(sameTime: boolean): void {
+    this.store.set({ sameTime });
+    if (sameTime) this.store.get().panes[1]?.replay?.play(false);
+    else for (const pane of this.store.get().panes) pane.stage.differ(new Set());
+  }
+
+  /** Puts away what a pane shows. A run that goes on does so without being drawn. */
+  close(pane: Pane): void {
+    if (pane.replay) this.recordings.close(pane.replay);
+    else if (this.runner.active) this.runner.show(false);
+    else this.runner.close();
+  }
+
+  private tick = (): void => {
+    this.frame = requestAnimationFrame(this.tick);
+    const { panes, sameTime } = this.store.get();
+    const [left, right] = panes;
+    if (!left?.track || !right?.replay) return;
+    if (sameTime) right.replay.follow(left.track.now);
+    const now = performance.now();
+    if (now - this.compared < pause) return;
+    this.compared = now;
+    this.compare(left, right);
+  };
+
+  private compare(left: Pane, right: Pane): void {
+    const { sameTime, comparison } = this.store.get();
+    const next = compared(left.track!, right.track!, sameTime);
+    if (sameTime) {
+      const paths = new Set(next.differences.map(({ path }) => path));
+      left.stage.differ(paths);
+      right.stage.differ(paths);
+    }
+    if (JSON.stringify(next) !== JSON.stringify(comparison)) this.store.set({ comparison: next });
+  }
+}
+
+function compared(left: Track, right: Track, sameTime: boolean): Comparison {
+  const moment = sameTime ? left.now : right.now;
+  if (moment > right.end + slack) return { time: moment, differences: [], missing: "right" };
+  if (!sameTime && moment > left.known) return { time: moment, differences: [], missing: "left" };
+  if (!sameTime && left.dropped > 0) return { time: moment, differences: [], missing: "sampled" };
+  // Of a live run, what fired is known a little later than that it is that late; with it comes the marking.
+  const time = Math.min(moment, left.known);
+  return { time, differences: differences(left.timeline, right.timeline, time), missing: null };
+}

@@ -1,0 +1,86 @@
+import { useEffect, useRef } from "react";
+
+export interface Colours {
+  text: string;
+  faint: string;
+  line: string;
+  accent: string;
+  soft: string;
+  surface: string;
+}
+export interface Size {
+  width: number;
+  height: number;
+}
+
+function coloursOf(element: Element): Colours {
+  const style = getComputedStyle(element);
+  const of = (name: string) => style.getPropertyValue(name).trim();
+  return {
+    text: of("--text"),
+    faint: of("--faint"),
+    line: of("--line"),
+    accent: of("--accent"),
+    soft: of("--accent-soft"),
+    surface: of("--surface"),
+  };
+}
+
+/** A canvas that is painted again while what it shows changes. */
+export function Painted({
+  label,
+  draw,
+  of,
+  onPick,
+  every = 48,
+}: {
+  /** What is to be seen; empty: nothing that is not said beside it. */
+  label: string;
+  /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
+  every?: number;
+  draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
+  /** What the picture depends on: it is painted again only when that is another. */
+  of: () => string;
+  onPick?: ((x: number, width: number) => void) | undefined;
+}) {
+  const ref = useRef<HTMLCanvasElement>(null);
+  const pause = useRef(every);
+  const latest = useRef({ draw, of });
+  latest.current = { draw, of };
+  useEffect(() => {
+    const canvas = ref.current!;
+    const context = canvas.getContext("2d")!;
+    let frame = 0;
+    let before = -Infinity;
+    let painted = "";
+    const paint = (now: number) => {
+      frame = requestAnimationFrame(paint);
+      if (now - before < pause.current) return;
+      before = now;
+      const { clientWidth: width, clientHeight: height } = canvas;
+      const ratio = devicePixelRatio;
+      const state = [latest.current.of(), width, height, ratio, document.documentElement.dataset.theme].join();
+      if (state === painted) return;
+      painted = state;
+      if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+        canvas.width = Math.round(width * ratio);
+        canvas.height = Math.round(height * ratio);
+      }
+      context.setTransform(ratio, 0, 0, ratio, 0, 0);
+      context.clearRect(0, 0, width, height);
+      latest.current.draw(context, { width, height }, coloursOf(canvas));
+    };
+    frame = requestAnimationFrame(paint);
+    return () => cancelAnimationFrame(frame);
+  }, []);
+  return (
+    <canvas
+      ref={ref}
+      className="painted"
+      {...(label ? { role: "img", "aria-label": label } : { "aria-hidden": true })}
+      onClick={(event) =>
+        onPick?.(event.clientX - event.currentTarget.getBoundingClientRect().left, event.currentTarget.clientWidth)
+      }
+    />
+  );
+}

@@ -1,0 +1,121 @@
+import { useCallback, useEffect, useState } from "react";
+import { useHasWorld, useStore, useStudio } from "../app/use";
+import { message } from "../live/draft";
+import type { RunRequest } from "../live/protocol";
+import { Choice, Field } from "./field";
+
+const kindsOf = (hasWorld: boolean) =>
+  [
+    { value: "simulate", title: hasWorld ? "in the simulated world" : "on the simulated clock" },
+    { value: "run", title: "on the steady clock, as on the robot" },
+    { value: "attach", title: "nothing: watch one that runs already" },
+  ] as const;
+
+function KindChoice() {
+  const { wishes } = useStudio().runner;
+  const kind = useStore(wishes, (all) => all.kind);
+  return <Choice label="Run" value={kind} onChange={(kind) => wishes.set({ kind })} choices={kindsOf(useHasWorld())} />;
+}
+
+const number = (text: string) => (text.trim() === "" ? NaN : Number(text));
+const wrongSpeed = (text: string) =>
+  number(text) >= 0 ? undefined : "A number: simulated seconds a second; 0: as fast as possible";
+const wrongSeed = (text: string) =>
+  Number.isSafeInteger(number(text)) && number(text) >= 0 ? undefined : "A whole number, not negative";
+
+/** Controllers that were started elsewhere, to be watched. */
+function AttachForm() {
+  const studio = useStudio();
+  const [sockets, setSockets] = useState<readonly string[] | null>(null);
+  const [chosen, setChosen] = useState("");
+  const [problem, setProblem] = useState("");
+  const look = useCallback(
+    () =>
+      studio.api.controllers().then(
+        (found) => (setSockets(found), setProblem("")),
+        (error: unknown) => setProblem(message(error)),
+      ),
+    [studio],
+  );
+  useEffect(() => void look(), [look]);
+  const socket = sockets?.includes(chosen) ? chosen : (sockets?.[0] ?? "");
+  return (
+    <>
+      <KindChoice />
+      {problem && <p className="problem-hint">{problem}</p>}
+      {sockets?.length === 0 && <p className="faint">No controller runs on this machine for this user.</p>}
+      {socket && (
+        <Choice
+          label="Controller"
+          value={socket}
+          onChange={setChosen}
+          choices={sockets!.map((one) => ({ value: one, title: one.replace(/\.sock$/, "") }))}
+        />
+      )}
+      <div className="buttons">
+        <button className="primary" disabled={!socket} onClick={() => void studio.run({ kind: "attach", socket })}>
+          Watch it
+        </button>
+        <button onClick={() => void look()}>Look again</button>
+      </div>
+    </>
+  );
+}
+
+/** What to run, and how. */
+export function StartForm() {
+  const studio = useStudio();
+  const runner = useStore(studio.runner.store, (all) => all);
+  const worlds = useStore(studio.project, (all) => all.project?.worlds ?? []);
+  const hasWorld = useHasWorld();
+  const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const current = useStore(studio.draft.store, (draft) => draft.current);
+  const { wishes } = studio.runner;
+  const { kind, track, time, seed, speed } = useStore(wishes, (all) => all);
+  const tracks = worlds.flatMap((world) => world.tracks);
+  if (kind === "attach") return <AttachForm />;
+  const start = async (paused: boolean) => {
+    // What runs is what is on disk.
+    if (dirty && !(await studio.draft.save())) return;
+    const simulated = kind === "simulate";
+    const request: RunRequest = {
+      kind,
+      paused,
+      ...(time ? { for: time } : {}),
+      ...(track ? { track } : {}),
+      ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
+    };
+    await studio.run(request);
+  };
+  return (
+    <>
+      <KindChoice />
+      {hasWorld && tracks.length > 0 && (
+        <Choice
+          label="Track"
+          value={track}
+          onChange={(track) => wishes.set({ track })}
+          choices={[{ value: "", title: "as the specification says" }, ...tracks.map((one) => ({ value: one, title: one }))]}
+        />
+      )}
+      <div className="row">
+        <Field label="For" value={time} onChange={(time) => wishes.set({ time })} />
+        {kind === "simulate" && (
+          <Field label="Speed" value={speed} onChange={(speed) => wishes.set({ speed })} wrong={wrongSpeed} />
+        )}
+        {kind === "simulate" && <Field label="Seed" value={seed} onChange={(seed) => wishes.set({ seed })} wrong={wrongSeed} />}
+      </div>
+      <div className="buttons">
+        <button className="primary" disabled={!current} onClick={() => void start(false)}>
+          {dirty ? "Save and run" : "Run"}
+        </button>
+        {kind === "simulate" && (
+          <button disabled={!current} onClick={() => void start(true)}>
+            Start paused
+          </button>
+        )}
+        {runner.state !== "idle" && <button onClick={() => studio.runner.close()}>Close this run</button>}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,62 @@
+import { beforeAll, describe, expect, it, vi } from "vitest";
+import { Replay } from "../../live/replay";
+import { lineFollower } from "../model/line_follower";
+
+const net = lineFollower();
+const named = (name: string) => net.transitionByName.get(name)!;
+const held = (replay: Replay) => net.places.flatMap(({ name }, at) => (replay.stage.marking[at]! > 0 ? [name] : []));
+
+beforeAll(() => vi.stubGlobal("requestAnimationFrame", () => 1));
+
+describe("Replay", () => {
+  it("shows what was driven up to its moment, also after a jump back", () => {
+    const replay = new Replay("x", net, {
+      firings: [
+        [10, named("t_in")],
+        [40, named("robot.t_in")],
+      ],
+      path: [
+        [0, 0, 0, 0],
+        [20, 1, 0, 0],
+        [40, 2, 0, 0],
+      ],
+    });
+    expect(replay.track.driven).toBe(1);
+    replay.seek(40);
+    expect(replay.track.driven).toBe(3);
+    replay.seek(25);
+    expect(replay.track.driven).toBe(2);
+    expect(replay.stage.counts[named("robot.t_in")]).toBe(0);
+    expect(replay.stage.counts[named("t_in")]).toBe(1);
+  });
+  it("begins with the marking that a later segment begins with", () => {
+    const marking = [net.placeByName.get("robot.in")!];
+    const replay = new Replay("x", net, { firings: [[50, named("robot.t_in")]], marking });
+    expect(held(replay)).not.toContain("robot.in");
+    expect(held(replay)).toContain("robot.control.in");
+  });
+  it("begins with what the firings need when nobody knows the marking", () => {
+    const firings: [number, number][] = [
+      [50, named("robot.t_in")],
+      [60, named("robot.control.t_in")],
+    ];
+    const replay = new Replay("x", net, { firings, marking: [] });
+    expect(held(replay)).toContain("robot.control.in");
+    replay.seek(60);
+    expect(held(replay)).toContain("robot.control.init.in");
+    expect([...replay.stage.marking].every((tokens) => tokens >= 0)).toBe(true);
+  });
+  it("steps over what fired at the same moment", () => {
+    const replay = new Replay("x", net, {
+      firings: [
+        [10, named("t_in")],
+        [40, named("robot.t_in")],
+        [40, named("robot.control.t_in")],
+      ],
+    });
+    replay.step(1);
+    expect(replay.track.now).toBe(40);
+    replay.step(-1);
+    expect(replay.track.now).toBe(10);
+  });
+});

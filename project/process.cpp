@@ -16,8 +16,6 @@
 #include <optional>
 #include <stdexcept>
 
-extern char** environ;
-
 namespace tessera::project {
 
 namespace {
@@ -109,7 +107,7 @@ class Output {
     if (count < 0 && errno == EINTR) return true;
     if (count <= 0) return false;
     text_.append(buffer.data(), static_cast<std::size_t>(count));
-    for (std::size_t end; each_line && (end = text_.find('\n', line_start_)) != std::string::npos;
+    for (std::size_t end = 0; each_line && (end = text_.find('\n', line_start_)) != std::string::npos;
          line_start_ = end + 1)
       each_line(std::string_view(text_).substr(line_start_, end - line_start_));
     return true;

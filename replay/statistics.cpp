@@ -130,6 +130,7 @@ std::vector<SubsystemStatistics> statistics_of(const Recording& recording) {
     counting[event.instance()].fire(name, event.time_ns);
   }
   std::vector<SubsystemStatistics> all;
+  all.reserve(counting.size());
   for (Counting& one : counting) all.push_back(one.finish());
   return all;
 }

@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t prefaulted_bytes = 256 * 1024, page_bytes = 4096;
+constexpr std::size_t prefaulted_bytes = std::size_t{256} << 10U, page_bytes = 4096;
 
 [[nodiscard]] bool wants(const RealTime& realtime) {
   return realtime.policy != RealTime::Policy::usual || realtime.cpu >= 0;

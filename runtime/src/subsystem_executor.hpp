@@ -64,7 +64,7 @@ class SubsystemExecutor {
   struct FollowProgress {
     Followed state = Followed::waiting;
     Time deadline = Time::max();
-    std::string_view forced = "";  ///< what a condition was made to say
+    std::string_view forced{};  ///< what a condition was made to say
   };
   [[nodiscard]] FollowProgress follow();
   /// A line on the console and in the recording.

@@ -127,7 +127,7 @@ class Prospect {
 /// Places that have to be as they are for the transitions to stay out of reach.
 class Concern {
  public:
-  explicit Concern(const net::Net& net) : net_(net), of_subsystem_() {
+  explicit Concern(const net::Net& net) : net_(net) {
     for (std::uint32_t place = 0; place < net.places().size(); ++place) {
       const std::uint32_t subsystem = net.places()[place].subsystem;
       if (subsystem == net::no_subsystem) continue;

@@ -30,7 +30,7 @@ Formula what_of(Property::Kind kind, const net::Claim& claim) {
 }
 
 std::string complaint(Property::Kind kind, const net::Claim& claim) {
-  const std::string about = claim.about.empty() ? "" : claim.about + ": ";
+  std::string about = claim.about.empty() ? "" : claim.about + ": ";
   switch (kind) {
     case Property::Kind::never:
       return about + "a run reaches it";

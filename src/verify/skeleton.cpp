@@ -24,7 +24,7 @@ std::uint32_t Skeleton::point(std::uint32_t subsystem, std::uint32_t tokens) {
   return places_of_[subsystem].back();
 }
 
-void Skeleton::step(std::vector<std::uint32_t> from, std::vector<std::uint32_t> to) {
+void Skeleton::step(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to) {
   const auto arcs = [](const std::vector<std::uint32_t>& places) {
     std::vector<net::Arc> all;
     for (const std::uint32_t one : places) all.push_back({{one}, 1});

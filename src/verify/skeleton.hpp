@@ -46,7 +46,7 @@ class Skeleton {
 
   std::uint32_t place(std::uint32_t tokens = 0);
   std::uint32_t point(std::uint32_t subsystem, std::uint32_t tokens = 0);
-  void step(std::vector<std::uint32_t> from, std::vector<std::uint32_t> to);
+  void step(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
   void draw(std::uint32_t subsystem);
   std::uint32_t draw_stage(std::uint32_t subsystem, const Stage& stage, std::uint32_t from);
   void draw_block(std::uint32_t subsystem, const Communication& communication, std::uint32_t from,

@@ -56,8 +56,8 @@ Run searched_again(const net::Net& net, const explore::Marking& end, const Run& 
   }
   std::vector<Formula> same;
   for (const std::uint32_t place : touched) {
-    Formula marked = Formula::marked({place});
-    same.push_back(end[place] > 0 ? marked : Formula::negation(std::move(marked)));
+    const Formula marked = Formula::marked({place});
+    same.push_back(end[place] > 0 ? marked : Formula::negation(marked));
   }
   explore::Limits limits;
   limits.markings = 100'000;  // rather than time: the same run on every machine

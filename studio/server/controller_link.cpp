@@ -85,11 +85,11 @@ void ControllerLink::hear() {
   while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
     if (count < 0) break;
     heard_.append(bytes.data(), static_cast<std::size_t>(count));
-    understand();
     if (heard_.size() > most) return close();
   }
   const bool lost = count < 0 && errno != EAGAIN && errno != EINTR;
   if (socket_ >= 0 && (count == 0 || lost)) close();
+  understand();
 }
 
 /// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
@@ -99,6 +99,7 @@ void ControllerLink::understand() {
     const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
     json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
     const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;
+    if (bytes > longest_piece) return close();  // not what a controller sends
     if (bytes > heard_.size() - end - 1) break;
     if (line.is_object() && line.contains("recording_bytes"))
       piece_ = {heard_.substr(end + 1, bytes), line.value("begins", false), line.value("more", false)};
@@ -131,7 +132,6 @@ GrowingRecording::Piece ControllerLink::recording() {
     pollfd source{.fd = socket_, .events = POLLIN, .revents = 0};
     poll(&source, 1, 10);
   }
-  if (!piece_) understand();  // what was left behind by who has closed
   GrowingRecording::Piece piece;
   piece.more = asked_ && socket_ >= 0;
   if (!piece_) return piece;

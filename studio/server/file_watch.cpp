@@ -44,7 +44,7 @@ void FileWatch::watch(const std::string& name) {
 bool FileWatch::concerns(const std::string& name) const {
   bool found = false;
   alignas(inotify_event) std::array<char, 4096> bytes{};
-  for (ssize_t count; (count = read(events_, bytes.data(), bytes.size())) > 0;)
+  for (ssize_t count = 0; (count = read(events_, bytes.data(), bytes.size())) > 0;)
     for (ssize_t at = 0; at < count;) {
       inotify_event event{};
       std::memcpy(&event, bytes.data() + at, sizeof event);

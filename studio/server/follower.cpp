@@ -18,7 +18,10 @@ constexpr auto between_poses = std::chrono::milliseconds(50);
 constexpr auto between_markings = std::chrono::milliseconds(500);
 constexpr auto between_subsystems = std::chrono::milliseconds(200);
 
-std::int64_t nanoseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
+/// Of a time that somebody else says.
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::clamp(seconds * 1e9, -9e18, 9e18));
+}
 
 }  // namespace
 

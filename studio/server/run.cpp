@@ -199,7 +199,7 @@ void Run::execute(const project::Controller& controller) {
   if (follower_.joinable()) follower_.join();
   json summary = read_summary(place_.folder / "summary.json");
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
-  const std::string why = summary.is_object() ? summary.value("ended", "") : exit.text;
+  const std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
   {
     const std::lock_guard lock(mutex_);
     outcome_ = summary.is_object() ? std::move(summary) : json(nullptr);

@@ -1,98 +1,7 @@
-#include <gmock/gmock.h>
-
-#include <future>
-#include <thread>
-
-#include "project/process.hpp"
-#include "served.hpp"
+#include "running.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::server_test {
-
-using nlohmann::json;
-using testing::HasSubstr;
-
-/// The command itself, because controllers are built with what is installed beside it.
-class RunOfTheStudio : public Served {
- protected:
-  RunOfTheStudio() {
-    // Sockets of other controllers, which come and go, are not of this test's world.
-    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
-    std::promise<std::string> url;
-    std::future<std::string> printed = url.get_future();
-    command_ = std::thread([this, &url] {
-      bool first = true;
-      static_cast<void>(
-          project::capture_apart({TESSERA_BINARY_DIR "/tessera", "studio", (folder_ / "project").string(),
-                                  "--port", "0", "--no-browser"},
-                                 stop_, [&](std::string_view line) {
-                                   if (line.starts_with("http://") && std::exchange(first, false))
-                                     url.set_value(std::string(line));
-                                 }));
-    });
-    const std::string address = printed.get();
-    const std::size_t colon = address.rfind(':');
-    port_ = std::stoi(address.substr(colon + 1));
-    token_ = address.substr(address.find("token=") + 6);
-    events_ = std::make_unique<EventStream>(port_, token_);
-    EXPECT_FALSE(events_->next("hello").is_null());
-  }
-  ~RunOfTheStudio() override {
-    stop_ = true;
-    command_.join();
-  }
-
-  std::string start(const json& request) {
-    const Reply reply = post("/api/runs", request);
-    EXPECT_EQ(reply.status, 202) << reply.body;
-    return reply.json().at("run");
-  }
-  int control(const std::string& run, const json& command) {
-    return post("/api/runs/" + run + "/control", command).status;
-  }
-  json await_state(const std::string& run, const std::string& state) {
-    return events_->next(
-        "run", [&](const json& data) { return data.at("run") == run && data.at("state") == state; });
-  }
-  json info(const std::string& run) { return get("/api/runs/" + run).json(); }
-  std::uint32_t place(const std::string& name) {
-    const json places = get("/api/spec").json().at("analysis").at("net").at("flat").at("places");
-    for (std::uint32_t index = 0; index < places.size(); ++index)
-      if (places[index].at("name") == name) return index;
-    ADD_FAILURE() << "no place " << name;
-    return 0;
-  }
-
-  std::string await_controller() {
-    json names = json::array();
-    while (names.empty()) names = get("/api/controllers").json();
-    return names.at(0);
-  }
-
-  std::atomic<bool> stop_{false};
-  std::thread command_;
-  std::unique_ptr<EventStream> events_;
-};
-
-/// The command, run by somebody else.
-class Elsewhere {
- public:
-  explicit Elsewhere(project::Command words) {
-    words.insert(words.begin(), TESSERA_BINARY_DIR "/tessera");
-    running_ = std::thread([this, words] { exit_ = project::capture_apart(words, enough_); });
-  }
-  ~Elsewhere() { static_cast<void>(stop()); }
-  /// How it ended.
-  [[nodiscard]] std::string stop() {
-    enough_ = true;
-    if (running_.joinable()) running_.join();
-    return exit_.text;
-  }
-
- private:
-  std::atomic<bool> enough_{false};
-  project::Exit exit_;
-  std::thread running_;
-};
 
 TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording) {
   const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 10}});
@@ -194,9 +103,15 @@ TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
 }
 
 TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoOfIt) {
-  Elsewhere other({"run", (folder_ / "project").string(), "--world"});
+  Elsewhere other({TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world",
+                   "--record-limit", "30kBx3"});
   const std::string socket = await_controller();
   EXPECT_THAT(socket, testing::StartsWith("line_follower."));
+  const fs::path recording = folder_ / "project/.tessera/last/recording.tsr";
+  const auto await_segment = [&](std::uint64_t number) {
+    while (!fs::exists(segment_path(recording.string(), number))) ASSERT_TRUE(other.runs());
+  };
+  await_segment(2);
   const std::string run = start({{"kind", "attach"}, {"socket", socket}});
   ASSERT_FALSE(await_state(run, "running").is_null());
   EXPECT_FALSE(events_->next("firings").at("firings").empty());
@@ -206,7 +121,16 @@ TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoO
   EXPECT_EQ(shown.at("run"), run);
   EXPECT_TRUE(shown.at("subsystems").at(0).at("iterations").is_number());
   EXPECT_FALSE(events_->next("pose").is_null());
-  EXPECT_EQ(info(run).at("kind"), "attach");
+  // On and on in the next segment.
+  const std::int64_t before = info(run).at("t");
+  await_segment(5);
+  EXPECT_FALSE(
+      events_->next("firings", [&](const json& data) { return data.at("t") > before + 1'000'000'000; })
+          .is_null());
+  const json info_of_run = info(run);
+  EXPECT_FALSE(info_of_run.at("marking").empty());
+  EXPECT_FALSE(info_of_run.at("path").empty());
+  EXPECT_EQ(info_of_run.at("kind"), "attach");
   EXPECT_EQ(control(run, {{"command", "pause"}}), 409);
 
   ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
@@ -222,7 +146,8 @@ TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoO
 
 TEST_F(RunOfTheStudio, ARecordingThatIsElsewhereComesThroughTheControlSocketToItsEnd) {
   const fs::path recording = folder_ / "elsewhere.tsr";
-  Elsewhere other({"run", (folder_ / "project").string(), "--world", "--record", recording.string()});
+  Elsewhere other({TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world",
+                   "--record", recording.string()});
   const std::string run = start({{"kind", "attach"}, {"socket", await_controller()}});
   while (!info(run).at("values").contains("robot.control.motion") || info(run).at("marking").empty())
     ASSERT_EQ(info(run).at("why"), "");

@@ -24,3 +24,6 @@ export function useStore<T extends object, S>(store: Store<T>, select: (value: T
   };
   return useSyncExternalStore(store.subscribe, part);
 }
+
+/** Whether the specification on disk has a simulated world. */
+export const useHasWorld = () => useStore(useStudio().project, (all) => Boolean(all.project?.simulation));

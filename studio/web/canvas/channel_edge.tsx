@@ -1,26 +1,28 @@
 import { BaseEdge, EdgeLabelRenderer, getSmoothStepPath, type EdgeProps } from "@xyflow/react";
-import type { Channel } from "../model/structure";
-
-const mode = (blocking: Channel["send"]) => (blocking === "blocking" ? "B" : "N");
+import { leadsBack } from "../model/channel_labels";
+import type { Point } from "../model/geometry";
+import { channelLabel, type Channel } from "../model/structure";
 
 /** A channel: solid where both ends wait, dashed where neither does; its label names the modes of both ends. */
 export function ChannelEdge(props: EdgeProps) {
-  const { channel, selected, complaint, lane } = props.data as unknown as {
+  const { channel, selected, complaint, lane, label } = props.data as unknown as {
     channel: Channel;
     selected: boolean;
     complaint?: "error" | "warning";
     /** Height at which it runs when it leads back. */
     lane?: number;
+    /** The middle of its label. */
+    label: Point;
   };
-  const back = props.targetX < props.sourceX + 40;
-  const [path, x, y] = getSmoothStepPath({
+  const back = leadsBack({ x: props.sourceX, y: props.sourceY }, { x: props.targetX, y: props.targetY });
+  const [path] = getSmoothStepPath({
     ...props,
     borderRadius: 8,
     ...(back && lane !== undefined ? { centerY: lane, offset: 22 } : {}),
   });
   const blocking = channel.send === "blocking" || channel.receive === "blocking";
-  const written = channel.model || `${mode(channel.send)} → ${mode(channel.receive)}`;
-  const spoken = `${written}${channel.timeout ? ` ${channel.timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
+  const { modes, timeout } = channelLabel(channel);
+  const spoken = `${modes}${timeout ? ` ${timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
   return (
     <>
       <BaseEdge
@@ -33,14 +35,14 @@ export function ChannelEdge(props: EdgeProps) {
       <EdgeLabelRenderer>
         <button
           className={`channel-label nodrag nopan${selected ? " selected" : ""}${complaint ? ` ${complaint}` : ""}`}
-          style={{ transform: `translate(-50%, -50%) translate(${x}px, ${y}px)` }}
+          style={{ transform: `translate(-50%, -50%) translate(${label.x}px, ${label.y}px)` }}
           data-path={props.id}
           aria-pressed={selected}
           aria-label={spoken}
           title={spoken}
         >
-          {written}
-          {channel.timeout && <span className="faint"> {channel.timeout}</span>}
+          {modes}
+          {timeout && <span className="faint"> {timeout}</span>}
         </button>
       </EdgeLabelRenderer>
     </>

@@ -14,6 +14,7 @@ import { useComplaints, useStructure } from "../app/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
 import type { Box } from "../model/geometry";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";
+import { channelLabels } from "../model/channel_labels";
 import { lanes, layoutStructure } from "../model/structure_layout";
 import { ChannelEdge, ChannelTip } from "./channel_edge";
 import { ExportButtons } from "./export_button";
@@ -78,7 +79,9 @@ function boxAround(nodes: Node[]): Box | undefined {
 
 function edgesOf(structure: Structure, selected: string | null, complaints: Complaints): Edge[] {
   const edges: Edge[] = [];
-  const heights = lanes(structure, layoutStructure(structure));
+  const boxes = layoutStructure(structure);
+  const heights = lanes(structure, boxes);
+  const labels = channelLabels(structure, boxes, heights);
   for (const channel of structure.channels) {
     const ends = [channel.from, channel.to].map((end) => findThing(structure, end));
     if (ends.some((end) => end?.kind !== "buffer")) continue;
@@ -96,6 +99,7 @@ function edgesOf(structure: Structure, selected: string | null, complaints: Comp
         selected: selected === id,
         complaint: complaints.get(id)?.severity,
         lane: heights.get(channel.index),
+        label: labels.get(channel.index),
       },
       focusable: false,
       zIndex: 3,

@@ -58,6 +58,14 @@ export interface Channel {
   model: string;
   line: number;
 }
+const mode = (end: Channel["send"]) => (end === "blocking" ? "B" : "N");
+
+/** What a channel is, in a word: the modes of its ends, or its model; and its timeout. */
+export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
+  modes: model || `${mode(send)} → ${mode(receive)}`,
+  timeout,
+});
+
 export interface Structure {
   yaml: YamlText;
   system: string;

@@ -1,4 +1,4 @@
-import { withoutIndex, type Agent, type Structure, type Subsystem } from "./structure";
+import { channelLabel, withoutIndex, type Agent, type Structure, type Subsystem } from "./structure";
 
 /** Where the structure view puts things: receptors left, control in the middle, effectors right, agents below each other. */
 
@@ -19,6 +19,9 @@ export const row = 22;
 export const head = 44;
 const width = { receptor: 190, control: 230, effector: 190 };
 const gap = { x: 110, y: 30, device: 26 };
+/** Between columns a channel shows its label, with a piece of line at either end. */
+const gapFor = (labels: readonly { modes: string; timeout: string }[]) =>
+  Math.max(gap.x, ...labels.map(({ modes, timeout }) => (modes.length + timeout.length) * 6.8 + 60));
 
 export const ports = (subsystem: Subsystem) => {
   const count = (direction: "input" | "output") => subsystem.buffers.filter((buffer) => buffer.direction === direction).length;
@@ -46,7 +49,10 @@ const withDevice = (subsystem: Subsystem) => heightOf(subsystem) + (realOf(subsy
 export function layoutStructure(structure: Structure): AgentBox[] {
   let y = 0;
   return structure.agents.map((agent) => {
-    const box = layoutAgent(agent, y);
+    const own = structure.channels.filter((one) =>
+      [one.from, one.to].every((end) => withoutIndex(end).startsWith(`${agent.name}.`)),
+    );
+    const box = layoutAgent(agent, y, gapFor(own.map(channelLabel)));
     const lanes = structure.channels.filter((one) => isBack(agent, one)).length;
     if (lanes > 0) box.height += 4 + lanes * lane;
     y += box.height + 60;
@@ -81,7 +87,7 @@ export function lanes(structure: Structure, boxes: readonly AgentBox[]): Map<num
   return heights;
 }
 
-function layoutAgent(agent: Agent, top: number): AgentBox {
+function layoutAgent(agent: Agent, top: number, between: number): AgentBox {
   const columns = (["receptor", "control", "effector"] as const)
     .map((kind) => agent.subsystems.filter((one) => one.kind === kind))
     .filter((column) => column.length > 0);
@@ -108,8 +114,8 @@ function layoutAgent(agent: Agent, top: number): AgentBox {
         });
       y += withDevice(one) + gap.y;
     }
-    x += wide + gap.x;
+    x += wide + between;
   }
-  box.width = Math.max(x - gap.x + 24, 280);
+  box.width = Math.max(x - between + 24, 280);
   return box;
 }

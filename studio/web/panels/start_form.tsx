@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useState } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useHasWorld, useStore, useStudio } from "../app/use";
 import { message } from "../live/draft";
 import type { RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";
@@ -10,9 +10,6 @@ const kindsOf = (hasWorld: boolean) =>
     { value: "run", title: "on the steady clock, as on the robot" },
     { value: "attach", title: "nothing: watch one that runs already" },
   ] as const;
-
-/** Whether the specification has a simulated world. */
-const useHasWorld = () => useStore(useStudio().project, (all) => Boolean(all.project?.simulation));
 
 function KindChoice() {
   const { wishes } = useStudio().runner;

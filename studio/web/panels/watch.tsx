@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useHasWorld, useStore, useStudio } from "../app/use";
 import type { Replay } from "../live/replay";
 import type { Track } from "../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
@@ -44,8 +44,9 @@ interface WatchProps {
 }
 
 function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) {
+  const hasWorld = useHasWorld();
   return (
-    <section className="watch" aria-label={label}>
+    <section className={`watch${hasWorld ? "" : " without-world"}`} aria-label={label}>
       <div className="watch-pane timeline">
         <div className="watch-title">
           <h2>Timeline</h2>
@@ -72,19 +73,21 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
         </div>
         <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
       </div>
-      <div className="watch-pane world">
-        <div className="watch-title">
-          <h2>World</h2>
-          <span className="faint">{track.path.length > 0 ? "from above" : ""}</span>
+      {hasWorld && (
+        <div className="watch-pane world">
+          <div className="watch-title">
+            <h2>World</h2>
+            <span className="faint">{track.path.length > 0 ? "from above" : ""}</span>
+          </div>
+          <Painted
+            label="The robot's path from above"
+            draw={(context, size, colours) =>
+              drawWorld(context, size, colours, track, replay ? "This recording holds no path" : "No path yet")
+            }
+            of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
+          />
         </div>
-        <Painted
-          label="The robot's path from above"
-          draw={(context, size, colours) =>
-            drawWorld(context, size, colours, track, replay ? "This recording holds no path" : "No path yet")
-          }
-          of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
-        />
-      </div>
+      )}
     </section>
   );
 }

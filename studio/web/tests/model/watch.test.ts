@@ -4,6 +4,7 @@ import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
 import { plainColour } from "../../canvas/picture";
+import { channelLabels } from "../../model/channel_labels";
 import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
 import { readStructure } from "../../model/structure";
 import { differences, Timeline } from "../../model/timeline";
@@ -175,6 +176,33 @@ describe("layoutStructure", () => {
           one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height,
         ).toBe(true);
     expect(intersects(agents[0]!, agents[1]!)).toBe(false);
+  });
+  it("leaves a channel with a long name a piece of line at either end", () => {
+    const between = (channel: string) => {
+      const [agent] = layoutStructure(
+        readStructure(`${text("one: {}")}channels:\n  - { from: a.r.o, to: a.control.i${channel} }\n`),
+      );
+      const at = (path: string) => agent!.subsystems.find((one) => one.path === path)!;
+      return at("a.control").x - at("a.r").x - at("a.r").width;
+    };
+    const name = "a_communication_model_of_its_own";
+    expect(between(`, model: ${name}`)).toBeGreaterThan(name.length * 6 + 40);
+    expect(between(`, model: ${name}`)).toBeGreaterThan(between(""));
+  });
+  it("sets the labels of channels that meet beside each other", () => {
+    const meeting = readStructure(
+      "agents:\n  a: { receptors: { r: { outputs: { o: bool } } }, control: { inputs: { i: bool, h: bool }, outputs: { s: bool } }, effectors: { e: {} } }\n" +
+        "  b: { control: { inputs: { s: bool }, outputs: { t: bool } } }\n" +
+        "channels:\n  - b.control.t -> a.control.i\n  - a.control.s -> b.control.s\n  - a.r.o -> a.control.h\n",
+    );
+    const boxes = layoutStructure(meeting);
+    const places = [...channelLabels(meeting, boxes, lanes(meeting, boxes)).values()];
+    expect(places.length).toBe(3);
+    places.forEach((one, at) =>
+      places
+        .slice(at + 1)
+        .forEach((other) => expect(Math.abs(one.x - other.x) > 50 || Math.abs(one.y - other.y) >= 20).toBe(true)),
+    );
   });
   it("makes room for many behaviours", () => {
     const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <future>
+#include <thread>
+
+#include "project/process.hpp"
+#include "served.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A program that somebody else has started.
+class Elsewhere {
+ public:
+  explicit Elsewhere(const project::Command& words)
+      : running_([this, words] {
+          exit_ = project::capture_apart(words, enough_);
+          over_ = true;
+        }) {}
+  ~Elsewhere() { static_cast<void>(stop()); }
+  [[nodiscard]] bool runs() const { return !over_; }
+  /// How it ended.
+  [[nodiscard]] std::string stop() {
+    enough_ = true;
+    if (running_.joinable()) running_.join();
+    return exit_.text;
+  }
+
+ private:
+  std::atomic<bool> enough_{false}, over_{false};
+  project::Exit exit_;
+  std::thread running_;  // the last: it uses the others
+};
+
+/// `tessera studio` itself, because controllers are built with what is installed beside it.
+class RunOfTheStudio : public Served {
+ protected:
+  RunOfTheStudio() {
+    // Sockets of other controllers, which come and go, are not of this test's world.
+    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+    std::promise<std::string> url;
+    std::future<std::string> printed = url.get_future();
+    command_ = std::thread([this, &url] {
+      bool first = true;
+      static_cast<void>(
+          project::capture_apart({TESSERA_BINARY_DIR "/tessera", "studio", (folder_ / "project").string(),
+                                  "--port", "0", "--no-browser"},
+                                 stop_, [&](std::string_view line) {
+                                   if (line.starts_with("http://") && std::exchange(first, false))
+                                     url.set_value(std::string(line));
+                                 }));
+    });
+    const std::string address = printed.get();
+    const std::size_t colon = address.rfind(':');
+    port_ = std::stoi(address.substr(colon + 1));
+    token_ = address.substr(address.find("token=") + 6);
+    events_ = std::make_unique<EventStream>(port_, token_);
+    EXPECT_FALSE(events_->next("hello").is_null());
+  }
+  ~RunOfTheStudio() override {
+    stop_ = true;
+    command_.join();
+  }
+
+  std::string start(const json& request) {
+    const Reply reply = post("/api/runs", request);
+    EXPECT_EQ(reply.status, 202) << reply.body;
+    return reply.json().at("run");
+  }
+  int control(const std::string& run, const json& command) {
+    return post("/api/runs/" + run + "/control", command).status;
+  }
+  json await_state(const std::string& run, const std::string& state) {
+    return events_->next(
+        "run", [&](const json& data) { return data.at("run") == run && data.at("state") == state; });
+  }
+  json info(const std::string& run) { return get("/api/runs/" + run).json(); }
+  std::uint32_t place(const std::string& name) {
+    const json places = get("/api/spec").json().at("analysis").at("net").at("flat").at("places");
+    for (std::uint32_t index = 0; index < places.size(); ++index)
+      if (places[index].at("name") == name) return index;
+    ADD_FAILURE() << "no place " << name;
+    return 0;
+  }
+
+  std::string await_controller() {
+    json names = json::array();
+    while (names.empty()) names = get("/api/controllers").json();
+    return names.at(0);
+  }
+
+  std::atomic<bool> stop_{false};
+  std::thread command_;
+  std::unique_ptr<EventStream> events_;
+};
+
+}  // namespace tessera::server_test

@@ -1,5 +1,6 @@
 import { runningBehaviours } from "../model/game";
 import type { NetModel } from "../model/net";
+import { bounded } from "../model/sorted";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
@@ -64,6 +65,9 @@ const idle: RunnerState = {
   shown: false,
 };
 
+/** Of what the build and the controller print, so many lines. */
+const kept = 400;
+
 /** A run of the controller: started from here or found running, watched through the event stream. */
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
@@ -71,6 +75,8 @@ export class Runner {
   readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
+  /** What was said since the page was last told. */
+  private lines: string[] = [];
 
   constructor(
     private readonly api: Api,
@@ -78,10 +84,7 @@ export class Runner {
     connection: Connection,
   ) {
     for (const name of ["build", "log"] as const)
-      connection.on<{ run: string; line: string }>(
-        name,
-        (event) => this.mine(event) && this.store.set({ build: [...this.store.get().build.slice(-400), event.line] }),
-      );
+      connection.on<{ run: string; line: string }>(name, (event) => this.mine(event) && this.said(event.line));
     connection.on<RunInfo>("run", (event) => this.mine(event) && this.told(event));
     connection.on<FiringsEvent>("firings", (event) => this.mine(event) && this.fired(event));
     connection.on<ValuesEvent>("values", (event) => this.mine(event) && this.valued(event));
@@ -142,6 +145,7 @@ export class Runner {
 
   private watch(net: NetModel, floor: string | null | undefined): void {
     const track = (this.track = new Track(net));
+    this.lines = [];
     this.stage.reset(net, "live");
     this.show(true);
     void this.api.floor(floor).then((found) => (track.floor = found));
@@ -188,6 +192,16 @@ export class Runner {
     track?.reached(t);
     // What was asked for may be older than what was told since.
     track?.values(track.now, values);
+  }
+
+  /** A controller may print thousands of lines a second: the page is told of them together, ten times a second. */
+  private said(line: string): void {
+    if (bounded(this.lines, kept).push(line) > 1) return;
+    setTimeout(() => {
+      const build = [...this.store.get().build, ...this.lines].slice(-kept);
+      this.lines = [];
+      this.store.set({ build });
+    }, 100);
   }
 
   private reported({ t, subsystems }: SubsystemsEvent): void {

@@ -9,7 +9,7 @@ import { folder, onPage } from "./page.mjs";
 const fleet = readFileSync(join(folder("fleet"), "spec.yaml"), "utf8");
 
 for (const what of process.argv.slice(2))
-  if (what === "stream" || what === "beside") await measureStream(undefined, undefined, what === "beside");
+  if (what === "stream" || what === "beside") await measureStream(what === "beside");
   else await measureFleet(what);
 
 async function measureFleet(robots) {

@@ -2,22 +2,32 @@
 // another layer to its drawing.
 import { button, example, onPage, tab, until } from "./page.mjs";
 
-const layers = [
-  "robot.control",
-  "robot.sensor",
-  "robot.control.follow",
-  "robot.motor",
-  "robot.sensor.watch",
-  "robot.motor.drive",
-];
+/** What is measured: with a simulated world, and without one, which fires faster. */
+const projects = {
+  "01_line_follower": ["robot.control", "robot.sensor", "robot.control.follow", "robot.motor", "robot.sensor.watch"],
+  "03_two_slot_buffer": [
+    "watcher.control",
+    "watcher.camera",
+    "watcher.control.look",
+    "watcher.camera.take",
+    "watcher.control.study",
+  ],
+};
 
-/** A run at a speed (0: as fast as it can); `beside`: with a recording beside it that follows its time. */
-export const measureStream = (project = example("01_line_follower"), speed = "0", beside = false) =>
-  onPage(project, async (page) => {
+/** A run as fast as it can; `beside`: with a recording beside it that follows its time. */
+export async function measureStream(beside) {
+  for (const [name, layers] of Object.entries(projects)) {
+    console.log(`${name}${beside ? ", with a recording beside it" : ""}:`);
+    await measureProject(name, layers, beside);
+  }
+}
+
+const measureProject = (name, layers, beside) =>
+  onPage(example(name), async (page) => {
     await tab(page, "Run").click();
-    if (beside) await start(page, "60s", speed);
+    if (beside) await start(page, "60s");
     if (beside) await page.getByTestId("run-state").getByText("Ended").waitFor();
-    await start(page, "600min", speed);
+    await start(page, "9000min");
     await until(page, async () => (await facts(page)).firings > 1000, "firings");
     if (beside) {
       await tab(page, "Recordings").click();
@@ -36,14 +46,15 @@ export const measureStream = (project = example("01_line_follower"), speed = "0"
     const after = await facts(page);
     const times = await page.evaluate(() => window.frames_);
     await tab(page, "Run").click();
-    await button(page, "Stop").click();
+    const stop = button(page, "Stop");
+    if (await stop.count()) await stop.click(); // unless it ended by itself
     tell(before, after, times, answers);
   });
 
-async function start(page, time, speed) {
+async function start(page, time) {
   for (const [label, value] of [
     ["For", time],
-    ["Speed", speed],
+    ["Speed", "0"],
   ]) {
     await page.getByRole("textbox", { name: label, exact: true }).fill(value);
     await page.keyboard.press("Enter");

@@ -73,6 +73,21 @@ const seconds = async (page) => Number((await facts(page)).split(" ")[0]);
 const firings = async (page) => Number(/([\d,]+) firings/.exec(await facts(page))[1].replaceAll(",", ""));
 const runningNow = (page, behaviour) => page.locator(".running-now").getByText(behaviour, { exact: true });
 
+/** Until it has been the same for several looks. */
+async function settled(page, look) {
+  let [last, times] = ["", 0];
+  await until(
+    page,
+    async () => {
+      const now = await look();
+      times = now === last ? times + 1 : 0;
+      last = now;
+      return times === 8;
+    },
+    "it stands still",
+  );
+}
+
 test("a behaviour is added in the drawing, verified, given its function, run and replayed", () =>
   onPage(newProject(), async (page, server) => {
     // The drawing of the net
@@ -150,6 +165,17 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await until(page, async () => Number((await page.getByTestId("compared-at").innerText()).split(" ")[1]) > 4, "four seconds");
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
+    // On to a moment at which one of them turns and the other does not.
+    const differing = page.getByRole("list", { name: "Subsystems that differ" });
+    const looks = () => page.getByRole("group", { name: "Comparison" }).innerText();
+    await until(
+      page,
+      async () => {
+        await settled(page, looks);
+        return (await differing.count()) > 0 || void (await button(page, "Step one iteration").click());
+      },
+      "a difference",
+    );
     await picture(page, "beside");
     await button(page, "Stop").click();
     await page.getByTestId("run-state").getByText("Ended").waitFor();

@@ -1,0 +1,66 @@
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import type { Api } from "../../live/api";
+import type { Connection } from "../../live/connection";
+import type { Draft } from "../../live/draft";
+import { Runner } from "../../live/runner";
+import { lineFollower } from "../model/line_follower";
+
+const net = lineFollower();
+const named = (name: string) => net.transitionByName.get(name)!;
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("requestAnimationFrame", () => 1);
+});
+
+/** A runner that watches a run, and how the server tells it of something. */
+async function watching() {
+  const heard = new Map<string, (data: object) => void>();
+  const connection = { on: (name: string, handler: (data: object) => void) => void heard.set(name, handler) };
+  const info = {
+    run: "1",
+    state: "running",
+    t: 5,
+    values: { "robot.control.motion": { linear: 1, angular: 2 } },
+    path: [
+      [0, 0, 0, 0],
+      [4, 1, 0, 0],
+    ],
+  };
+  const api = { start: async () => ({ run: "1" }), run: async () => info, floor: async () => null };
+  const draft = { store: { get: () => ({ net }) } };
+  const runner = new Runner(api as unknown as Api, draft as unknown as Draft, connection as unknown as Connection);
+  await runner.start({ kind: "simulate" });
+  return { runner, tell: (name: string, data: object) => heard.get(name)!({ run: "1", ...data }) };
+}
+
+describe("Runner", () => {
+  it("is told of what a controller prints in one go, and keeps the last lines", async () => {
+    const { runner, tell } = await watching();
+    let told = 0;
+    runner.store.subscribe(() => (told += 1));
+    for (let line = 0; line < 5000; line += 1) tell("log", { line: String(line) });
+    vi.advanceTimersByTime(200);
+    expect(told).toBe(1);
+    const { build } = runner.store.get();
+    expect(build.length).toBeLessThanOrEqual(400);
+    expect(build.at(-1)).toBe("4999");
+  });
+  it("keeps values that are not told anew, and the path before it looked", async () => {
+    const { runner, tell } = await watching();
+    tell("values", { t: 8, values: { "robot.control.motion": { linear: 3 } } });
+    tell("pose", { t: 9, x: 2, y: 0, heading: 0 });
+    const { series, path } = runner.track!;
+    expect(series.at("robot.control.motion.linear", 8)).toBe(3);
+    expect(series.at("robot.control.motion.angular", 8)).toBe(2);
+    expect(path.map(({ x }) => x)).toEqual([0, 1, 2]);
+  });
+  it("counts what was dropped, and takes what runs from the marking that comes with it", async () => {
+    const { runner, tell } = await watching();
+    const marking = [net.placeByName.get("robot.control.follow.in")!];
+    tell("firings", { t: 9, dropped: 7000, firings: [[8, named("robot.control.t_in")]], marking });
+    const { firings, dropped, timeline } = runner.track!;
+    expect([firings, dropped]).toEqual([7001, 7000]);
+    expect(timeline.lanes[0]!.segments.map(({ behaviour }) => behaviour)).toEqual(["init", "follow"]);
+  });
+});

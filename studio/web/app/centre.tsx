@@ -17,7 +17,11 @@ export function Centre() {
   if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
   if (!loaded) return <Empty title="Opening…" text="" />;
   const beside = panes.length > 1;
-  const players = panes.map((pane, at) => <Player key={pane.id} pane={pane} beside={beside} fixed={sameTime && at === 1} />);
+  // In the structure there are no panes with a name of their own.
+  const named = beside && view === "net";
+  const players = panes.map((pane, at) => (
+    <Player key={pane.id} pane={pane} beside={pane.replay ? named : beside} fixed={sameTime && at === 1} />
+  ));
   return (
     <main className="centre">
       {view === "structure" ? (

@@ -9,7 +9,7 @@ import type { Stage } from "../live/stage";
  */
 export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
   if (!stage.is(net)) return;
-  const { marking, occupied, counts, firedAt, mode, differing } = stage;
+  const { marking, occupied, counts, firedAt, mode, differing, sampled } = stage;
   const playing = mode !== "edit";
   const now = performance.now();
   root.querySelectorAll<SVGGElement>("[data-place]").forEach((group) => {
@@ -24,7 +24,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     group.classList.toggle("enabled", mode === "game" && isActive(net, marking, index));
     group.classList.toggle("fired", playing && now - firedAt[index]! < 350);
     const text = group.lastElementChild!;
-    const count = playing && counts[index]! > 0 ? `×${short(counts[index]!)}` : "";
+    const count = playing && counts[index]! > 0 ? `${sampled ? "≥" : "×"}${short(counts[index]!)}` : "";
     if (text.textContent !== count) text.textContent = count;
   });
   root.querySelectorAll<SVGGElement>("[data-page]").forEach((group) => {

@@ -166,9 +166,22 @@ export class Runner {
     if (info.marking && this.track) this.stage.setMarked(info.marking);
     if (info.values) this.valued({ t: info.t ?? 0, values: info.values });
     if (info.path) this.track?.pathUpTo(info.path);
+    else if (info.state === "ended" || info.state === "paused") void this.seePath();
     const { breakpoints } = this.store.get();
     if (info.state === "running" && breakpoints.length > 0)
       void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
+  }
+
+  /** Of a fast run, poses come too seldom for a line; when it stands, there is time for all that are kept. */
+  private async seePath(): Promise<void> {
+    const { track } = this;
+    const { run } = this.store.get();
+    if (!track || run === null || track.path.length === 0) return;
+    try {
+      track.pathUpTo((await this.api.run(run)).path ?? []);
+    } catch {
+      // It stays as it was seen.
+    }
   }
 
   private fired({ t, firings, dropped, marking }: Omit<FiringsEvent, "run">): void {
@@ -178,6 +191,7 @@ export class Runner {
     track.known = Math.max(track.known, t);
     track.firings += firings.length + dropped;
     track.dropped += dropped;
+    stage.sampled ||= dropped > 0;
     for (const [time, transition] of firings) {
       track.timeline.add(time, transition);
       stage.fired(transition, marking === undefined);

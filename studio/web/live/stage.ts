@@ -17,6 +17,8 @@ export class Stage {
   marking: Marking = new Int32Array();
   /** Per transition how often it fired, and when last (performance.now). */
   counts = new Uint32Array();
+  /** Some firings are not told one by one: the counts are the least there were. */
+  sampled = false;
   firedAt = new Float64Array();
   /** Per page, whether a token is somewhere inside. */
   occupied = new Uint8Array();
@@ -35,6 +37,7 @@ export class Stage {
     this.mode = mode;
     this.marking = initialMarking(net);
     this.counts = new Uint32Array(net.transitions.length);
+    this.sampled = false;
     this.firedAt = new Float64Array(net.transitions.length).fill(-Infinity);
     this.shown.set({ net, mode });
     if (marked) this.setMarked(marked);

@@ -61,7 +61,8 @@ export class Track {
 
   /** The path up to some moment, as somebody else kept it; what came since stays. */
   pathUpTo(rows: readonly PathRow[]): void {
-    const end = rows.at(-1)?.[0] ?? -Infinity;
+    if (rows.length === 0) return;
+    const end = rows.at(-1)![0];
     const since = this.path.filter(({ t }) => t > end);
     this.path = [...rows.map(([t, x, y, heading]) => ({ t, x, y, heading })), ...since];
   }

@@ -5,7 +5,7 @@ import { clock } from "./clock";
 const missing = {
   left: "the left one has not come so far",
   right: "the right one has ended by then",
-  sampled: "the run was too fast to be known in full; its recording is",
+  sampled: "this run was too fast to be compared; its recording can be",
 };
 
 /** More than that are counted. */

@@ -46,7 +46,7 @@ function drawPath(
       if (before && pose.t - before.t < apart * every) context.lineTo(x(pose.x), y(pose.y));
       else {
         context.moveTo(x(pose.x), y(pose.y));
-        context.fillRect(x(pose.x) - 0.75, y(pose.y) - 0.75, 1.5, 1.5);
+        context.fillRect(x(pose.x) - 1.25, y(pose.y) - 1.25, 2.5, 2.5);
       }
       before = pose;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "server/json_text.hpp"
 #include "server/path.hpp"
 #include "server/tail.hpp"
+#include "server/tokens.hpp"
 #include "server/value_json.hpp"
 #include "tessera/recording.hpp"
 
@@ -66,19 +68,25 @@ json summary_of(const fs::path& file) {
 class ValueSeries {
  public:
   /// The next segment, whose entries come now.
-  void begin(const Recording& header) { track_.emplace(header); }
+  void begin(const Recording& header, Recordings::Span span) {
+    show_what_was(span.from_ns);
+    recording_ = &header;
+    track_.emplace(header);
+  }
 
-  void add(const Recording::Entry& entry, bool shown) {
-    const std::optional<replay::ValueTrack::Change> change =
-        track_->follow(entry);  // those before the span, too
-    if (!change || !shown || change->hashed || change->layout == nullptr || change->bytes.empty()) return;
-    if (change->layout->scalars() > most_scalars) return;
-    static_cast<void>(
-        change->layout->visit(change->bytes, [&](const std::string& path, const ValueLayout::Scalar& scalar) {
-          if (++samples_ > Recordings::most_samples) return;
-          const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
-          series_[change->buffer.path + dot + path].push_back({entry.event.time_ns, json_of(scalar)});
-        }));
+  /// Of those before the span, the last ones are shown where it begins.
+  void add(const Recording::Entry& entry, Recordings::Span span) {
+    const std::int64_t time_ns = entry.event.time_ns;
+    if (time_ns >= span.from_ns) show_what_was(span.from_ns);
+    const std::optional<replay::ValueTrack::Change> change = track_->follow(entry);
+    if (!change || time_ns > span.to_ns) return;
+    if (time_ns < span.from_ns)
+      before_.insert(change->number);
+    else
+      show(change->number, time_ns);
+  }
+  void show_what_was(std::int64_t time_ns) {
+    for (const std::uint32_t buffer : std::exchange(before_, {})) show(buffer, time_ns);
   }
   [[nodiscard]] bool complete() const { return samples_ <= Recordings::most_samples; }
   [[nodiscard]] json take() { return std::move(series_); }
@@ -86,7 +94,21 @@ class ValueSeries {
  private:
   static constexpr std::size_t most_scalars = 16;  // of a value: longer lists are no curves
 
+  void show(std::uint32_t buffer, std::int64_t time_ns) {
+    const replay::ValueTrack::Value value = track_->value(buffer);
+    if (value.hashed || value.layout == nullptr || value.bytes.empty()) return;
+    if (value.layout->scalars() > most_scalars) return;
+    static_cast<void>(
+        value.layout->visit(value.bytes, [&](const std::string& path, const ValueLayout::Scalar& scalar) {
+          if (++samples_ > Recordings::most_samples) return;
+          const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
+          series_[recording_->buffers[buffer].path + dot + path].push_back({time_ns, json_of(scalar)});
+        }));
+  }
+
+  const Recording* recording_ = nullptr;
   std::optional<replay::ValueTrack> track_;
+  std::set<std::uint32_t> before_;  // buffers that got a value before the span
   std::size_t samples_ = 0;
   json series_ = json::object();
 };
@@ -96,55 +118,84 @@ class Content {
  public:
   /// net: that the indices are of; nullptr: there is none.
   Content(const net::Net* net, Recordings::Span span) : span_(span) {
-    if (net != nullptr) names_.emplace(*net);
+    if (net == nullptr) return;
+    names_.emplace(*net);
+    tokens_.emplace(*net);
   }
 
   void begin(const Recording& recording) {
-    values_.begin(recording);
+    values_.begin(recording, span_);
     transitions_ = names_ ? names_->transitions_of(recording) : std::vector<std::uint32_t>();
     if (!content_.is_null()) return;
-    content_ = {{"net_hash", recording.net_hash},
-                {"system", recording.system},
-                {"subsystems", recording.instances},
-                {"marking", nullptr}};
+    content_ = {
+        {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
     is_ordered_ = recording.clock == "simulated";
     // The first that is left, but not the first of the run; its marking follows.
-    if (recording.segment.value_or(0) > 0) content_["marking"] = json::array();
+    begins_ = recording.segment.value_or(0) > 0 ? Begins::unknown : Begins::initial;
   }
 
   void add(const Recording::Entry& entry) {
     const Event& event = entry.event;
-    const bool shown = event.time_ns >= span_.from_ns && event.time_ns <= span_.to_ns;
     if (event.kind() == Event::Kind::marking && names_ && std::exchange(awaits_marking_, false) &&
-        content_["marking"].is_array())
-      content_["marking"] = names_->marked(entry.text);
-    if (event.kind() == Event::Kind::value) values_.add(entry, shown);
-    if (event.kind() != Event::Kind::firing || !shown) return;
-    const bool known = event.subject < transitions_.size() && transitions_[event.subject] != UINT32_MAX;
-    if (known && firings_.size() < Recordings::most_firings)
-      firings_.emplace_back(event.time_ns, transitions_[event.subject]);
-    else
-      ++dropped_;
+        begins_ == Begins::unknown) {
+      tokens_->set(names_->marked(entry.text));
+      if (event.version == 0) begins_ = Begins::marked;
+    }
+    if (event.kind() == Event::Kind::value) values_.add(entry, span_);
+    if (event.kind() == Event::Kind::firing) add_firing(event);
   }
 
   [[nodiscard]] json take(bool is_cut) {
     // Threads write one after the other; who watches wants the order of time.
     if (!is_ordered_) std::ranges::stable_sort(firings_, {}, &decltype(firings_)::value_type::first);
+    content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
+    content_["first"] = total_ > 0 ? json(first_ns_) : json();
+    content_["last"] = total_ > 0 ? json(last_ns_) : json();
+    content_["total"] = total_;
     content_["dropped"] = dropped_;
     content_["truncated"] = dropped_ > 0 || !values_.complete() || is_cut;
+    values_.show_what_was(span_.from_ns);
     content_["values"] = values_.take();
     return std::move(content_);
   }
 
  private:
+  enum class Begins : std::uint8_t { initial, marked, unknown };
+
+  void add_firing(const Event& event) {
+    first_ns_ = std::min(first_ns_, event.time_ns);
+    last_ns_ = std::max(last_ns_, event.time_ns);
+    ++total_;
+    const bool known = event.subject < transitions_.size() && transitions_[event.subject] != UINT32_MAX;
+    if (event.time_ns > span_.to_ns) return;
+    if (event.time_ns >= span_.from_ns) {
+      if (known && firings_.size() < Recordings::most_firings)
+        firings_.emplace_back(event.time_ns, transitions_[event.subject]);
+      else
+        ++dropped_;
+    } else if (known && begins_ != Begins::unknown) {
+      tokens_->fire(transitions_[event.subject]);
+      begins_ = Begins::marked;
+    }
+  }
+
+  /// Before the first firing that is shown; null: the initial one, none: nobody knows.
+  [[nodiscard]] json marking() const {
+    if (begins_ == Begins::initial || !tokens_) return nullptr;
+    return begins_ == Begins::marked ? json(tokens_->marked()) : json::array();
+  }
+
   const Recordings::Span span_;
   std::optional<NetNames> names_;
+  std::optional<Tokens> tokens_;
   std::vector<std::uint32_t> transitions_;  // of the recording: indices of the net
   ValueSeries values_;
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
-  std::uint64_t dropped_ = 0;
+  std::uint64_t dropped_ = 0, total_ = 0;
+  std::int64_t first_ns_ = INT64_MAX, last_ns_ = INT64_MIN;
   bool is_ordered_ = true, awaits_marking_ = true;
+  Begins begins_ = Begins::initial;
   json content_;
 };
 

@@ -53,17 +53,7 @@ RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, 
       has_changed(recording->buffers.size()) {}
 
 RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net)
-    : net_(net), names_(net), stream_(std::move(source)) {
-  for (const net::Place& place : net.places()) tokens_.push_back(static_cast<std::int32_t>(place.tokens));
-}
-
-void RecordingTail::play(std::uint32_t transition) {
-  const net::TransitionId id{transition};
-  for (const net::Arc& arc : net_.preset(id))
-    tokens_[arc.place.value] -= static_cast<std::int32_t>(arc.weight);
-  for (const net::Arc& arc : net_.postset(id))
-    tokens_[arc.place.value] += static_cast<std::int32_t>(arc.weight);
-}
+    : names_(net), stream_(std::move(source)), tokens_(net) {}
 
 void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   const Event& event = entry.event;
@@ -71,7 +61,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   if (event.kind() == Event::Kind::firing) {
     const std::uint32_t transition = segment_->transitions[event.subject];
     if (transition == UINT32_MAX) return;
-    play(transition);
+    tokens_.fire(transition);
     batch.firings.emplace_back(event.time_ns, transition);
   } else if (event.kind() == Event::Kind::value) {
     const auto change = segment_->values.follow(entry);
@@ -79,8 +69,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     segment_->has_changed[change->number] = true;
     segment_->changed.push_back(change->number);
   } else if (event.kind() == Event::Kind::marking && event.version == 0) {
-    std::ranges::fill(tokens_, 0);
-    for (const std::uint32_t place : names_.marked(entry.text)) tokens_[place] = 1;
+    tokens_.set(names_.marked(entry.text));
     batch.jumped = true;
   }
 }
@@ -111,13 +100,6 @@ RecordingTail::Batch RecordingTail::next() {
   } while (stream_.more() && Clock::now() < until);
   batch.more = stream_.more();
   return batch;
-}
-
-std::vector<std::uint32_t> RecordingTail::marking() const {
-  std::vector<std::uint32_t> marked;
-  for (std::uint32_t place = 0; place < tokens_.size(); ++place)
-    if (tokens_[place] > 0) marked.push_back(place);
-  return marked;
 }
 
 nlohmann::json RecordingTail::take_changed_values(std::size_t most) {

@@ -12,6 +12,7 @@
 #include "net/net.hpp"
 #include "replay/values.hpp"
 #include "server/recording_stream.hpp"
+#include "server/tokens.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server {
@@ -50,7 +51,7 @@ class RecordingTail {
   /// What has been written since, as far as it can be read in a few milliseconds.
   [[nodiscard]] Batch next();
   /// Places with a token after all that `next` has read.
-  [[nodiscard]] std::vector<std::uint32_t> marking() const;
+  [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
   /// {"robot.sensor.line": number, bool, text, list or object} of the buffers whose values have changed since
   /// they were last taken, about so many bytes of them; the others come next. Not of those that are not
   /// recorded whole, or larger than largest_value.
@@ -65,15 +66,13 @@ class RecordingTail {
     std::deque<std::uint32_t> changed;  // buffers
     std::vector<bool> has_changed;      // per buffer
   };
-  void play(std::uint32_t transition);
   void keep(Batch& batch, const Recording::Entry& entry);
   static void keep_the_last(Batch& batch);
-  const net::Net& net_;
   NetNames names_;
   RecordingStream stream_;
   std::optional<Segment> segment_;
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
-  std::vector<std::int32_t> tokens_;  ///< may be below 0 for a moment: threads write when they come to it
+  Tokens tokens_;
 };
 
 }  // namespace tessera::server

@@ -530,7 +530,7 @@ test("of a run that is too fast to be drawn, all firings are counted, and the pa
   onPage(lineFollower, async (page) => {
     await tab(page, "Run").click();
     for (const [label, value] of [
-      ["For", "20min"],
+      ["For", "6min"],
       ["Speed", "0"],
     ]) {
       await page.getByRole("textbox", { name: label, exact: true }).fill(value);

@@ -15,7 +15,7 @@ const tessera = resolve(process.argv[2] ?? "build/release/tessera");
 const rounds = Number(process.argv[3] ?? 7), seconds = Number(process.argv[4] ?? 600);
 const folder = mkdtempSync(join(tmpdir(), "watched-")), project = join(folder, "project");
 process.env.XDG_RUNTIME_DIR = folder;
-cpSync(resolve(import.meta.dirname ?? ".", "../examples/01_line_follower"), project, { recursive: true });
+cpSync(new URL("../examples/01_line_follower", import.meta.url), project, { recursive: true });
 
 const ended = (child) => new Promise((done) => child.on("close", done));
 const moment = () => new Promise((done) => setTimeout(done, 2));

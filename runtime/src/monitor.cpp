@@ -165,7 +165,8 @@ void Monitor::hear(Client& client) {
   client.gone = count <= 0;
   if (client.gone) return;
   client.said.append(bytes.data(), static_cast<std::size_t>(count));
-  for (std::size_t end; (end = client.said.find('\n')) != std::string::npos; client.said.erase(0, end + 1))
+  for (std::size_t end = 0; (end = client.said.find('\n')) != std::string::npos;
+       client.said.erase(0, end + 1))
     obey(client, client.said.substr(0, end));
   client.gone = client.gone || client.said.size() > longest_command || client.waiting.size() > most_waiting;
 }

@@ -69,7 +69,7 @@ void add_run(std::span<const Declaration> lines, const std::string& indent, std:
 
 std::string type_name(const spec::Model& model, const spec::Type& type,
                       const std::set<std::string_view>& hidden) {
-  const std::string element = element_name(model, type, hidden);
+  std::string element = element_name(model, type, hidden);
   if (type.extent == 0) return element;
   return fmt::format("{}<{}, {}>", is_large(type) ? "tessera::LargeArray" : "std::array", element,
                      type.extent);

@@ -11,7 +11,7 @@ std::span<const std::uint32_t> StubbornSets::choose(std::span<const Tokens> mark
   enabled_.clear();
   for (std::uint32_t transition = 0; transition < net_.transitions(); ++transition) {
     const bool enabled = net_.enabled(transition, marking);
-    is_enabled_[transition] = enabled;
+    is_enabled_[transition] = enabled ? 1 : 0;
     if (enabled) enabled_.push_back(transition);
   }
   best_ = enabled_;

@@ -95,7 +95,7 @@ void ControllerLink::hear() {
 /// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
 void ControllerLink::understand() {
   std::size_t taken = 0;
-  for (std::size_t end; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
+  for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
     const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
     json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
     const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;

@@ -12,6 +12,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t piece_of_path = std::size_t{1} << 20U;
+constexpr std::size_t most_values = std::size_t{64} << 10U;  // bytes of an event
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
@@ -60,7 +61,7 @@ void Follower::add_firings(News& news) {
 /// at_once: also those that would be told a little later.
 void Follower::add_values(News& news, bool at_once) {
   if (!at_once && Clock::now() - values_told_ < between_values) return;
-  json values = recording_.take_changed_values();
+  json values = recording_.take_changed_values(at_once ? SIZE_MAX : most_values);
   if (values.empty()) return;
   values_told_ = Clock::now();
   news.values = {{"t", time_ns_}, {"values", std::move(values)}};

@@ -197,6 +197,8 @@ std::string Recordings::list() const {
         static_cast<std::int64_t>(status.st_mtim.tv_sec) * 1000 + status.st_mtim.tv_nsec / 1'000'000;
     list.push_back(std::move(one));
   }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const json& one, const json& other) { return one["modified"] > other["modified"]; });
   return text_of(list);
 }
 

@@ -120,14 +120,19 @@ std::vector<std::uint32_t> RecordingTail::marking() const {
   return marked;
 }
 
-nlohmann::json RecordingTail::take_changed_values() {
-  if (!segment_) return nlohmann::json::object();
-  for (const std::uint32_t buffer : std::exchange(segment_->changed, {})) {
+nlohmann::json RecordingTail::take_changed_values(std::size_t most) {
+  std::size_t bytes = 0;
+  while (segment_ && !segment_->changed.empty() && bytes < most) {
+    const std::uint32_t buffer = segment_->changed.front();
+    segment_->changed.pop_front();
     segment_->has_changed[buffer] = false;
     const replay::ValueTrack::Value held = segment_->values.value(buffer);
     if (held.hashed || held.layout == nullptr || held.bytes.size() > largest_value) continue;
-    if (nlohmann::json value = json_of(*held.layout, held.bytes); !value.is_null())
-      values_[segment_->recording->buffers[buffer].path] = std::move(value);
+    nlohmann::json value = json_of(*held.layout, held.bytes);
+    if (value.is_null()) continue;
+    const std::string& path = segment_->recording->buffers[buffer].path;
+    bytes += path.size() + held.bytes.size();
+    values_[path] = std::move(value);
   }
   return std::exchange(values_, nlohmann::json::object());
 }

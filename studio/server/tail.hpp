@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -51,8 +52,9 @@ class RecordingTail {
   /// Places with a token after all that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const;
   /// {"robot.sensor.line": number, bool, text, list or object} of the buffers whose values have changed since
-  /// the last call. Not of those that are not recorded whole, or larger than largest_value.
-  [[nodiscard]] nlohmann::json take_changed_values();
+  /// they were last taken, about so many bytes of them; the others come next. Not of those that are not
+  /// recorded whole, or larger than largest_value.
+  [[nodiscard]] nlohmann::json take_changed_values(std::size_t most = SIZE_MAX);
 
  private:
   struct Segment {
@@ -60,8 +62,8 @@ class RecordingTail {
     std::shared_ptr<const Recording> recording;
     std::vector<std::uint32_t> transitions;  // of the recording: indices of the net
     replay::ValueTrack values;
-    std::vector<std::uint32_t> changed;  // buffers
-    std::vector<bool> has_changed;       // per buffer
+    std::deque<std::uint32_t> changed;  // buffers
+    std::vector<bool> has_changed;      // per buffer
   };
   void play(std::uint32_t transition);
   void keep(Batch& batch, const Recording::Entry& entry);

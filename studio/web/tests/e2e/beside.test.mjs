@@ -30,7 +30,7 @@ async function twoRuns(page) {
 test("a recording beside the run: one camera, one time if wanted, and what differs is said", () =>
   onPage(example("02_gap"), async (page) => {
     await twoRuns(page);
-    await page.locator(".recordings button").first().click();
+    await page.locator(".recordings button").last().click();
     const compared = page.getByTestId("compared-at");
     await compared.waitFor();
     assert.equal(await panes(page).count(), 2);

@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, example, onPage, tab } from "./page.mjs";
+import { button, drawn, example, find, onPage, serve, tab, until } from "./page.mjs";
+
+const lineFollower = example("01_line_follower");
 
 test("a system without a world runs on the simulated clock, and what came of it is a table", () =>
   onPage(example("03_two_slot_buffer"), async (page) => {
@@ -27,4 +29,192 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await page.getByTestId("run-state").getByText("Running").waitFor();
     await button(page, "Stop").click();
     await page.getByTestId("run-state").getByText("Ended — stopped").waitFor();
+  }));
+
+test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    const facts = () => page.getByTestId("run-facts").innerText();
+    const before = await facts();
+    await until(page, async () => (await facts()) !== before, "more firings");
+    await page.getByText("robot.control.motion.angular").waitFor();
+    const painted = () => page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => canvas.toDataURL());
+    const path = await painted();
+    await until(page, async () => (await painted()) !== path, "a longer path");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    const count = async () => Number(/([\d,]+) firings/.exec(await facts())[1].replaceAll(",", ""));
+    await drawn(page); // a pause is told after its firings
+    const paused = await count();
+    await button(page, "Step one firing").click();
+    await until(page, async () => (await count()) === paused + 1, "one more firing");
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    await page.getByRole("slider", { name: "Time" }).waitFor();
+    const replayed = page.getByRole("region", { name: /^2/ }).locator(".watch-pane");
+    await replayed.getByText("robot.control.motion.linear").waitFor();
+    await button(page, "Play").click();
+    await until(
+      page,
+      async () =>
+        Number(
+          (
+            await page
+              .getByRole("group", { name: /^Recording/ })
+              .locator(".position")
+              .innerText()
+          ).split(" ")[0],
+        ) > 0.05,
+      "the recording plays",
+    );
+    await page.getByRole("button", { name: /^Close 2/ }).click();
+  }));
+
+/** How much of the world's picture is path. */
+const pathDrawn = (page) =>
+  page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let found = 0;
+    for (let at = 0; at < data.length; at += 4) if (data[at + 3] > 128 && data[at + 2] > data[at] + 80) found += 1;
+    return found;
+  });
+
+test("the robot's path is there after a reload, and in the recording up to the moment shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed", exact: true }).fill("5");
+    await page.keyboard.press("Enter");
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 150, "a path");
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await drawn(page);
+    const before = await pathDrawn(page);
+    await page.reload();
+    await tab(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    await until(page, async () => (await pathDrawn(page)) > 0.8 * before, "the path of before");
+    // The values of before too, though none changes while it stands.
+    await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await button(page, "Close this run").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    const slider = page.getByRole("slider", { name: "Time" });
+    const last = Number(await slider.getAttribute("max"));
+    const at = async (part) => {
+      await slider.fill(String(last * part));
+      await page.getByText(`${((last * part) / 1e9).toFixed(2)} s ·`).waitFor();
+      await drawn(page);
+      await drawn(page);
+      return pathDrawn(page);
+    };
+    const whole = await at(1);
+    const half = await at(0.5);
+    assert.ok(whole > 0.8 * before && half > 0.2 * whole && half < 0.8 * whole, `${before} before, ${half} of ${whole}`);
+    assert.ok((await at(0)) < 0.3 * half);
+    assert.ok((await at(1)) > 0.9 * whole);
+  }));
+
+test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
+  onPage(example("02_gap"), async (page) => {
+    const transition = "robot.control.follow.t4";
+    await find(page, transition);
+    await tab(page, "Element").click();
+    await button(page, "Pause a run when its condition holds").click();
+    await button(page, "Remove the breakpoint").waitFor();
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    const state = page.getByTestId("run-state");
+    await state.getByText("Paused").waitFor();
+    await page.getByText(`condition of ${transition}`).first().waitFor();
+    const count = async () =>
+      Number(/([\d,]+) firings/.exec(await page.getByTestId("run-facts").innerText())[1].replaceAll(",", ""));
+    await drawn(page);
+    const paused = await count();
+    assert.ok(paused > 0);
+    await page.getByRole("button", { name: `Remove the breakpoint at condition of ${transition}` }).click();
+    await tab(page, "Element").click();
+    await button(page, "Pause a run when it fires").click();
+    await tab(page, "Run").click();
+    await button(page, "Go on").click();
+    await until(page, async () => (await count()) > paused, "the transition fires");
+    await state.getByText("Paused").waitFor();
+    await button(page, "Stop").click();
+    await state.getByText("Ended").waitFor();
+  }));
+
+test("a controller that runs already is watched, and let go", () =>
+  onPage(lineFollower, async (page, server, open) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    // Another studio of the same project finds it.
+    const beside = await serve(server.root, { copy: false });
+    try {
+      const other = await open(beside);
+      await other.goto(beside.url);
+      await tab(other, "Run").click();
+      await other.getByRole("combobox", { name: "Run", exact: true }).selectOption("attach");
+      await other.getByRole("combobox", { name: "Controller" }).selectOption({ index: 0 });
+      await button(other, "Watch it").click();
+      await other.locator(".running-now").getByText("follow").waitFor();
+      const facts = () => other.getByTestId("run-facts").innerText();
+      const before = await facts();
+      await until(other, async () => (await facts()) !== before, "more of its run");
+      await button(other, "Let go").click();
+      await other.getByTestId("run-state").getByText("it runs on").waitFor();
+    } finally {
+      await beside.close();
+    }
+    await page.getByTestId("run-state").getByText("Running").waitFor();
+  }));
+
+test("after a reload the run and the unsaved text are there again", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
+    await page.keyboard.press("Enter");
+    await page.reload();
+    await page.getByTestId("editor").getByText("40 Hz").waitFor();
+    await tab(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+  }));
+
+test("of a run that is too fast to be drawn, all firings are counted, and the page says how many were not shown", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    for (const [label, value] of [
+      ["For", "6min"],
+      ["Speed", "0"],
+    ]) {
+      await page.getByRole("textbox", { name: label, exact: true }).fill(value);
+      await page.keyboard.press("Enter");
+    }
+    await button(page, "Run").click();
+    const facts = page.getByTestId("run-facts");
+    await facts.getByText(/only counted/).waitFor();
+    // It answers meanwhile: another layer is drawn while firings come.
+    await find(page, "robot.control.follow");
+    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await drawn(page);
+    const number = (pattern, text) => Number(pattern.exec(text)[1].replaceAll(",", ""));
+    const outcome = number(/([\d,]+) firings/, await page.locator(".run-panel").innerText());
+    await until(page, async () => number(/([\d,]+) firings/, await facts.innerText()) === outcome, "as many as there were");
+    const dropped = number(/([\d,]+) only counted/, await facts.innerText());
+    assert.ok(outcome > 100_000 && dropped > 0 && dropped < outcome, `${dropped} of ${outcome}`);
+    // Of each transition it knows the least that there were.
+    const shown = await page.locator('[data-sheet="robot.control.follow"] .firings').allTextContents();
+    assert.ok(shown.some((text) => /^≥/.test(text)) && !shown.some((text) => /^×/.test(text)), shown.join());
   }));

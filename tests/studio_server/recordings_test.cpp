@@ -1,10 +1,12 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "served.hpp"
 #include "server/analysis.hpp"
 #include "server/tail.hpp"
+#include "server/tokens.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server_test {
@@ -54,6 +56,12 @@ class RecordingOfTheStudio : public Served {
   static std::string value(const std::string& bytes) {
     return event(0, Event::Kind::value, static_cast<std::uint32_t>(bytes.size()), bytes);
   }
+  [[nodiscard]] std::uint32_t transition(std::string_view name) const {
+    const auto& all = analysis_.net->transitions();
+    return static_cast<std::uint32_t>(
+        std::ranges::find(all, name, [](const auto& one) -> std::string_view { return one.name; }) -
+        all.begin());
+  }
   [[nodiscard]] std::string name_of_place(std::uint32_t place) const {
     return analysis_.net->places()[place].name;
   }
@@ -89,6 +97,31 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
   // A part of a recording that is there has no page of its own.
   fs::copy_file(folder_ / "project/run.tsr", folder_ / "project/alone.tsr");
   EXPECT_EQ(get("/api/recordings/alone.7.tsr").status, 404);
+}
+
+TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment) {
+  const std::uint32_t first = transition("t_in"), second = transition("robot.t_in");
+  write(folder_ / "project/run.tsr",
+        header(0) + value("\1") + firing(10, first) + firing(40, second) + firing(70, first));
+  serve();
+  const json whole = get("/api/recordings/run.tsr").json();
+  EXPECT_TRUE(whole.at("marking").is_null());
+  EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
+  const json part = get("/api/recordings/run.tsr?from=40&to=60").json();
+  EXPECT_EQ(part.at("firings"), json({{40, second}}));
+  server::Tokens tokens(*analysis_.net);
+  tokens.fire(first);
+  EXPECT_EQ(part.at("marking"), json(tokens.marked()));
+  EXPECT_EQ(part.at("values").at("robot.control.line.left"), json({{40, true}}));
+  for (const json& one : {whole, part}) {
+    EXPECT_EQ(one.at("first"), 10);
+    EXPECT_EQ(one.at("last"), 70);
+    EXPECT_EQ(one.at("total"), 3);
+  }
+  // After its end there is what it ended with.
+  const json end = get("/api/recordings/run.tsr?from=100").json();
+  EXPECT_EQ(end.at("firings"), json::array());
+  EXPECT_EQ(end.at("values").at("robot.control.line.left"), json({{100, true}}));
 }
 
 TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {

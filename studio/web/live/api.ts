@@ -106,7 +106,9 @@ export class Api {
     this.ask<RecordingInfo[] | { recordings: RecordingInfo[] }>("GET", "/api/recordings").then((answer) =>
       Array.isArray(answer) ? answer : answer.recordings,
     );
-  recording = (name: string) => this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}`);
+  /** As much of it as is sent at once; from a moment on. */
+  recording = (name: string, from?: number) =>
+    this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}${from === undefined ? "" : `?from=${from}`}`);
   /** The floor with that name, or that of the specification; nothing when there is no picture of it. */
   async floor(chosen: string | null | undefined): Promise<Floor | null> {
     try {

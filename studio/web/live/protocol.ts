@@ -130,8 +130,13 @@ export interface Recording {
   subsystems?: string[];
   firings: FiringRow[];
   values?: Record<string, [number, unknown][]>;
+  /** Firings that are not in this part, but after it. */
   dropped?: number;
   truncated?: boolean;
+  /** Of all firings of the recording: times of the first and the last one, and their number. */
+  first?: number | null;
+  last?: number | null;
+  total?: number;
   /** Places that hold a token before the first firing, when that is not the run's first; none: it is not known which. */
   marking?: number[] | null;
   path?: PathRow[];

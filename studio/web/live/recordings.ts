@@ -34,18 +34,25 @@ export class Recordings {
     const { net } = this.draft.store.get();
     if (!net) return;
     try {
-      const recording = await this.api.recording(name);
-      if (!isOf(recording, net)) throw new Error("This recording is of another net than the one in the text.");
-      const replay = new Replay(name, net, recording);
+      const recording = await this.part(name, net);
+      const source = (from: number) =>
+        this.part(name, net, from).catch((error: unknown) => {
+          this.store.set({ problem: message(error) });
+          return null;
+        });
+      const replay = new Replay(name, net, recording, source, () => this.store.set({ open: [...this.store.get().open] }));
       this.keep(keep);
-      this.store.set({
-        open: [...this.store.get().open, replay],
-        problem: recording.truncated ? `Only the first ${recording.firings.length.toLocaleString("en")} firings are shown.` : "",
-      });
+      this.store.set({ open: [...this.store.get().open, replay], problem: "" });
       if (replay.track.path.length > 0) replay.track.floor = await this.api.floor(recording.track);
     } catch (error) {
       this.store.set({ problem: message(error) });
     }
+  }
+
+  private async part(name: string, net: NetModel, from?: number): Promise<Recording> {
+    const part = await this.api.recording(name, from);
+    if (!isOf(part, net)) throw new Error("This recording is of another net than the one in the text.");
+    return part;
   }
 
   /** Closes all but the first ones. */

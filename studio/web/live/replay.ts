@@ -1,7 +1,7 @@
 import { fire, markingBefore, runningBehaviours } from "../model/game";
 import type { NetModel } from "../model/net";
 import { count } from "../model/sorted";
-import type { FiringRow, Recording } from "./protocol";
+import type { FiringRow, PathRow, Recording } from "./protocol";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
@@ -11,7 +11,12 @@ export interface ReplayState {
   time: number;
   playing: boolean;
   speed: number;
+  /** The part of a long recording that is asked for is on its way. */
+  loading: boolean;
 }
+
+/** Gets what is recorded from a moment on, as much of it as is sent at once; null: it was not to be had. */
+export type Source = (from: number) => Promise<Recording | null>;
 
 /** A marking is kept every so many firings: a jump replays no more than that. */
 const stride = 4096;
@@ -20,44 +25,86 @@ const near = 2000;
 
 let made = 0;
 
-/** One recording that is looked at: its own stage, and its own moment. */
+/** One recording that is looked at: its own stage, and its own moment. Of a long one a part is here, and others are got when they are wanted. */
 export class Replay {
   readonly id = `recording ${(made += 1)}`;
   readonly stage = new Stage();
-  readonly track: Track;
   readonly store: Store<ReplayState>;
   /** The ends of the recording. */
   readonly first: number;
   readonly last: number;
-  private readonly firings: readonly FiringRow[];
-  private readonly checkpoints: Int32Array[] = [];
+  private readonly path: readonly PathRow[];
+  /** Of the part that is here. */
+  track!: Track;
+  private firings!: readonly FiringRow[];
+  private checkpoints!: Int32Array[];
+  private begin!: number;
+  private end!: number;
   private index = 0;
   private frame = 0;
+  /** The moment that is wanted while its part is on its way. */
+  private wanted: number | null = null;
 
+  /** `onPart`: there is another track. */
   constructor(
     readonly name: string,
     private readonly net: NetModel,
     recording: Recording,
+    private readonly source: Source = () => Promise.resolve(null),
+    private readonly onPart: () => void = () => undefined,
   ) {
-    this.firings = recording.firings;
-    this.first = this.firings[0]?.[0] ?? 0;
-    this.last = this.firings.at(-1)?.[0] ?? this.first;
-    this.stage.reset(net, "recording", recording.marking);
-    if (recording.marking?.length === 0)
+    this.first = recording.first ?? recording.firings[0]?.[0] ?? 0;
+    this.last = recording.last ?? recording.firings.at(-1)?.[0] ?? this.first;
+    this.path = recording.path ?? [];
+    this.take(recording, this.first);
+    this.store = new Store<ReplayState>({ time: this.first, playing: false, speed: 1, loading: false });
+    this.seek(this.first);
+  }
+
+  private take(part: Recording, from: number): void {
+    this.firings = part.firings;
+    this.begin = from;
+    // What fires at the last moment of a part may be cut in two.
+    this.end = part.dropped ? Math.max(from, (part.firings.at(-1)?.[0] ?? from) - 1) : this.last;
+    this.index = 0;
+    this.stage.reset(this.net, "recording", part.marking);
+    if (part.marking?.length === 0)
       this.stage.setMarking(
         markingBefore(
-          net,
+          this.net,
           this.firings.map(([, transition]) => transition),
         ),
       );
     this.prepare(this.stage.marking.slice());
-    this.track = this.trackOf(recording);
-    this.store = new Store<ReplayState>({ time: this.first, playing: false, speed: 1 });
-    this.seek(this.first);
+    this.track = this.trackOf(part);
+  }
+
+  private isHere(time: number): boolean {
+    return time >= this.begin && time <= this.end;
+  }
+
+  /** Gets parts until the one with the moment that is wanted by then is here. */
+  private async fetch(): Promise<void> {
+    this.store.set({ loading: true });
+    for (let tries = 0; !this.isHere(this.wanted!); tries += 1) {
+      // Some of what was before is shown, too, unless so much fires that the moment itself is not reached then.
+      const before = tries === 0 ? (this.end - this.begin) / 4 : 0;
+      const from = Math.max(this.first, Math.floor(this.wanted! - before));
+      const part = await this.source(from);
+      if (!part) break;
+      const { floor } = this.track;
+      this.take(part, from);
+      this.track.floor = floor;
+      this.onPart();
+    }
+    const time = Math.min(this.end, Math.max(this.begin, this.wanted!));
+    this.wanted = null;
+    this.store.set({ loading: false });
+    this.seek(time);
   }
 
   private prepare(marking: Int32Array): void {
-    this.checkpoints.push(marking.slice());
+    this.checkpoints = [marking.slice()];
     this.firings.forEach(([, transition], at) => {
       fire(this.net, marking, transition);
       if ((at + 1) % stride === 0) this.checkpoints.push(marking.slice());
@@ -66,19 +113,26 @@ export class Replay {
 
   private trackOf(recording: Recording): Track {
     const track = new Track(this.net, true);
-    if (recording.marking) track.timeline.tell(this.first, runningBehaviours(this.net, this.stage.marking));
+    if (recording.marking) track.timeline.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
     for (const [time, transition] of recording.firings) track.timeline.add(time, transition);
-    track.firings = recording.firings.length;
-    track.known = this.last;
+    track.firings = recording.total ?? recording.firings.length;
+    track.known = this.end;
     for (const [path, samples] of Object.entries(recording.values ?? {}))
       for (const [time, value] of samples) track.series.add(time, path, value);
-    track.pathUpTo(recording.path ?? []);
+    track.pathUpTo(this.path);
     return track;
   }
 
   /** Shows the marking at a time, as near to it as the recording goes. */
   seek(wanted: number): void {
     const time = Math.min(this.last, Math.max(this.first, wanted));
+    if (this.wanted !== null || !this.isHere(time)) {
+      const underWay = this.wanted !== null;
+      this.wanted = time;
+      this.store.set({ time });
+      if (!underWay) void this.fetch();
+      return;
+    }
     const index = count(this.firings, ([t]) => t <= time);
     if (index >= this.index && index - this.index < near)
       for (; this.index < index; this.index += 1) this.stage.fired(this.firings[this.index]![1]);
@@ -107,7 +161,8 @@ export class Replay {
   step(by: 1 | -1): void {
     const here = this.firings[this.index - 1]?.[0] ?? this.first;
     const at = by === 1 ? this.index : count(this.firings, ([t]) => t < here) - 1;
-    this.seek(this.firings[at]?.[0] ?? (by === 1 ? this.last : this.first));
+    const beyond = by === 1 ? this.end + 1 : this.begin - 1;
+    this.seek(this.firings[at]?.[0] ?? beyond);
   }
 
   play(playing: boolean): void {
@@ -117,8 +172,9 @@ export class Replay {
     if (this.store.get().time >= this.last) this.seek(this.first);
     let before = performance.now();
     const tick = (now: number) => {
-      const { time, speed } = this.store.get();
-      this.seek(time + (now - before) * 1e6 * speed);
+      const { time, speed, loading } = this.store.get();
+      if (loading) before = now;
+      else this.seek(time + (now - before) * 1e6 * speed);
       before = now;
       if (this.store.get().time >= this.last) this.store.set({ playing: false });
       else this.frame = requestAnimationFrame(tick);

@@ -16,7 +16,7 @@ export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; f
 
 function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: boolean; fixed: boolean }) {
   const studio = useStudio();
-  const { time, playing, speed } = useStore(replay.store, (all) => all);
+  const { time, playing, speed, loading } = useStore(replay.store, (all) => all);
   const { name, first, last } = replay;
   return (
     <div className="player" role="group" aria-label={`Recording ${name}`}>
@@ -47,6 +47,7 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
       <span className="position">
         {clock(time)}
         <span className="whole"> / {clock(last)} s</span>
+        {loading && <span role="status"> loading…</span>}
       </span>
       <select
         aria-label="Speed"

@@ -31,6 +31,32 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await page.getByTestId("run-state").getByText("Ended — stopped").waitFor();
   }));
 
+test("a recording that is too long to be sent at once is looked at from its first moment to its last", () =>
+  onPage(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed" }).fill("0");
+    await page.getByRole("textbox", { name: "For" }).fill("600s");
+    await button(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    const firings = /([\d,]+) firings/.exec(await page.locator(".run-panel").innerText())[1];
+    await button(page, "Close this run").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    const slider = page.getByRole("slider", { name: "Time" });
+    await slider.waitFor();
+    const position = () => page.locator(".player .position").innerText();
+    const facts = () => page.getByTestId("run-facts").innerText();
+    assert.ok(Number(firings.replaceAll(",", "")) > 300_000);
+    const last = Number(await slider.getAttribute("max"));
+    for (const part of [1, 0.5, 0]) {
+      await slider.fill(String(last * part));
+      await until(page, async () => !(await position()).includes("loading"), "the part with that moment");
+      assert.ok(Math.abs(parseFloat(await position()) - (last * part) / 1e9) < 0.1, await position());
+      assert.ok((await facts()).includes(`${firings} firings`), await facts());
+      await page.locator(".react-flow").getByText("follow").first().waitFor();
+    }
+  }));
+
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
   onPage(lineFollower, async (page) => {
     await tab(page, "Run").click();

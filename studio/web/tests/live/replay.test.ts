@@ -46,6 +46,41 @@ describe("Replay", () => {
     expect(held(replay)).toContain("robot.control.init.in");
     expect([...replay.stage.marking].every((tokens) => tokens >= 0)).toBe(true);
   });
+  it("gets the part of a long recording in which the moment is, with what was before it", async () => {
+    const all: [number, number][] = [
+      [10, named("t_in")],
+      [40, named("robot.t_in")],
+      [70, named("robot.control.t_in")],
+      [71, named("robot.control.init.t1")],
+    ];
+    const ends = { first: 10, last: 71, total: 4 };
+    const asked: number[] = [];
+    const source = (from: number) => {
+      asked.push(from);
+      const firings = all.filter(([time]) => time >= from).slice(0, 2);
+      const marking =
+        from > 40 ? [net.placeByName.get("robot.control.in")!] : from > 10 ? [net.placeByName.get("robot.in")!] : null;
+      const dropped = all.filter(([time]) => time >= from).length - firings.length;
+      return Promise.resolve({ ...ends, firings, marking, dropped });
+    };
+    let parts = 0;
+    const replay = new Replay("x", net, { ...ends, firings: all.slice(0, 2), dropped: 2 }, source, () => (parts += 1));
+    const loaded = async () => {
+      while (replay.store.get().loading) await Promise.resolve();
+    };
+    const before = replay.track;
+    replay.seek(71);
+    expect(replay.store.get().loading).toBe(true);
+    await loaded();
+    expect(replay.store.get().time).toBe(71);
+    expect(held(replay)).toContain("robot.control.init.snd.in");
+    expect(replay.track).not.toBe(before);
+    expect(replay.track.firings).toBe(4);
+    expect(parts).toBe(asked.length);
+    replay.seek(10);
+    await loaded();
+    expect(held(replay)).toContain("robot.in");
+  });
   it("steps over what fired at the same moment", () => {
     const replay = new Replay("x", net, {
       firings: [

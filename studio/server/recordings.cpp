@@ -170,7 +170,8 @@ class Content {
     const bool known = event.subject < transitions_.size() && transitions_[event.subject] != UINT32_MAX;
     if (event.time_ns > span_.to_ns) return;
     if (event.time_ns >= span_.from_ns) {
-      if (known && firings_.size() < Recordings::most_firings)
+      // Where there is no more room for values, the next part begins.
+      if (known && firings_.size() < Recordings::most_firings && values_.complete())
         firings_.emplace_back(event.time_ns, transitions_[event.subject]);
       else
         ++dropped_;
@@ -236,16 +237,32 @@ std::map<std::string, fs::path> Recordings::files() const {
   return found;
 }
 
+/// With "modified"; a recording is read whole only when it has changed since.
+json Recordings::known_summary_of(const fs::path& file) const {
+  struct stat status {};
+  if (lstat(file.c_str(), &status) != 0) return nullptr;
+  const std::int64_t modified_ns =
+      std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = known_.find(file);
+    if (known != known_.end() && known->second.bytes == status.st_size &&
+        known->second.modified_ns == modified_ns)
+      return known->second.summary;
+  }
+  json summary = summary_of(file);
+  if (!summary.is_null()) summary["modified"] = modified_ns / 1'000'000;
+  const std::lock_guard lock(mutex_);
+  known_[file] = {status.st_size, modified_ns, summary};
+  return summary;
+}
+
 std::string Recordings::list() const {
   json list = json::array();
   for (const auto& [name, file] : files()) {
-    struct stat status {};
-    if (lstat(file.c_str(), &status) != 0) continue;
-    json one = summary_of(file);
+    json one = known_summary_of(file);
     if (one.is_null()) continue;
     one["name"] = name;
-    one["modified"] =
-        static_cast<std::int64_t>(status.st_mtim.tv_sec) * 1000 + status.st_mtim.tv_nsec / 1'000'000;
     list.push_back(std::move(one));
   }
   std::stable_sort(list.begin(), list.end(),

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -35,8 +37,15 @@ class Recordings {
  private:
   /// By name. Nothing is a file here that is a symbolic link, or in a folder that is one.
   [[nodiscard]] std::map<std::string, std::filesystem::path> files() const;
+  [[nodiscard]] nlohmann::json known_summary_of(const std::filesystem::path& file) const;
   SpecFile& file_;
   Analyses& analyses_;
+  struct Known {
+    std::int64_t bytes = 0, modified_ns = 0;  ///< of the newest file
+    nlohmann::json summary;
+  };
+  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::map<std::filesystem::path, Known> known_;
 };
 
 }  // namespace tessera::server

@@ -26,17 +26,22 @@ extern "C" void pass_on(int signal) {
   if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
 }
 
-/// While it lives, SIGINT and SIGTERM go to the child.
+/// While it lives, SIGINT and SIGTERM go to the child. They are held back until it is known: one that came
+/// just after its start would end us, and the child, which drives a robot, would run on alone.
 class SignalsToChild {
  public:
-  explicit SignalsToChild(pid_t child) {
-    child_pid = static_cast<std::sig_atomic_t>(child);
-    struct sigaction action {};
-    action.sa_handler = pass_on;
-    sigaction(SIGINT, &action, &interrupt_);
-    sigaction(SIGTERM, &action, &terminate_);
+  SignalsToChild() {
+    sigset_t both;
+    sigemptyset(&both);
+    sigaddset(&both, SIGINT);
+    sigaddset(&both, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &both, &mask_);
   }
   ~SignalsToChild() {
+    if (child_pid == 0) {
+      pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+      return;
+    }
     sigaction(SIGINT, &interrupt_, nullptr);
     sigaction(SIGTERM, &terminate_, nullptr);
     child_pid = 0;
@@ -44,7 +49,17 @@ class SignalsToChild {
   SignalsToChild(const SignalsToChild&) = delete;
   SignalsToChild& operator=(const SignalsToChild&) = delete;
 
+  void are_for(pid_t child) {
+    child_pid = static_cast<std::sig_atomic_t>(child);
+    struct sigaction action {};
+    action.sa_handler = pass_on;
+    sigaction(SIGINT, &action, &interrupt_);
+    sigaction(SIGTERM, &action, &terminate_);
+    pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  }
+
  private:
+  sigset_t mask_{};
   struct sigaction interrupt_ {
   }, terminate_{};
 };
@@ -136,14 +151,16 @@ int wait_for(pid_t child) {
 }  // namespace
 
 Exit run(const Command& command) {
+  SignalsToChild signals;
   const pid_t child = start(command, nullptr);
-  const SignalsToChild passing(child);
+  signals.are_for(child);
   return {wait_for(child), {}};
 }
 
 Exit capture(const Command& command, const std::function<void(std::string_view)>& each_line) {
+  SignalsToChild signals;
   Output output(command, /*own_group=*/false);
-  const SignalsToChild passing(output.child());
+  signals.are_for(output.child());
   while (output.read_on(each_line)) {
   }
   return {wait_for(output.child()), std::move(output.text())};

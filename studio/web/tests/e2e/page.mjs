@@ -79,6 +79,22 @@ export async function until(page, look, what) {
 export const drawn = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
+/** The middle of something, once it stays where it is. */
+export async function middleOf(page, locator) {
+  let last = "";
+  return until(
+    page,
+    async () => {
+      await drawn(page);
+      const { x, y, width, height } = await locator.boundingBox();
+      const before = last;
+      last = [x, y, width, height].join();
+      return last === before && [x + width / 2, y + height / 2];
+    },
+    "it stays where it is",
+  );
+}
+
 /** A function that lets axe look at the page as it is, and adds what it objects to. */
 export async function judges(page, found) {
   await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));

@@ -2,7 +2,22 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { button, changes, draftText, drawn, element, example, find, folder, judges, onPage, serve, tab, until } from "./page.mjs";
+import {
+  button,
+  changes,
+  draftText,
+  drawn,
+  element,
+  example,
+  find,
+  folder,
+  judges,
+  middleOf,
+  onPage,
+  serve,
+  tab,
+  until,
+} from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -51,12 +66,8 @@ test("a folded page is a double circle, and opens again", () =>
     await button(page, "Fold control").click();
     await page.locator('.page.folded[data-path="robot.control"]').waitFor();
     assert.equal(await page.locator('[data-sheet="robot.control"]').count(), 0);
-    // Beside its circle, where its name begins; the view may still move.
-    const middle = async () => {
-      const { x, y, width, height } = await element(page, "robot.control").boundingBox();
-      return [x + width / 2, y + height / 2];
-    };
-    await page.mouse.dblclick(...(await middle()));
+    // Beside its circle, where its name begins.
+    await page.mouse.dblclick(...(await middleOf(page, element(page, "robot.control"))));
     await page.locator('[data-sheet="robot.control"]').waitFor();
   }));
 
@@ -66,8 +77,7 @@ test("a double click is meant for what was under its first click, though the vie
     await button(page, "Fold control").click();
     const circle = element(page, "robot.control").locator(".shape").first();
     await page.locator('.page.folded[data-path="robot.control"]').waitFor();
-    const { x, y, width, height } = await circle.boundingBox();
-    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.move(...(await middleOf(page, circle)));
     await page.mouse.down();
     await page.mouse.up();
     await page

@@ -172,6 +172,7 @@ TEST_F(RunOfTheStudio, ARecordingThatIsElsewhereComesThroughTheControlSocketToIt
 TEST_F(RunOfTheStudio, EndsWithTheServer) {
   const std::string run = start({{"kind", "simulate"}, {"for", "100000s"}, {"paused", true}});
   ASSERT_FALSE(await_state(run, "paused").is_null());
+  ASSERT_FALSE(events_->next("subsystems").is_null());  // the controller is up and listens
   stop_ = true;  // Ctrl-C of the studio; its controller must not be left over
   EXPECT_TRUE(await_state(run, "nothing").is_null());
   command_.join();

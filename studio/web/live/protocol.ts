@@ -132,7 +132,6 @@ export interface Recording {
   values?: Record<string, [number, unknown][]>;
   /** Firings that are not in this part, but after it. */
   dropped?: number;
-  truncated?: boolean;
   /** Of all firings of the recording: times of the first and the last one, and their number. */
   first?: number | null;
   last?: number | null;

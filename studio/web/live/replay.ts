@@ -79,7 +79,8 @@ export class Replay {
     this.track = this.trackOf(part);
   }
 
-  private isHere(time: number): boolean {
+  /** Whether it is in the part that is here. */
+  isHere(time: number): boolean {
     return time >= this.begin && time <= this.end;
   }
 

@@ -20,8 +20,11 @@ export interface Comparison {
   /** Nanoseconds. */
   time: number;
   differences: readonly Difference[];
-  /** Why there is nothing to compare: one of them was not yet, or no longer, there; or the left one is known in samples only. */
-  missing: "left" | "right" | "sampled" | null;
+  /**
+   * Why there is nothing to compare: one of them was not yet, or no longer, there; or the left one is known in samples only, or is a
+   * long recording of which another part is here.
+   */
+  missing: "left" | "right" | "sampled" | "part" | null;
 }
 
 export interface SceneState {
@@ -109,7 +112,13 @@ export class Scene {
 
   private compare(left: Pane, right: Pane): void {
     const { sameTime, comparison } = this.store.get();
-    const next = compared(left.track!, right.track!, sameTime);
+    if (right.replay!.store.get().loading) return;
+    const moment = right.track!.now;
+    const { replay } = left;
+    const isElsewhere = !sameTime && replay && moment >= replay.first && moment <= replay.last && !replay.isHere(moment);
+    const next: Comparison = isElsewhere
+      ? { time: moment, differences: [], missing: "part" }
+      : compared(left.track!, right.track!, sameTime);
     if (sameTime) {
       const paths = new Set(next.differences.map(({ path }) => path));
       left.stage.differ(paths);

@@ -1,4 +1,4 @@
-import type { NetModel, Operation, Page, PageNode, PageTransition } from "./net";
+import type { NetModel, Operation, Page, PageTransition } from "./net";
 
 /** What is written beside the symbols. */
 
@@ -35,8 +35,6 @@ export function conditionText(transition: PageTransition, limit = 26): string {
 }
 
 /** The local name: of a fused place its last part, with its buffer. */
-export const nodeName = (node: PageNode) => node.name;
-
 /** What a screen reader says of an element. */
 export function spoken(net: NetModel, path: string): string {
   const asPage = net.pageByPath.get(path);

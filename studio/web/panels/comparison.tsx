@@ -5,6 +5,7 @@ import { clock } from "./clock";
 const missing = {
   left: "the left one has not come so far",
   right: "the right one has ended by then",
+  part: "the left one is shown at another time; with the same time both are compared",
   sampled: "this run was too fast to be compared; its recording can be",
 };
 

@@ -120,4 +120,25 @@ describe("Scene", () => {
     frame();
     expect(scene.store.get().comparison?.missing).toBe("right");
   });
+  it("compares a long recording only where its part is here, and nothing while a part is on its way", () => {
+    const { scene, open } = studio();
+    const ends = { first: 0, last: 9 * second, total: 4 };
+    const long = new Replay("long", net, { ...ends, firings: run(3).slice(0, 3), dropped: 1 });
+    const right = replayOf(4);
+    open(long, right);
+    right.seek(2 * second);
+    frame();
+    expect(scene.store.get().comparison?.missing).toBe(null);
+    right.seek(5 * second);
+    frame();
+    expect(scene.store.get().comparison?.missing).toBe("part");
+    open(right, long);
+    frame();
+    long.seek(8 * second);
+    right.seek(8 * second);
+    expect(long.store.get().loading).toBe(true);
+    const told = scene.store.get().comparison;
+    frame();
+    expect(scene.store.get().comparison).toBe(told);
+  });
 });

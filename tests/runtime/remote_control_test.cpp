@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "../eventually.hpp"
 #include "nets.hpp"
 #include "tessera/monitor.hpp"
 #include "test_system.hpp"
@@ -75,8 +77,10 @@ class Controlled : public ::testing::Test {
         monitor_folder() + "/" + std::string(made_->name) + "." + std::to_string(getpid()) + ".sock";
     std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
     socket_ = socket(AF_UNIX, SOCK_STREAM, 0);
-    while (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-      ASSERT_FALSE(over_) << summary_.ended;
+    const auto connected = [&] {
+      return connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    };
+    ASSERT_TRUE(eventually(connected, [&] { return over_.load(); })) << summary_.ended;
   }
   bool hear() {
     char bytes[65536];
@@ -271,14 +275,15 @@ TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {
 
 TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
   options_.clock = RunOptions::Clock::steady;
-  options_.duration = 300ms;
+  options_.duration = 600s;
   start();
   std::string recorded;
   while (recorded.size() < 10'000 || more_) recorded += piece();
   EXPECT_EQ(bytes_of(options_.recording).substr(0, recorded.size()), recorded);
   EXPECT_NE(command({{"command", "pause"}}), "");
+  kill(getpid(), SIGTERM);
   running_.join();
-  EXPECT_EQ(summary_.ended, "duration");
+  EXPECT_EQ(summary_.ended, "SIGTERM");
   recorded += what_comes_at_the_end();
   EXPECT_EQ(recorded, bytes_of(options_.recording));
 }

@@ -7,6 +7,7 @@
 #include <future>
 #include <thread>
 
+#include "../eventually.hpp"
 #include "project/process.hpp"
 #include "served.hpp"
 
@@ -38,12 +39,18 @@ class Elsewhere {
   std::thread running_;  // the last: it uses the others
 };
 
-/// `tessera studio` itself, because controllers are built with what is installed beside it.
+/// `tessera studio` itself, because controllers are built with what is installed beside it. The tests share one
+/// folder, one after the other, in which the controller is built once.
 class RunOfTheStudio : public Served {
  protected:
-  RunOfTheStudio() {
+  RunOfTheStudio() : Served(fs::path(TESSERA_BINARY_DIR) / "tests/studio_runs") {
+    keep_ = true;
+    forget_runs();
     // Sockets of other controllers, which come and go, are not of this test's world.
-    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+    fs::remove_all(sockets_);
+    fs::create_directories(sockets_ / "tessera");
+    fs::permissions(sockets_ / "tessera", fs::perms::owner_all);
+    setenv("XDG_RUNTIME_DIR", sockets_.c_str(), 1);
     std::promise<std::string> url;
     std::future<std::string> printed = url.get_future();
     command_ = std::thread([this, &url] {
@@ -66,6 +73,11 @@ class RunOfTheStudio : public Served {
   ~RunOfTheStudio() override {
     stop_ = true;
     command_.join();
+    forget_runs();
+    fs::remove_all(sockets_);
+  }
+  void forget_runs() const {
+    for (const char* runs : {"runs", "last"}) fs::remove_all(folder_ / "project/.tessera" / runs);
   }
 
   std::string start(const json& request) {
@@ -91,10 +103,18 @@ class RunOfTheStudio : public Served {
 
   std::string await_controller() {
     json names = json::array();
-    while (names.empty()) names = get("/api/controllers").json();
-    return names.at(0);
+    EXPECT_TRUE(eventually([&] { return !(names = get("/api/controllers").json()).empty(); }));
+    return names.empty() ? "" : names.at(0).get<std::string>();
+  }
+  /// What the server says of a run, once `wanted` holds of it. null: the run has ended first, or it takes too long.
+  json await_info(const std::string& run, const std::function<bool(const json&)>& wanted) {
+    json now;
+    const auto look = [&] { return wanted(now = info(run)); };
+    const auto is_over = [&] { return now.at("state") == "ended" || now.at("state") == "failed"; };
+    return eventually(look, is_over) ? now : json();
   }
 
+  const fs::path sockets_ = fs::temp_directory_path() / ("tessera_sockets_" + std::to_string(getpid()));
   std::atomic<bool> stop_{false};
   std::thread command_;
   std::unique_ptr<EventStream> events_;

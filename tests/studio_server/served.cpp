@@ -14,6 +14,7 @@ namespace tessera::server_test {
 namespace {
 
 constexpr int patience_ms = 60'000;
+constexpr std::chrono::minutes longest_wait{4};  // in it a controller is built, on a busy machine
 
 /// What comes next; empty: nothing more.
 std::string receive_some(int socket) {
@@ -85,7 +86,9 @@ std::optional<std::string> EventStream::line() {
 nlohmann::json EventStream::next(const std::string& name,
                                  const std::function<bool(const nlohmann::json&)>& wanted) {
   bool named = false;
+  const auto end = std::chrono::steady_clock::now() + longest_wait;
   while (const std::optional<std::string> one = line()) {
+    if (std::chrono::steady_clock::now() > end) break;
     if (one->starts_with("event: ")) named = *one == "event: " + name;
     if (!named || !one->starts_with("data: ")) continue;
     nlohmann::json data = nlohmann::json::parse(one->substr(6), nullptr, false);
@@ -94,13 +97,23 @@ nlohmann::json EventStream::next(const std::string& name,
   return nullptr;
 }
 
-Served::Served() {
-  folder_ = fs::temp_directory_path() / ("tessera_studio_" + std::to_string(getpid()));
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
-  fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower", folder_ / "project",
-           fs::copy_options::recursive);
-  fs::remove_all(folder_ / "project/.tessera");
+void mirror(const fs::path& from, const fs::path& to) {
+  const auto is_ours = [](const fs::path& path) { return path.filename() == ".tessera"; };
+  fs::create_directories(to);
+  for (const auto& entry : fs::directory_iterator(to))
+    if (!is_ours(entry.path()) && !fs::exists(from / entry.path().filename())) fs::remove_all(entry.path());
+  for (const auto& entry : fs::directory_iterator(from)) {
+    const fs::path copy = to / entry.path().filename();
+    if (is_ours(copy)) continue;
+    if (entry.is_directory())
+      mirror(entry.path(), copy);
+    else if (const std::string text = content_of(entry.path()); !fs::exists(copy) || content_of(copy) != text)
+      write(copy, text);
+  }
+}
+
+Served::Served(fs::path folder) : folder_(std::move(folder)) {
+  mirror(fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower", folder_ / "project");
   options_.spec = fs::canonical(spec());
   options_.port = 0;
   options_.page = folder_ / "page";
@@ -110,7 +123,7 @@ Served::Served() {
 
 Served::~Served() {
   studio_.reset();
-  fs::remove_all(folder_);
+  if (!keep_) fs::remove_all(folder_);
 }
 
 void Served::serve() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -37,8 +38,8 @@ class EventStream {
   ~EventStream();
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;
-  /// The next event of that name that `wanted` accepts; others are passed over. null: the stream ended, or
-  /// nothing came for a minute.
+  /// The next event of that name that `wanted` accepts; others are passed over. null: the stream ended,
+  /// nothing came for a minute, or nothing that was wanted for four.
   [[nodiscard]] nlohmann::json next(const std::string& name,
                                     const std::function<bool(const nlohmann::json&)>& wanted = {});
 
@@ -48,10 +49,15 @@ class EventStream {
   std::string bytes_;
 };
 
+/// Makes `to` the same as `from`, but for `.tessera`; files that are the same already keep their dates.
+void mirror(const fs::path& from, const fs::path& to);
+
 /// A studio of a project of its own, which is a copy of the line follower.
 class Served : public testing::Test {
  protected:
-  Served();
+  Served() : Served(fs::temp_directory_path() / ("tessera_studio_" + std::to_string(getpid()))) {}
+  /// `folder`: where the project is; what was built there earlier is kept.
+  explicit Served(fs::path folder);
   ~Served() override;
   void serve();
 
@@ -73,6 +79,7 @@ class Served : public testing::Test {
   [[nodiscard]] fs::path spec() const { return folder_ / "project/spec.yaml"; }
 
   fs::path folder_;
+  bool keep_ = false;  ///< the folder stays when the test ends
   server::StudioOptions options_;
   std::unique_ptr<server::Studio> studio_;
   int port_ = 0;

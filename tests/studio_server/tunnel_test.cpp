@@ -45,17 +45,22 @@ class Tunnel : public RunOfTheStudio {
           "PasswordAuthentication no\nKbdInteractiveAuthentication no\n"
           "PermitRootLogin prohibit-password\nAuthorizedKeysFile " +
               (robot_ / "user.pub").string() + "\n");
-    for (bool listens = false; !listens;) {
+    bool listens = false;
+    for (int tries = 0; tries < 5 && !listens; ++tries) {
       ssh_port_ = free_port();
       server_ = std::make_unique<Elsewhere>(
           project::Command{ssh_server, "-D", "-e", "-f", (robot_ / "sshd.conf").string(), "-h",
                            (robot_ / "host").string(), "-p", std::to_string(ssh_port_)});
-      while (server_->runs() && !listens) {
-        const int made = connect_to(ssh_port_);
-        listens = made >= 0;
-        if (listens) close(made);
-      }
+      // Somebody else may have taken the port meanwhile: then the server ends, and another port is tried.
+      listens = eventually(
+          [&] {
+            const int made = connect_to(ssh_port_);
+            if (made >= 0) close(made);
+            return made >= 0;
+          },
+          [&] { return !server_->runs(); });
     }
+    ASSERT_TRUE(listens);
   }
   [[nodiscard]] std::unique_ptr<Elsewhere> forward(const fs::path& from, const fs::path& to) const {
     return std::make_unique<Elsewhere>(project::Command{"ssh",
@@ -80,7 +85,7 @@ class Tunnel : public RunOfTheStudio {
                                                         "127.0.0.1"});
   }
 
-  const fs::path robot_ = folder_ / "robot";
+  const fs::path robot_ = sockets_ / "robot";  // with a short name: there are sockets in it
   int ssh_port_ = 0;
   std::unique_ptr<Elsewhere> server_;
 };
@@ -88,30 +93,29 @@ class Tunnel : public RunOfTheStudio {
 TEST_F(Tunnel, ShowsAControllerOfAnotherMachineAndSaysWhenTheConnectionIsLost) {
   if (!fs::exists(ssh_server)) GTEST_SKIP() << "needs openssh-server (scripts/dependencies test)";
   start_server();
-  fs::copy(folder_ / "project", robot_ / "project", fs::copy_options::recursive);
-  const fs::path recording = robot_ / "project/.tessera/last/recording.tsr";
+  const fs::path recording = folder_ / "project/.tessera/last/recording.tsr";
   Elsewhere controller({"env", "XDG_RUNTIME_DIR=" + robot_.string(), TESSERA_BINARY_DIR "/tessera", "run",
-                        (robot_ / "project").string(), "--world", "--record-limit", "30kBx3"});
+                        (folder_ / "project").string(), "--world", "--record-limit", "30kBx3"});
   const auto its_socket = [&]() -> fs::path {
     std::error_code not_yet;
     for (const auto& entry : fs::directory_iterator(robot_ / "tessera", not_yet)) return entry.path();
     return {};
   };
-  while (its_socket().empty()) ASSERT_TRUE(controller.runs());
+  ASSERT_TRUE(eventually([&] { return !its_socket().empty(); }, [&] { return !controller.runs(); }));
 
-  fs::create_directories(folder_ / "tessera");
-  fs::permissions(folder_ / "tessera", fs::perms::owner_all);
-  const std::unique_ptr<Elsewhere> ssh = forward(its_socket(), folder_ / "tessera/robot.sock");
+  const std::unique_ptr<Elsewhere> ssh = forward(its_socket(), sockets_ / "tessera/robot.sock");
   EXPECT_EQ(await_controller(), "robot.sock");
   const std::string run = start({{"kind", "attach"}, {"socket", "robot.sock"}});
   EXPECT_FALSE(events_->next("firings").at("firings").empty());
   EXPECT_FALSE(events_->next("values").at("values").empty());
   EXPECT_FALSE(events_->next("subsystems").at("subsystems").empty());
-  while (!info(run).at("values").contains("robot.control.motion"))
-    ASSERT_EQ(info(run).at("state"), "running");
-  EXPECT_FALSE(info(run).at("marking").empty());
-  const std::int64_t before = info(run).at("t");
-  while (info(run).at("t") < before + 3'000'000'000) ASSERT_EQ(info(run).at("state"), "running");
+  const json seen = await_info(run, [](const json& now) {
+    return now.at("values").contains("robot.control.motion") && !now.at("marking").empty();
+  });
+  ASSERT_FALSE(seen.is_null());
+  const std::int64_t before = seen.at("t");
+  ASSERT_FALSE(
+      await_info(run, [&](const json& now) { return now.at("t") > before + 3'000'000'000; }).is_null());
 
   static_cast<void>(ssh->stop());
   EXPECT_THAT(await_state(run, "failed").at("why").get<std::string>(),
@@ -119,7 +123,7 @@ TEST_F(Tunnel, ShowsAControllerOfAnotherMachineAndSaysWhenTheConnectionIsLost) {
   // It has not even noticed.
   const auto written = [&] { return fs::last_write_time(recording); };
   const auto then = written();
-  while (written() == then) ASSERT_TRUE(controller.runs());
+  ASSERT_TRUE(eventually([&] { return written() != then; }, [&] { return !controller.runs(); }));
   EXPECT_THAT(controller.stop(), HasSubstr("SIGINT"));
 }
 

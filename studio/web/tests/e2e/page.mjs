@@ -42,6 +42,9 @@ export async function onPage(project, test, options = {}) {
   }
 }
 
+/** The same on a project whose controller is built already. */
+export const onBuilt = (project, test) => onPage(project, test, { server: { built: true } });
+
 /** Goes to an element by the search. */
 export async function find(page, path) {
   await page.keyboard.press("Control+k");
@@ -65,9 +68,9 @@ export function changes(before, after) {
   ];
 }
 
-/** Waits until `look` gives something that is not undefined, null or false. */
+/** Waits, for a minute at most, until `look` gives something that is not undefined, null or false. */
 export async function until(page, look, what) {
-  for (let turn = 0; turn < 1000; turn += 1) {
+  for (const end = Date.now() + 60_000; Date.now() < end; ) {
     const found = await look();
     if (found !== undefined && found !== null && found !== false) return found;
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 30))));

@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, drawn, example, find, onPage, serve, tab, until } from "./page.mjs";
+import { button, drawn, example, find, onBuilt, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
 test("a system without a world runs on the simulated clock, and what came of it is a table", () =>
-  onPage(example("03_two_slot_buffer"), async (page) => {
+  onBuilt(example("03_two_slot_buffer"), async (page) => {
     await tab(page, "Run").click();
     assert.equal(await page.getByLabel("Track").count(), 0);
     assert.match(await page.getByRole("combobox", { name: "Run" }).innerText(), /on the simulated clock/);
@@ -32,7 +32,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
   }));
 
 test("a recording that is too long to be sent at once is looked at from its first moment to its last", () =>
-  onPage(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await page.getByRole("textbox", { name: "Speed" }).fill("0");
     await page.getByRole("textbox", { name: "For" }).fill("600s");
@@ -58,7 +58,7 @@ test("a recording that is too long to be sent at once is looked at from its firs
   }));
 
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
-  onPage(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -110,7 +110,7 @@ const pathDrawn = (page) =>
   });
 
 test("the robot's path is there after a reload, and in the recording up to the moment shown", () =>
-  onPage(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await page.getByRole("textbox", { name: "Speed", exact: true }).fill("5");
     await page.keyboard.press("Enter");
@@ -149,7 +149,7 @@ test("the robot's path is there after a reload, and in the recording up to the m
   }));
 
 test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
-  onPage(example("02_gap"), async (page) => {
+  onBuilt(example("02_gap"), async (page) => {
     const transition = "robot.control.follow.t4";
     await find(page, transition);
     await tab(page, "Element").click();
@@ -177,7 +177,7 @@ test("a run pauses where breakpoints are: when a transition fires, and when its 
   }));
 
 test("a controller that runs already is watched, and let go", () =>
-  onPage(lineFollower, async (page, server, open) => {
+  onBuilt(lineFollower, async (page, server, open) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -203,7 +203,7 @@ test("a controller that runs already is watched, and let go", () =>
   }));
 
 test("after a reload the run and the unsaved text are there again", () =>
-  onPage(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -218,7 +218,7 @@ test("after a reload the run and the unsaved text are there again", () =>
   }));
 
 test("of a run that is too fast to be drawn, all firings are counted, and the page says how many were not shown", () =>
-  onPage(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page) => {
     await tab(page, "Run").click();
     for (const [label, value] of [
       ["For", "6min"],

@@ -1,17 +1,51 @@
 // `tessera studio` itself, for a copy of a project.
-import { spawn } from "node:child_process";
-import { cpSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { execFileSync, spawn } from "node:child_process";
+import { cpSync, existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 
 const tessera = process.env.TESSERA ?? "tessera";
+// The sockets of controllers that others have started on this machine are not of these tests' world.
+const world = mkdtempSync(join(tmpdir(), "studio-"));
+const env = { ...process.env, XDG_RUNTIME_DIR: world };
+process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 
-/** Starts it, on any free port unless one is given. `text` reads the specification as it is on disk. */
-export async function serve(folder, { port = 0, copy = true } = {}) {
-  const root = copy ? mkdtempSync(join(tmpdir(), "studio-")) : folder;
-  if (copy) cpSync(folder, root, { recursive: true });
+const removeAll = (parent, kept) => {
+  if (!existsSync(parent)) return;
+  for (const name of readdirSync(parent))
+    if (!kept.includes(name)) rmSync(join(parent, name), { recursive: true, force: true });
+};
+
+const buildFolders = ["build", "generated"];
+
+/** Builds its controller and forgets the run that this takes. */
+function build(root) {
+  execFileSync(tessera, ["simulate", root, "--for", "100ms"], { env, stdio: "ignore", timeout: 600_000 });
+  removeAll(join(root, ".tessera"), buildFolders);
+}
+
+/** A copy of the project as it is in the source; what was built of an earlier copy is kept, since building takes long. */
+function copyOf(folder) {
+  const root = join(world, basename(folder));
+  removeAll(root, [".tessera"]);
+  removeAll(join(root, ".tessera"), buildFolders);
+  // Without the dates of the source everything would be built again.
+  cpSync(folder, root, { recursive: true, preserveTimestamps: true, filter: (path) => basename(path) !== ".tessera" });
+  return root;
+}
+
+/**
+ * Starts it, on any free port unless one is given. `text` reads the specification as it is on disk.
+ * `built`: its controller is built beforehand, so that a run starts at once.
+ */
+export async function serve(folder, { port = 0, copy = true, built = false } = {}) {
+  const root = copy ? copyOf(folder) : folder;
   const file = join(root, "spec.yaml");
-  const child = spawn(tessera, ["studio", file, "--port", String(port), "--no-browser"], { stdio: ["ignore", "pipe", "pipe"] });
+  if (built) build(root);
+  const child = spawn(tessera, ["studio", file, "--port", String(port), "--no-browser"], {
+    env,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   let complaints = "";
   child.stderr.on("data", (text) => (complaints += text));
   const url = await new Promise((done, failed) => {
@@ -33,11 +67,10 @@ export async function serve(folder, { port = 0, copy = true } = {}) {
     port: Number(new URL(url).port),
     token: hash.replace("#token=", ""),
     text: () => readFileSync(file, "utf8"),
-    /** Ends it; `keep` leaves the project for another start. */
-    close: async ({ keep = false } = {}) => {
+    /** Ends it; its project stays until the next copy. */
+    close: async () => {
       child.kill("SIGTERM");
       await ended;
-      if (copy && !keep) rmSync(root, { recursive: true, force: true });
     },
   };
 }

@@ -247,7 +247,7 @@ test("a server that is killed and started again is noticed, and found again with
     await page.locator('[data-path="robot.motor"]').click();
     await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
     await page.keyboard.press("Enter");
-    await server.close({ keep: true });
+    await server.close();
     await page.getByRole("alert").getByText("The server does not answer").waitFor();
     const again = await serve(server.root, { port: server.port, copy: false });
     try {

@@ -1,0 +1,19 @@
+// Real controllers of random specifications: made by the command, run in simulated time, their firings played
+// on the oracle's net.
+#pragma once
+
+#include "compare.hpp"
+
+namespace oracle {
+
+struct ControllerRun {
+  bool made = false;  // false: refused, for example because nothing takes time
+  int firings = 0;
+  std::vector<Disagreement> disagreements;
+};
+
+/// Generates, builds and simulates the controller under `command.folder()`, for one second, with conditions
+/// drawn from `seed`.
+ControllerRun run_controller(const Specification& specification, const Command& command, unsigned seed);
+
+}  // namespace oracle

@@ -1,0 +1,128 @@
+// A specification as the oracle holds it: what docs/specification.md lets a user write, no more.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace oracle {
+
+/// What is known of an expression before anything runs.
+enum class Truth { no, yes, open };
+
+/// `terminal` or `error`: absent, a constant, an expression, or a map of named ones.
+struct Condition {
+  enum class Form { absent, single, named };
+  Form form = Form::absent;
+  Truth single = Truth::open;
+  std::vector<std::pair<std::string, Truth>> named;
+};
+
+/// An entry of `next`.
+struct Entry {
+  enum class When { always, error, name, expression };
+  std::string to;  // a behaviour or "end"
+  When when = When::always;
+  std::string name;           // of a terminal or error expression
+  Truth truth = Truth::open;  // of the expression
+};
+
+struct Behaviour {
+  std::string name;
+  Condition terminal, error;
+  std::vector<Entry> next;  // empty: not written
+  std::optional<std::vector<std::string>> send, receive;
+  bool parallel = false;
+  bool takes = false;
+};
+
+struct Subsystem {
+  enum class Kind { control, receptor, effector };
+  std::string name;
+  Kind kind = Kind::control;
+  bool rate = true;
+  std::vector<std::string> inputs, outputs;
+  std::vector<Behaviour> behaviours;
+  std::string start;  // empty: not written
+};
+
+/// An agent, a template, or a fleet: either `subsystems` or `use`.
+struct Agent {
+  std::string name;
+  std::string use;
+  int count = 0;  // 0: not a fleet
+  bool ring = false;
+  std::vector<Subsystem> subsystems;
+};
+
+/// One end of a channel. `index` is "", a number, "*", "i" or "i+1".
+struct End {
+  std::string agent, index, subsystem, buffer;
+};
+
+struct Channel {
+  End from, to;
+  bool send_blocking = false, receive_blocking = false;
+  bool send_timeout = false, receive_timeout = false;
+  std::string model;
+};
+
+/// One side of a communication model of the author's own.
+struct ModelSide {
+  struct Place {
+    std::string name;
+    int slot = 0;  // 0: nothing is read or written here
+  };
+  struct Transition {
+    std::string name;
+    std::vector<std::string> from, to;
+    bool elapsed = false;
+  };
+  std::vector<Place> places;
+  std::vector<Transition> transitions;
+};
+
+struct Model {
+  std::string name;
+  int slots = 1;
+  std::vector<std::pair<std::string, int>> shared;
+  ModelSide send, receive;
+};
+
+/// A formula over paths. A path holds its index as written: "f[i+1].control.b".
+struct Formula {
+  enum class Kind { path, all_of, any_of, negation, any, all };
+  Kind kind = Kind::path;
+  std::string path;            // of path, any, all
+  std::vector<Formula> parts;  // of all_of (and), any_of (or), negation
+};
+
+struct Property {
+  enum class Kind { never, always, reachable, always_reachable, leads_to };
+  Kind kind = Kind::never;
+  std::string name;  // empty: not written
+  Formula first, second;
+  bool arrow = false;  // leads_to as "F => G"
+};
+
+struct Specification {
+  std::vector<Model> models;
+  std::vector<Agent> templates;
+  std::vector<Agent> agents;
+  std::vector<Channel> channels;
+  std::vector<Property> properties;
+};
+
+/// The subsystems of an agent, its template looked up.
+const std::vector<Subsystem>& subsystems_of(const Specification& specification, const Agent& agent);
+
+/// A path without spaces: `AGENT[INDEX].SUBSYSTEM.BUFFER`.
+std::string written(const End& end);
+std::string written(const Formula& formula);
+std::string kind_name(Property::Kind kind);
+
+/// The whole file, as `tessera` reads it.
+std::string to_yaml(const Specification& specification);
+
+}  // namespace oracle

@@ -33,13 +33,12 @@ T value_or_throw(std::optional<T> value, const std::string& error) {
   return std::move(*value);
 }
 
-report::Drive read_drive(const Floor& floor, const fs::path& trace_file) {
+report::Drive drive_over(const Floor& floor, sim::Trace trace) {
   std::string error;
   std::optional<sim::Track> track = sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
   report::Drive drive;
   drive.floor = value_or_throw(std::move(track), error);
-  std::optional<sim::Trace> trace = sim::read_trace(trace_file.string(), error);
-  drive.trace = value_or_throw(std::move(trace), error);
+  drive.trace = std::move(trace);
   drive.line = sim::skeleton(drive.floor);
   if (!drive.line.points.empty()) drive.metrics = sim::measure(drive.line, drive.trace);
   return drive;
@@ -50,6 +49,7 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
   report::ReportInput input;
   input.recording = value_or_throw(read_recording(outcome.recording.string(), error), error);
   input.drive = std::move(outcome.drive);
+  input.robots = outcome.robots;
   input.simulated_s = outcome.summary.value("simulated_s", 0.0);
   input.wall_s = outcome.summary.value("wall_s", 0.0);
   input.firings = outcome.summary.value("firings", 0ULL);
@@ -68,10 +68,14 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(specification, options);
-  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt};
+  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}};
   if (!specification.model.simulation || !fs::exists(files.trace)) return outcome;
+  std::string error;
+  sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string(), error), error);
+  outcome.robots = trace.robots;
+  if (!outcome.robots.empty()) return outcome;
   if (const std::optional<Floor> floor = floor_of(specification, options))
-    outcome.drive = read_drive(*floor, files.trace);
+    outcome.drive = drive_over(*floor, std::move(trace));
   return outcome;
 }
 
@@ -84,6 +88,7 @@ std::string to_json(const RunOutcome& outcome) {
     result["longest_loss_s"] = line.longest_loss_s;
     result["lateral_error_m"] = {{"mean", line.mean_error_m}, {"max", line.max_error_m}};
   }
+  if (!outcome.robots.empty()) result["robots"] = outcome.robots;
   return result.dump(2) + "\n";
 }
 
@@ -118,6 +123,7 @@ void print(const RunOutcome& outcome) {
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",
                line.laps, line.line_lost_s, line.mean_error_m * 1000, line.max_error_m * 1000);
   }
+  if (!outcome.robots.empty()) fmt::print("{}\n", report::several_robots(outcome.robots));
   fmt::print("recording: {}\n", outcome.recording.string());
 }
 

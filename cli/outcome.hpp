@@ -15,6 +15,7 @@ struct RunOutcome {
   nlohmann::json summary;  ///< simulated_s, wall_s, real_time_factor, firings, ended, failed, subsystems
   std::filesystem::path recording;
   std::optional<report::Drive> drive;
+  std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
 };
 
 /// Reads what the run left. Throws std::runtime_error when something cannot be read.
@@ -22,7 +23,8 @@ struct RunOutcome {
                                       const project::LaunchOptions& options);
 
 /// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}; on
-/// a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}.
+/// a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}; with several
+/// robots in the world "robots" instead.
 [[nodiscard]] std::string to_json(const RunOutcome& outcome);
 
 /// The same for people, on standard output.

@@ -32,6 +32,8 @@ const char* kind_of(const Event& event) {
       return "value";
     case Event::Kind::marking:
       return "marking";
+    case Event::Kind::end:
+      return "end";
   }
   return "";
 }
@@ -66,6 +68,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::log:
     case Event::Kind::value:
     case Event::Kind::marking:
+    case Event::Kind::end:
       return "";
     case Event::Kind::stop:
       return "stop: ";

@@ -8,6 +8,7 @@
 
 #include "report/colours.hpp"
 #include "report/picture.hpp"
+#include "report/text.hpp"
 
 namespace tessera::report {
 namespace {
@@ -116,41 +117,6 @@ void draw_robot(std::string& svg, const sim::TracePoint& at, double height) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\'')
-      result += "&#39;";
-    else if ((code < 0x20 && c != '\n' && c != '\t') || code == 0x7f)
-      result += "\xef\xbf\xbd";
-    else
-      result += c;
-  }
-  return result;
-}
-
-std::string data_uri(std::string_view mime, std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string uri = fmt::format("data:{};base64,", mime);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      uri += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63U];
-  }
-  return uri;
-}
-
 std::string path_svg(const Drive& drive) {
   const double w = drive.floor.width_m();
   const double h = drive.floor.height_m();
@@ -195,35 +161,83 @@ std::string error_svg(const Drive& drive) {
   return svg;
 }
 
+namespace {
+
+constexpr double letter = 7.6, key_row = 18, bar = 22;
+
+/// The names of a lane's behaviours with their colours, in rows that fit beside and below its path.
+class LaneKey {
+ public:
+  explicit LaneKey(const replay::Lane& lane) {
+    double x = left + letter * static_cast<double>(lane.path.size()) + 30;
+    for (std::size_t index = 0; index < lane.behaviours.size(); ++index) {
+      const std::string name = shortened(lane.behaviours[index], 40, 1);
+      const double needed = letter * static_cast<double>(name.size()) + 27;
+      if (x + needed > width - right) {
+        if (rows_ == most_rows) break;
+        ++rows_;
+        x = left;
+      }
+      names_.push_back({x, rows_, index, name});
+      x += needed;
+    }
+    if (names_.size() < lane.behaviours.size() && !names_.empty()) names_.back().name += " \u2026";
+  }
+  [[nodiscard]] double height() const { return key_row * static_cast<double>(rows_); }
+  void draw(std::string& svg, double top) const {
+    for (const Name& name : names_) {
+      const double y = top + key_row * static_cast<double>(name.row);
+      put(svg, R"(<rect class="b{}" x="{:.1f}" y="{:.1f}" width="10" height="10" rx="2"/>)",
+          name.behaviour % 8, name.x, y - 9);
+      put(svg, R"(<text class="key" x="{:.1f}" y="{:.1f}">{}</text>)", name.x + 15, y, escaped(name.name));
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_rows = 4;  // beside the first
+  struct Name {
+    double x;
+    std::size_t row, behaviour;
+    std::string name;
+  };
+  std::size_t rows_ = 0;
+  std::vector<Name> names_;
+};
+
+void draw_lane(std::string& svg, const replay::Lane& lane, const TimeAxis& axis, double end_s, double top) {
+  for (const auto& [behaviour, from_s, to_s] : replay::thinned(lane, end_s, columns)) {
+    put(svg,
+        R"(<rect class="b{}" x="{:.2f}" y="{:.1f}" width="{:.2f}" height="{}"><title>{} {:.2f} .. {:.2f} s</title></rect>)",
+        behaviour % 8, axis.x(from_s), top, std::max(0.6, axis.x(to_s) - axis.x(from_s)), bar,
+        escaped(lane.behaviours[behaviour]), from_s, to_s);
+  }
+  for (const std::size_t i : evenly(lane.errors_s.size(), columns)) {
+    put(svg, R"(<line class="error" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)",
+        axis.x(lane.errors_s[i]), top - 4, top + 4 + bar);
+  }
+}
+
+}  // namespace
+
 std::string timeline_svg(const replay::Timeline& timeline) {
-  constexpr double lane_height = 58, bar = 22;
-  const double bottom = lane_height * static_cast<double>(timeline.lanes.size());
+  constexpr double above = 18, to_bar = 8, below = 10;
+  std::vector<LaneKey> keys;
+  double bottom = 0;
+  for (const replay::Lane& lane : timeline.lanes) {
+    keys.emplace_back(lane);
+    bottom += above + keys.back().height() + to_bar + bar + below;
+  }
   const TimeAxis axis(timeline.end_s);
   std::string svg = svg_head(width, bottom + 30, "Behaviours of each subsystem over time");
   axis.draw(svg, 4, bottom + 4);
   double top = 0;
-  for (const replay::Lane& lane : timeline.lanes) {
-    put(svg, R"(<text class="lane" x="{}" y="{:.1f}">{}</text>)", left, top + 18, escaped(lane.path));
-    double x = width - right;
-    for (std::size_t b = lane.behaviours.size(); b-- > 0;) {  // the key, from the right
-      x -= 7.5 * static_cast<double>(lane.behaviours[b].size()) + 12;
-      put(svg, R"(<text class="key" x="{:.1f}" y="{:.1f}">{}</text>)", x, top + 18,
-          escaped(lane.behaviours[b]));
-      x -= 15;
-      put(svg, R"(<rect class="b{}" x="{:.1f}" y="{:.1f}" width="10" height="10" rx="2"/>)", b % 8, x,
-          top + 9);
-    }
-    for (const auto& [behaviour, from_s, to_s] : replay::thinned(lane, timeline.end_s, columns)) {
-      put(svg,
-          R"(<rect class="b{}" x="{:.2f}" y="{:.1f}" width="{:.2f}" height="{}"><title>{} {:.2f} .. {:.2f} s</title></rect>)",
-          behaviour % 8, axis.x(from_s), top + 26, std::max(0.6, axis.x(to_s) - axis.x(from_s)), bar,
-          escaped(lane.behaviours[behaviour]), from_s, to_s);
-    }
-    for (const std::size_t i : evenly(lane.errors_s.size(), columns)) {
-      put(svg, R"(<line class="error" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)",
-          axis.x(lane.errors_s[i]), top + 22, top + 30 + bar);
-    }
-    top += lane_height;
+  for (std::size_t index = 0; index < keys.size(); ++index) {
+    const replay::Lane& lane = timeline.lanes[index];
+    put(svg, R"(<text class="lane" x="{}" y="{:.1f}">{}</text>)", left, top + above, escaped(lane.path));
+    keys[index].draw(svg, top + above);
+    top += above + keys[index].height() + to_bar;
+    draw_lane(svg, lane, axis, timeline.end_s, top);
+    top += bar + below;
   }
   return svg + "</svg>";
 }

@@ -4,17 +4,23 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "replay/timeline.hpp"
 #include "report/charts.hpp"
 #include "report/colours.hpp"
+#include "report/messages.hpp"
 #include "report/picture.hpp"
 #include "report/style.hpp"
+#include "report/text.hpp"
 
 namespace tessera::report {
 namespace {
 
-constexpr std::size_t most_messages = 400;
+constexpr std::size_t most_messages = 40, most_lanes = 24, most_rows = 40;
 
 template <class... Args>
 void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
@@ -25,14 +31,9 @@ void put_figure(std::string& html, const std::string& value, std::string_view na
   put(html, R"(<div class="figure"><b>{}</b><span>{}</span></div>)", value, name);
 }
 
-/// 1234567 -> "1 234 567" with thin spaces.
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3;) {
-    at -= 3;
-    text.insert(at, "\u2009");
-  }
-  return text;
+/// "287 ×", "0.4 ×".
+std::string factor(double times) {
+  return times < 10 ? fmt::format("{:.1f} \u00d7", times) : fmt::format("{:.0f} \u00d7", times);
 }
 
 void put_figures(std::string& html, const ReportInput& input) {
@@ -49,8 +50,8 @@ void put_figures(std::string& html, const ReportInput& input) {
   }
   put_figure(html, fmt::format("{:.1f} s", input.simulated_s),
              input.recording.clock == "simulated" ? "simulated" : "run");
-  if (input.wall_s > 0)
-    put_figure(html, fmt::format("{:.0f} \u00d7", input.simulated_s / input.wall_s),
+  if (input.wall_s > 0 && input.recording.clock == "simulated")
+    put_figure(html, factor(input.simulated_s / input.wall_s),
                fmt::format("real time ({:.2f} s)", input.wall_s));
   put_figure(html, grouped(input.firings), "transitions fired");
   html += "</div>";
@@ -72,6 +73,31 @@ void put_drive(std::string& html, const Drive& drive) {
       error_svg(drive));
 }
 
+/// Those that matter, then the first, in their order; the rest is only counted.
+template <class Row, class Matters>
+std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters) {
+  if (rows.size() <= most) return 0;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_partition(order, [&](std::size_t row) { return matters(rows[row]); });
+  const std::size_t hidden = rows.size() - most;
+  order.resize(most);
+  std::ranges::sort(order);
+  std::vector<Row> kept;
+  for (const std::size_t row : order) kept.push_back(std::move(rows[row]));
+  rows = std::move(kept);
+  return hidden;
+}
+
+void put_behaviours(std::string& html, replay::Timeline timeline) {
+  const std::size_t hidden =
+      keep_most(timeline.lanes, most_lanes, [](const replay::Lane& lane) { return !lane.errors_s.empty(); });
+  if (timeline.lanes.empty()) return;
+  put(html, R"(<h2>Behaviours</h2><div class="panel">{})", timeline_svg(timeline));
+  if (hidden > 0) put(html, R"(<p class="note">and {} more subsystems</p>)", grouped(hidden));
+  html += "</div>";
+}
+
 void put_subsystems(std::string& html, const ReportInput& input, const replay::Timeline& timeline) {
   std::vector<SubsystemFigures> rows = input.subsystems;
   if (rows.empty()) {
@@ -79,6 +105,8 @@ void put_subsystems(std::string& html, const ReportInput& input, const replay::T
       rows.push_back({lane.path, lane.iterations, 0, lane.errors_s.size()});
   }
   if (rows.empty()) return;
+  const std::size_t hidden = keep_most(
+      rows, most_rows, [](const SubsystemFigures& row) { return row.errors > 0 || row.overruns > 0; });
   html +=
       R"(<h2>Subsystems</h2><div class="panel"><table><tr><th>Subsystem<th class="n">Iterations<th class="n">Overruns<th class="n">Errors</tr>)";
   for (const SubsystemFigures& row : rows) {
@@ -86,12 +114,14 @@ void put_subsystems(std::string& html, const ReportInput& input, const replay::T
         escaped(row.path), grouped(row.iterations), grouped(row.overruns), row.errors > 0 ? " bad" : "",
         grouped(row.errors));
   }
-  html += "</table></div>";
+  html += "</table>";
+  if (hidden > 0) put(html, R"(<p class="note">and {} more subsystems</p>)", grouped(hidden));
+  html += "</div>";
 }
 
 void put_verification(std::string& html, const ReportInput& input) {
   const Recording& recording = input.recording;
-  html += R"(<h2>What ran</h2><div class="panel"><table>)";
+  html += R"(<h2>Verification and recording</h2><div class="panel"><table>)";
   for (const Verdict& verdict : input.verdicts) {
     const char* kind = verdict.result == "holds" ? "good" : verdict.result == "violated" ? "bad" : "warn";
     put(html, R"(<tr><td>{}<td class="{}">{}<td>{}</tr>)", escaped(verdict.property), kind,
@@ -105,42 +135,48 @@ void put_verification(std::string& html, const ReportInput& input) {
   put_fact("clock", recording.clock);
   put_fact("seed", std::to_string(recording.seed));
   put_fact("ended", input.ended);
-  if (recording.truncated) put_fact("recording", "cut off at the end");
   html += "</table></div>";
 }
 
-void put_message(std::string& html, const Recording& recording, const Recording::Entry& entry) {
-  const bool stop = entry.event.kind() == Event::Kind::stop;
-  const bool fault = entry.event.kind() == Event::Kind::fault;
-  const char* kind = fault                      ? "bad"
-                     : stop                     ? ""
-                     : entry.event.version == 1 ? "warn"
-                     : entry.event.version == 2 ? "bad"
-                                                : "";
-  const std::uint32_t instance = entry.event.instance();
+void put_message(std::string& html, const Message& message) {
+  constexpr const char* classes[] = {"bad", "warn", ""};
+  const auto seconds = [](std::int64_t time_ns) { return static_cast<double>(time_ns) * 1e-9; };
+  const std::string times = message.count == 1
+                                ? std::string()
+                                : fmt::format(R"( <span class="note">{} times, last at {:.3f} s</span>)",
+                                              grouped(message.count), seconds(message.last_ns));
   put(html, R"(<tr><td class="n">{:.3f} s<td class="mono">{}<td class="message {}">{}{}</tr>)",
-      static_cast<double>(entry.event.time_ns) * 1e-9,
-      instance < recording.instances.size() ? escaped(recording.instances[instance]) : "system", kind,
-      stop ? "stopped: " : "", escaped(entry.text));
+      seconds(message.first_ns), escaped(message.who), classes[static_cast<std::size_t>(message.weight)],
+      escaped(message.what), times);
 }
 
 void put_messages(std::string& html, const Recording& recording) {
-  std::vector<const Recording::Entry*> messages;
-  for (const auto& entry : recording.entries) {
-    if (entry.event.has_text()) messages.push_back(&entry);
-  }
-  if (messages.empty()) return;
+  const Messages messages = messages_of(recording, most_messages);
+  if (messages.shown.empty()) return;
   html += R"(<h2>Messages</h2><div class="panel"><table>)";
-  const std::size_t hidden = messages.size() > most_messages ? messages.size() - most_messages : 0;
-  for (std::size_t i = 0; i < messages.size(); ++i) {
-    if (hidden > 0 && i == most_messages / 2) {
-      put(html, R"(<tr><td colspan="3" class="note">{} more messages are in the recording</tr>)",
-          grouped(hidden));
-      i += hidden;
-    }
-    put_message(html, recording, *messages[i]);
-  }
-  html += "</table></div>";
+  for (const Message& message : messages.shown) put_message(html, message);
+  html += "</table>";
+  if (messages.hidden > 0)
+    put(html,
+        R"(<p class="note">and {} more messages: <code>tessera replay --print</code> shows them all</p>)",
+        grouped(messages.hidden));
+  html += "</div>";
+}
+
+/// What a reader has to know before the figures.
+void put_notices(std::string& html, const ReportInput& input) {
+  const auto put_notice = [&](const std::string& text) {
+    put(html, R"(<p class="panel notice">{}</p>)", escaped(text));
+  };
+  if (!input.robots.empty()) put_notice(several_robots(input.robots));
+  if (input.recording.segment.value_or(0) > 0)
+    put_notice(
+        "The beginning of the recording is gone (--record-limit): behaviours and messages are those of "
+        "the rest.");
+  if (input.recording.truncated)
+    put_notice("The recording is cut off at its end: what happened after that is not shown.");
+  if (input.recording.lost > 0)
+    put_notice(fmt::format("{} events of the run are missing in the recording.", input.recording.lost));
 }
 
 }  // namespace
@@ -165,14 +201,16 @@ std::string page(const ReportInput& input) {
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\">"
       "<title>{0}</title><style>{1}</style></head>\n<body><main><h1>{0}</h1><p class=\"lead\">{2}</p>\n",
-      name, style, headline(input));
+      name, style,
+      headline(input) +
+          (input.ended.empty() ? "" : " \u00b7 ended: " + escaped(shortened(input.ended, 200, 1))));
+  put_notices(html, input);
   put_figures(html, input);
   if (input.drive && !input.drive->trace.points.empty()) put_drive(html, *input.drive);
-  if (!timeline.lanes.empty())
-    put(html, R"(<h2>Behaviours</h2><div class="panel">{}</div>)", timeline_svg(timeline));
+  put_behaviours(html, timeline);
   put_subsystems(html, input, timeline);
-  put_verification(html, input);
   put_messages(html, input.recording);
+  put_verification(html, input);
   return html + "</main></body></html>\n";
 }
 

@@ -34,6 +34,7 @@ struct Verdict {
 struct ReportInput {
   Recording recording;
   std::optional<Drive> drive;
+  std::string robots;  ///< "rover, rover_2": there is no drive because several robots move; empty: one
   double simulated_s = 0, wall_s = 0;
   std::uint64_t firings = 0;
   std::string ended;                         ///< why the run ended
@@ -46,11 +47,14 @@ struct File {
   std::string bytes;
 };
 
+/// "Several robots move in this world (rover, rover_2): ...", in one sentence.
+[[nodiscard]] std::string several_robots(const std::string& names);
+
 /// A page that needs nothing but itself (pictures inline, no scripts, no network; light and dark, prints
 /// well), and with a drive the picture of the path over the floor: index.html and path.png. All text from
-/// outside is escaped. The same input gives the same bytes. Memory and size stay bounded on long runs: curves
-/// and time lines are thinned to what a page can show, and of many log messages the first and the last are
-/// shown.
+/// outside is escaped, and what is no text is not shown. The same input gives the same bytes. Memory and size
+/// stay bounded on long runs and large fleets: curves and time lines are thinned to what a page can show, of
+/// many subsystems the first are shown, and of many messages the most important.
 ///
 /// Errors:  none of its own; throws std::bad_alloc.
 /// Threads: pure.

@@ -21,6 +21,7 @@ h1{font-size:28px;line-height:1.2;margin:0}h2{font-size:17px;margin:36px 0 10px}
 .figure span{color:var(--soft);font-size:13px}
 .panel{padding:14px;overflow-x:auto}.panel svg{display:block;width:100%;height:auto}
 .floor svg{max-height:80vh;background:#fff;border-radius:4px}
+.notice{border-left:4px solid #b07614;margin:0 0 16px}
 .note{color:var(--soft);font-size:13px;margin:8px 0 0}
 .ramp{display:inline-block;width:120px;height:9px;border-radius:5px;vertical-align:middle;margin:0 6px}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}

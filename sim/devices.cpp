@@ -104,7 +104,7 @@ std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulatio
 std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation, const DriverRequest& request,
                                     std::string& error) {
   if (!options_fit(request, {}, error)) return nullptr;
-  const auto actuator = simulation->find_actuator(request.target, error);
+  const auto actuator = simulation->add_actuator(request.target, error);
   if (!actuator) return nullptr;
   return std::make_unique<Wheel>(std::move(simulation), request.path, *actuator);
 }

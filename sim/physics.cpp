@@ -1,5 +1,6 @@
 #include "sim/physics.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -56,24 +57,27 @@ std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& err
   mju_user_warning = on_warning;
   std::array<char, 1024> message{};
   std::unique_ptr<mjModel, Release> model;
-  std::unique_ptr<mjData, Release> data;
+  std::unique_ptr<mjData, Release> data, view;
   std::string complaint = complaint_of([&] {
     model.reset(mj_loadXML(mjcf.c_str(), nullptr, message.data(), static_cast<int>(message.size())));
     if (model) data.reset(mj_makeData(model.get()));
+    if (model) view.reset(mj_makeData(model.get()));
   });
   if (model && data && complaint.empty() && model->opt.timestep > 0.1)
     complaint = "the time step is longer than 0.1 s";
-  if (!model || !data || !complaint.empty()) {
+  if (!model || !data || !view || !complaint.empty()) {
     if (complaint.empty()) complaint = message.data();
     error = mjcf + ": " + complaint;
     return nullptr;
   }
-  return std::unique_ptr<Physics>(new Physics(model.release(), data.release(), std::move(complaint)));
+  return std::unique_ptr<Physics>(
+      new Physics(model.release(), data.release(), view.release(), std::move(complaint)));
 }
 
-Physics::Physics(mjModel* model, mjData* data, std::string&& failure)
+Physics::Physics(mjModel* model, mjData* data, mjData* view, std::string&& failure)
     : model_(model),
       data_(data),
+      view_(view),
       failure_(std::move(failure)),
       step_(std::llround(model->opt.timestep * 1e9)),
       robot_joint_(first_free_joint(*model)) {}
@@ -89,19 +93,54 @@ void Physics::step() {
   failure_ = when.data() + complaint;
 }
 
-void Physics::locate() {
+/// What the engine complains of here it complains of at the next step too, which stops the run.
+void Physics::locate() const {
   if (located_ || !failure_.empty()) return;
-  failure_ = complaint_of([&] { mj_kinematics(model_.get(), data_.get()); });
+  std::copy_n(data_->qpos, model_->nq, view_->qpos);
+  std::copy_n(data_->mocap_pos, 3 * model_->nmocap, view_->mocap_pos);
+  std::copy_n(data_->mocap_quat, 4 * model_->nmocap, view_->mocap_quat);
+  static_cast<void>(complaint_of([&] { mj_kinematics(model_.get(), view_.get()); }));
   located_ = true;
 }
 
-std::optional<Pose> Physics::robot() {
+std::optional<Pose> Physics::robot() const {
   if (robot_joint_ < 0) return std::nullopt;
+  return pose({model_->jnt_bodyid[robot_joint_]});
+}
+
+Pose Physics::pose(Root root) const {
   locate();
-  const int body = model_->jnt_bodyid[robot_joint_];
-  const mjtNum* at = data_->xpos + 3 * body;
-  const mjtNum* axes = data_->xmat + 9 * body;
-  return Pose{{at[0], at[1]}, std::atan2(axes[3], axes[0])};
+  const mjtNum* at = view_->xpos + 3 * root.body;
+  const mjtNum* axes = view_->xmat + 9 * root.body;
+  return {{at[0], at[1]}, std::atan2(axes[3], axes[0])};
+}
+
+std::string Physics::name(Root root) const {
+  const char* name = mj_id2name(model_.get(), mjOBJ_BODY, root.body);
+  return name != nullptr && *name != '\0' ? name : "body " + std::to_string(root.body);
+}
+
+Physics::Root Physics::root_of_site(int site) const {
+  return {model_->body_rootid[model_->site_bodyid[site]]};
+}
+
+std::optional<Physics::Root> Physics::root_of_actuator(int actuator) const {
+  const int target = model_->actuator_trnid[2 * actuator];
+  if (target < 0) return std::nullopt;
+  int body = 0;
+  switch (model_->actuator_trntype[actuator]) {
+    case mjTRN_JOINT:
+    case mjTRN_JOINTINPARENT:
+      body = model_->jnt_bodyid[target];
+      break;
+    case mjTRN_SITE:
+    case mjTRN_SLIDERCRANK:
+      body = model_->site_bodyid[target];
+      break;
+    default:
+      return std::nullopt;
+  }
+  return Root{model_->body_rootid[body]};
 }
 
 void Physics::place_robot(const Pose& pose) {
@@ -128,9 +167,9 @@ std::optional<int> Physics::actuator(const std::string& name) const {
   return found(mj_name2id(model_.get(), mjOBJ_ACTUATOR, name.c_str()));
 }
 
-Point Physics::site_position(int site) {
+Point Physics::site_position(int site) const {
   locate();
-  return {data_->site_xpos[3 * site], data_->site_xpos[3 * site + 1]};
+  return {view_->site_xpos[3 * site], view_->site_xpos[3 * site + 1]};
 }
 
 void Physics::command(int actuator, double value) { data_->ctrl[actuator] = value; }

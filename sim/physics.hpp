@@ -17,6 +17,9 @@ namespace tessera::sim {
 /// simulation is a warning to it), stops this physics for good and is in failure(); it never ends the
 /// process.
 ///
+/// *Reading does not disturb.* Whatever is asked, and how often, the next steps have the same bits: positions
+/// are worked out on a copy of the state, because the engine rounds the state when it works them out.
+///
 /// Threads: one at a time.
 class Physics {
  public:
@@ -30,12 +33,24 @@ class Physics {
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
   /// Where the body on the first free joint is: the robot. nullopt when nothing in the world is free to move.
-  [[nodiscard]] std::optional<Pose> robot();
+  [[nodiscard]] std::optional<Pose> robot() const;
   /// Puts the robot there, at rest, as high as the world file says. Needs robot().
   void place_robot(const Pose& pose);
 
+  /// A body that is attached to the world itself, fixed or free to move, with all that hangs on it: a robot,
+  /// an arm, a ball.
+  struct Root {
+    int body = 0;
+    friend auto operator<=>(const Root&, const Root&) = default;
+  };
+  [[nodiscard]] Root root_of_site(int site) const;
+  /// nullopt: the actuator moves no body of its own, such as a tendon between two.
+  [[nodiscard]] std::optional<Root> root_of_actuator(int actuator) const;
+  [[nodiscard]] Pose pose(Root root) const;
+  [[nodiscard]] std::string name(Root root) const;
+
   [[nodiscard]] std::optional<int> site(const std::string& name) const;
-  [[nodiscard]] Point site_position(int site);
+  [[nodiscard]] Point site_position(int site) const;
   [[nodiscard]] std::optional<int> actuator(const std::string& name) const;
   void command(int actuator, double value);
   [[nodiscard]] std::vector<std::string> sites() const { return names(mjOBJ_SITE, model_->nsite); }
@@ -46,18 +61,19 @@ class Physics {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
     void operator()(mjData* data) const { mj_deleteData(data); }
   };
-  Physics(mjModel* model, mjData* data, std::string&& failure);
-  /// Brings the positions of bodies and sites up to the state.
-  void locate();
+  Physics(mjModel* model, mjData* data, mjData* view, std::string&& failure);
+  /// Brings the positions of bodies and sites in `view_` up to the state.
+  void locate() const;
   [[nodiscard]] std::vector<std::string> names(mjtObj type, int count) const;
 
   std::unique_ptr<mjModel, Release> model_;
   std::unique_ptr<mjData, Release> data_;
+  std::unique_ptr<mjData, Release> view_;  // what readers look at
   std::string failure_;
   Duration step_{0};
   std::int64_t steps_ = 0;
   int robot_joint_ = -1;
-  bool located_ = false;
+  mutable bool located_ = false;
 };
 
 }  // namespace tessera::sim

@@ -41,7 +41,9 @@ void Simulation::advance_to(Time time) {
 void Simulation::sample() {
   next_sample_ += sampling_period;
   if (!trace_.wanted()) return;
-  const Pose robot = physics_->robot().value_or(Pose{});
+  trace_.begin(robot_names());
+  if (robots_.size() > 1) return;
+  const Pose robot = robots_.empty() ? physics_->robot().value_or(Pose{}) : physics_->pose(*robots_.begin());
   TracePoint point{.t_s = seconds(physics_->time()),
                    .x_m = robot.at.x_m,
                    .y_m = robot.at.y_m,
@@ -57,8 +59,15 @@ void Simulation::sample() {
   trace_.add(point);
 }
 
+std::vector<std::string> Simulation::robot_names() const {
+  std::vector<std::string> names;
+  for (const Physics::Root robot : robots_) names.push_back(physics_->name(robot));
+  return names;
+}
+
 bool Simulation::finish(std::string& error) {
   const std::scoped_lock lock(mutex_);
+  trace_.begin(robot_names());  // of a run that has ended before it began
   const bool written = trace_.finish(error);
   if (!physics_->failure().empty()) {
     error = physics_->failure();
@@ -75,13 +84,18 @@ std::optional<int> Simulation::add_eye(const std::string& site, double footprint
     return std::nullopt;
   }
   eyes_.push_back({*id, footprint_m});
+  robots_.insert(physics_->root_of_site(*id));
   return static_cast<int>(eyes_.size()) - 1;
 }
 
-std::optional<int> Simulation::find_actuator(const std::string& name, std::string& error) const {
+std::optional<int> Simulation::add_actuator(const std::string& name, std::string& error) {
   const std::scoped_lock lock(mutex_);
   const auto id = physics_->actuator(name);
-  if (!id) error = unknown_name("actuator", name, physics_->actuators());
+  if (!id) {
+    error = unknown_name("actuator", name, physics_->actuators());
+    return std::nullopt;
+  }
+  if (const auto root = physics_->root_of_actuator(*id)) robots_.insert(*root);
   return id;
 }
 
@@ -92,7 +106,7 @@ double Simulation::light_at(int eye) {
   return light;
 }
 
-double Simulation::light_under(const Eye& eye) {
+double Simulation::light_under(const Eye& eye) const {
   return floor_ ? floor_->reflectance(physics_->site_position(eye.site), eye.footprint_m) : 1;
 }
 

@@ -3,6 +3,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "sim/physics.hpp"
@@ -11,7 +13,8 @@
 
 namespace tessera::sim {
 
-/// What a world and its devices share: physics over a floor, and the trace of the robot.
+/// What a world and its devices share: physics over a floor, and the trace of the robot: of the body that the
+/// devices are on. When they are on several, no path is that of the robot, and the trace only names them.
 ///
 /// Threads: all members lock.
 class Simulation {
@@ -25,7 +28,8 @@ class Simulation {
   /// The site as a light sensor, which from now on counts for the trace. nullopt and `error` when there is
   /// none.
   [[nodiscard]] std::optional<int> add_eye(const std::string& site, double footprint_m, std::string& error);
-  [[nodiscard]] std::optional<int> find_actuator(const std::string& name, std::string& error) const;
+  /// The body that it moves counts for the trace too.
+  [[nodiscard]] std::optional<int> add_actuator(const std::string& name, std::string& error);
 
   /// 0 dark .. 1 bright, without noise. Throws std::runtime_error once the physics has failed.
   [[nodiscard]] double light_at(int eye);
@@ -37,14 +41,16 @@ class Simulation {
     int site;
     double footprint_m;
   };
-  [[nodiscard]] double light_under(const Eye& eye);
+  [[nodiscard]] double light_under(const Eye& eye) const;
   void sample();
+  [[nodiscard]] std::vector<std::string> robot_names() const;
   void throw_failure() const;
 
   mutable std::mutex mutex_;
   std::unique_ptr<Physics> physics_;
   std::optional<Track> floor_;
   std::vector<Eye> eyes_;
+  std::set<Physics::Root> robots_;  // that have devices
   TraceWriter trace_;
   Duration next_sample_{0};
 };

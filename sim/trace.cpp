@@ -1,14 +1,11 @@
 #include "sim/trace.hpp"
 
 #include <charconv>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 
 namespace tessera::sim {
 namespace {
-
-constexpr std::string_view column_names = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line";
 
 /// Takes the number up to the next comma off `line`.
 bool take(std::string_view& line, double& value) {
@@ -41,13 +38,20 @@ std::optional<Trace> read_trace(const std::string& path, std::string& error) {
     error = path + ": cannot be read";
     return std::nullopt;
   }
-  if (!std::getline(file, line) || line != column_names) {
-    error = path + ": no trace (its first line is not \"" + std::string(column_names) + "\")";
+  Trace trace;
+  std::size_t number = 1;
+  std::getline(file, line);
+  if (line.starts_with(several_robots)) {
+    trace.robots = line.substr(several_robots.size());
+    std::getline(file, line);
+    ++number;
+  }
+  if (!file || line != trace_columns) {
+    error = path + ": no trace (its first line is not \"" + std::string(trace_columns) + "\")";
     return std::nullopt;
   }
-  Trace trace;
-  trace.robot = std::filesystem::path(path).stem().string();
-  for (std::size_t number = 2; std::getline(file, line); ++number) {
+  while (std::getline(file, line)) {
+    ++number;
     const auto point = parse_point(line);
     if (!point) {
       error = path + ":" + std::to_string(number) + ": not seven numbers";

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera::sim {
@@ -16,11 +17,16 @@ struct TracePoint {
 };
 
 /// The path of one robot: a file of comma-separated values, one line a point, after a line of column names
-/// "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line". The same run writes the same bytes.
+/// "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line". The same run writes the same bytes. When the devices
+/// are on several bodies, no path is that of the robot: a line "# several robots: NAME, NAME" comes first,
+/// and there are no points.
 struct Trace {
-  std::string robot;  ///< name of the body in the world
+  std::string robots;  ///< "rover, rover_2"; empty: there is one
   std::vector<TracePoint> points;
 };
+
+inline constexpr std::string_view trace_columns = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line";
+inline constexpr std::string_view several_robots = "# several robots: ";
 
 /// nullopt and `error` when the file cannot be read or is no trace.
 [[nodiscard]] std::optional<Trace> read_trace(const std::string& path, std::string& error);

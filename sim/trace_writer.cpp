@@ -22,7 +22,19 @@ TraceWriter::TraceWriter(std::string path) : path_(std::move(path)) {
   if (!wanted()) return;
   file_.open(path_, std::ios::binary);
   if (!file_) reason_ = std::string(": ") + std::strerror(errno);
-  file_ << "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line\n";
+}
+
+void TraceWriter::begin(const std::vector<std::string>& robots) {
+  if (!wanted() || begun_) return;
+  begun_ = true;
+  if (robots.size() > 1) {
+    file_ << several_robots;
+    for (std::size_t index = 0; index < robots.size(); ++index)
+      file_ << (index > 0 ? ", " : "") << robots[index];
+    file_ << '\n';
+  }
+  file_ << trace_columns << '\n';
+  file_.flush();
 }
 
 void TraceWriter::add(const TracePoint& point) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "sim/trace.hpp"
 
@@ -15,6 +16,8 @@ class TraceWriter {
   /// An empty path: writes nothing. Whether the file can be written, finish() says.
   explicit TraceWriter(std::string path);
   [[nodiscard]] bool wanted() const { return !path_.empty(); }
+  /// Before the points; the first call counts. robots: bodies with devices; of more than one there are no points.
+  void begin(const std::vector<std::string>& robots);
   void add(const TracePoint& point);
   /// Flushes. false and `error` when any of it could not be written.
   [[nodiscard]] bool finish(std::string& error);
@@ -23,6 +26,7 @@ class TraceWriter {
   std::string path_;
   std::string reason_;  ///< why it could not be opened
   std::ofstream file_;
+  bool begun_ = false;
   std::chrono::steady_clock::time_point flushed_{};
 };
 

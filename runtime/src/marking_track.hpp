@@ -25,6 +25,8 @@ class MarkingTrack {
   /// Of one that may not fire, because events are missing, the marking is not known any more.
   void fire(const Event& firing);
   [[nodiscard]] bool known() const { return known_; }
+  /// From now on firings come in any order.
+  void forget() { known_ = false; }
   /// Names of the places that hold a token, a line each.
   [[nodiscard]] std::string marked() const;
 

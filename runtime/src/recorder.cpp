@@ -17,7 +17,6 @@ namespace tessera {
 namespace {
 
 constexpr std::int64_t drain_period_ns = 5'000'000;
-constexpr std::uint32_t stuck_after_rounds = 100;  // half a second, and more
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
 }  // namespace
@@ -26,16 +25,26 @@ static_assert(std::endian::native == std::endian::little, "recordings are little
 
 namespace {
 
-/// Segments that an earlier recording of that name has left would be read with this one.
-void remove_segments(const std::string& path) {
+/// Segments that an earlier recording of that name has left would be read with this one. Other files of such
+/// a name are not ours to remove or to write over: false and `error`.
+bool remove_segments(const std::string& path, std::string& error) {
   namespace fs = std::filesystem;
   const fs::path whole(path);
   std::error_code ignored;
+  std::vector<fs::path> segments;
   const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (fs::path(without_segment_number(entry.path().string())).filename() == whole.filename())
-      fs::remove(entry.path(), ignored);
+    const std::string name = entry.path().string();
+    if (fs::path(without_segment_number(name)).filename() != whole.filename()) continue;
+    const auto number = segment_number_in(name);
+    if (!number || fs::path(segment_path(path, *number)).filename() != entry.path().filename()) {
+      error = fmt::format("'{}' is in the way: a recording with a limit leaves files of such names", name);
+      return false;
+    }
+    segments.push_back(entry.path());
   }
+  for (const fs::path& segment : segments) fs::remove(segment, ignored);
+  return true;
 }
 
 }  // namespace
@@ -53,7 +62,7 @@ bool RecordingFile::open(const std::string& path, std::string_view header, std::
           fmt::format("the limit of the recording is too small: it needs two segments of {} bytes", least);
       return false;
     }
-    remove_segments(path);
+    if (!remove_segments(path, error)) return false;
   }
   if (open_segment()) return true;
   error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
@@ -88,7 +97,10 @@ void RecordingFile::append(const Event& event) {
     ++lost_;
     return;
   }
-  if (track_ != nullptr) keep_track(event);
+  const bool is_head = pieces_left_ == 0;
+  if (is_head && track_ != nullptr) keep_track(event);
+  pieces_left_ = is_head ? event.pieces() : pieces_left_ - 1;
+  if (is_head) last_ns_ = std::max(last_ns_, event.time_ns);
   put(event);
 }
 
@@ -98,19 +110,27 @@ void RecordingFile::put(const Event& event) {
   if (filled_ == buffer_.size()) flush();
 }
 
+/// Each segment ends with an event that says so.
 void RecordingFile::keep_track(const Event& event) {
-  if (pieces_left_ > 0) {
-    --pieces_left_;
-    return;
-  }
-  if (segment_bytes_ + (1 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
+  if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
     begin_segment(event.time_ns);
-  pieces_left_ = event.pieces();
   if (event.kind() == Event::Kind::firing) track_->fire(event);
+}
+
+void RecordingFile::put_end(std::uint64_t lost, bool goes_on) {
+  put({.time_ns = last_ns_,
+       .subject = static_cast<std::uint32_t>(std::min<std::uint64_t>(lost, UINT32_MAX)),
+       .version = goes_on ? 1U : 0U,
+       .origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::end)});
+}
+
+void RecordingFile::put_end(std::uint64_t lost) {
+  if (failure_.empty()) put_end(lost, /*goes_on=*/false);
 }
 
 /// The last one gets its number, the one that is too old goes.
 void RecordingFile::begin_segment(std::int64_t time_ns) {
+  put_end(0, /*goes_on=*/true);
   flush();
   if (!failure_.empty()) return;
   ::close(descriptor_);
@@ -171,7 +191,7 @@ Event RecordingLane::event(Event::Kind kind, Time time) {
 
 void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t version) {
   Event fired = event(Event::Kind::firing, time);
-  if (!has_room(1)) return;
+  if (!has_room(1)) return has_lost_firings_.store(true, std::memory_order_relaxed);
   fired.subject = transition;
   fired.version = version;
   push(fired);
@@ -267,14 +287,15 @@ bool RecordingLane::drain(bool in_order) {
       file_.append(ring_[next & (ring_.size() - 1)]);
   }
   drained_.store(next, std::memory_order_release);
-  held_up_ = next == begin && next != end ? held_up_ + 1 : 0;
   return next != begin;
 }
 
-bool RecordingLane::is_stuck() {
+RecordingLane::Backlog RecordingLane::backlog() const {
   const std::uint64_t left =
       published_.load(std::memory_order_acquire) - drained_.load(std::memory_order_relaxed);
-  return left > ring_.size() / 2 || held_up_ > stuck_after_rounds;
+  return {.waits = left > 0,
+          .is_high = left > ring_.size() / 4 * 3,
+          .has_lost = has_lost_firings_.load(std::memory_order_relaxed)};
 }
 
 // ------------------------------------------------------------------------------------------------ recorder
@@ -306,38 +327,58 @@ Recorder::~Recorder() {
 void Recorder::write_until_closed() {
   WakeWord never;  // only its timeout ends the wait: producers must not pay for waking a writer
   while (closing_.load(std::memory_order_acquire) == 0) {
-    drain_in_order();
+    drain();
     file_.flush();
     never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
   }
 }
 
-/// Segments can be checked by themselves because every firing comes after those it follows from. What those
-/// wait for that are stuck has been lost.
+void Recorder::drain() {
+  if (file_.track() != nullptr) return drain_in_order();
+  for (const auto& lane : lanes_) lane->drain();
+}
+
+/// Segments can be checked by themselves because every firing comes after those it follows from. A firing
+/// waits for those as long as its thread and theirs need, however busy the machine is: only when one of them
+/// is lost, or events are soon lost, the rest is written as it comes.
 void Recorder::drain_in_order() {
-  if (file_.track() == nullptr) {
-    for (const auto& lane : lanes_) lane->drain();
-    return;
-  }
-  for (bool moved = true; moved;) {
+  bool moved = true, give_up = false;
+  while (moved && !give_up) {
     moved = false;
-    for (const auto& lane : lanes_) moved = lane->drain(/*in_order=*/true) || moved;
+    for (const auto& lane : lanes_) {
+      const bool this_one = lane->drain(/*in_order=*/true);
+      moved = moved || this_one;
+      give_up = give_up || (!this_one && lane->backlog().is_high);
+    }
   }
-  for (const auto& lane : lanes_)
-    if (lane->is_stuck()) lane->drain();
+  if (!give_up && !waits_for_what_is_lost()) return;
+  file_.forget_marking();
+  for (const auto& lane : lanes_) lane->drain();
+}
+
+bool Recorder::waits_for_what_is_lost() const {
+  const auto any = [&](bool RecordingLane::Backlog::*what) {
+    return std::ranges::any_of(lanes_, [&](const auto& lane) { return lane->backlog().*what; });
+  };
+  return any(&RecordingLane::Backlog::has_lost) && any(&RecordingLane::Backlog::waits);
 }
 
 Recorder::Result Recorder::close() {
   closing_.store(1, std::memory_order_release);
   if (writer_.joinable()) {
     writer_.join();
-    drain_in_order();
+    drain();
     for (const auto& lane : lanes_) lane->drain();
   }
+  std::uint64_t lost = file_.lost();
+  for (const auto& lane : lanes_) lost += lane->lost();
+  file_.put_end(lost);
   file_.close();
-  Result result{.lost = file_.lost(), .failure = file_.failure()};
-  for (const auto& lane : lanes_) result.lost += lane->lost();
-  return result;
+  if (!file_.failure().empty()) {  // of closing too
+    lost = file_.lost();
+    for (const auto& lane : lanes_) lost += lane->lost();
+  }
+  return {.lost = lost, .failure = file_.failure()};
 }
 
 }  // namespace tessera

@@ -36,6 +36,13 @@ class RecordingFile {
   ~RecordingFile();
 
   void append(const Event& event);
+  /// The order of what follows is not known: neither is the marking that a later segment begins with.
+  void forget_marking() {
+    if (track_ != nullptr) track_->forget();
+  }
+  /// The last event of all, which tells a run that has ended from one that was cut off. lost: events that
+  /// are missing.
+  void put_end(std::uint64_t lost);
   void flush();
   void close();
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
@@ -48,12 +55,14 @@ class RecordingFile {
   void keep_track(const Event& event);
   void begin_segment(std::int64_t time_ns);
   void put(const Event& event);
+  void put_end(std::uint64_t lost, bool goes_on);
   void write_all(const char* bytes, std::size_t count);
   std::string path_, header_;
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;
   std::uint64_t pieces_left_ = 0;  // of the text of the last event
+  std::int64_t last_ns_ = 0;       // the latest event
   int descriptor_ = -1;
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
@@ -81,8 +90,13 @@ class RecordingLane {
   /// What is in the ring goes to the file; in_order: up to a firing that follows from one which is not there
   /// yet. true: there was something.
   bool drain(bool in_order = false);
-  /// It holds so much, or has held up for so long, that what it waits for must be lost.
-  [[nodiscard]] bool is_stuck();
+  /// The writer's view of it.
+  struct Backlog {
+    bool waits = false;     ///< something is in the ring
+    bool is_high = false;   ///< so much that events are soon lost
+    bool has_lost = false;  ///< a firing, for ever
+  };
+  [[nodiscard]] Backlog backlog() const;
 
  private:
   [[nodiscard]] Event event(Event::Kind kind, Time time);
@@ -98,8 +112,8 @@ class RecordingLane {
   std::vector<Event> ring_;         // empty: append at once; otherwise a power of two
   std::uint64_t pushed_ = 0;        // the producer's
   std::uint64_t seen_drained_ = 0;  // the producer's last look at drained_
-  std::uint32_t held_up_ = 0;       // the writer's: rounds without a move
   alignas(64) std::atomic<std::uint64_t> published_{0};
+  std::atomic<bool> has_lost_firings_{false};
   alignas(64) std::atomic<std::uint64_t> drained_{0};
 };
 
@@ -129,7 +143,9 @@ class Recorder {
  private:
   Recorder() = default;
   void write_until_closed();
+  void drain();
   void drain_in_order();
+  [[nodiscard]] bool waits_for_what_is_lost() const;
   RecordingFile file_;
   std::vector<std::unique_ptr<RecordingLane>> lanes_;
   std::atomic<std::uint32_t> closing_{0};

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -79,6 +80,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::stop:
     case Event::Kind::overrun:
     case Event::Kind::marking:
+    case Event::Kind::end:
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&
@@ -143,6 +145,12 @@ std::size_t RecordingReader::take_events(std::string_view bytes) {
     if (!makes_sense(entry.event, recording_)) {
       give_up("is damaged");
       break;
+    }
+    has_ended_ = entry.event.kind() == Event::Kind::end;
+    if (has_ended_) {
+      recording_.lost += entry.event.subject;
+      bytes.remove_prefix(sizeof(Event));
+      continue;
     }
     std::size_t padded = 0;
     if (entry.event.has_text()) {
@@ -223,13 +231,43 @@ namespace {
                                                    : reader.problem());
     return std::nullopt;
   }
-  reader.recording().truncated = !reader.problem().empty() || reader.pending() > 0;
+  reader.recording().truncated = !reader.problem().empty() || !reader.has_ended() || reader.pending() > 0;
   return std::move(reader.recording());
 }
 
 /// What the headers of segments of one run have in common.
 [[nodiscard]] std::string_view without_segment(std::string_view header) {
   return header.substr(0, header.rfind(",\"segment\":"));
+}
+
+/// Newest first; at least one.
+[[nodiscard]] Recording joined(std::vector<Recording> segments) {
+  Recording all = std::move(segments.back());
+  for (segments.pop_back(); !segments.empty(); segments.pop_back()) {
+    Recording& next = segments.back();
+    std::move(next.entries.begin(), next.entries.end(), std::back_inserter(all.entries));
+    all.truncated = all.truncated || next.truncated;
+    all.lost += next.lost;
+  }
+  return all;
+}
+
+/// One more than the number of the newest segment beside it; 0: there is none. The newest file is not there,
+/// or has no header yet, when the controller was killed or the disk was full while it was begun.
+[[nodiscard]] std::uint64_t after_newest_number(const std::string& file) {
+  const std::filesystem::path whole(file);
+  std::error_code ignored;
+  std::uint64_t after = 0;
+  const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string path = entry.path().string();
+    if (std::filesystem::path(without_segment_number(path)).filename() != whole.filename()) continue;
+    const std::string digits = entry.path().stem().extension().string().substr(1);
+    std::uint64_t number = 0;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), number).ec == std::errc{})
+      after = std::max(after, number + 1);
+  }
+  return after;
 }
 
 }  // namespace
@@ -248,27 +286,47 @@ std::string without_segment_number(const std::string& path) {
   return (whole.parent_path() / (stem.stem().string() + whole.extension().string())).string();
 }
 
+std::optional<std::uint64_t> segment_number_in(const std::string& file) {
+  std::ifstream bytes(file, std::ios::binary);
+  std::string start(recording_magic.size() + sizeof(std::uint32_t), '\0');
+  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) ||
+      !start.starts_with(recording_magic))
+    return std::nullopt;
+  std::uint32_t length = 0;
+  std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);
+  if (length > longest_recording_header) return std::nullopt;
+  std::string header(length, '\0');
+  if (!bytes.read(header.data(), length)) return std::nullopt;
+  constexpr std::string_view key = ",\"segment\":";
+  const std::size_t at = header.rfind(key);
+  std::uint64_t number = 0;
+  if (at == std::string::npos ||
+      std::from_chars(header.data() + at + key.size(), header.data() + header.size(), number).ec !=
+          std::errc{})
+    return std::nullopt;
+  return number;
+}
+
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   const bool folder = std::filesystem::is_directory(path);
   const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
   std::optional<Recording> newest = read_segment(file, error);
-  if (!newest || newest->segment.value_or(0) == 0 || !without_segment_number(file).empty()) return newest;
+  if (newest && (newest->segment.value_or(0) == 0 || !without_segment_number(file).empty())) return newest;
+  std::uint64_t number = newest ? *newest->segment : after_newest_number(file);
   std::vector<Recording> segments;
-  std::uint64_t number = *newest->segment;
-  segments.push_back(std::move(*newest));
+  if (newest) segments.push_back(std::move(*newest));
+  const bool newest_is_missing = !newest;
   while (number > 0) {
     std::string none;
     std::optional<Recording> before = read_segment(segment_path(file, --number), none);
-    if (!before || without_segment(before->header) != without_segment(segments.front().header)) break;
+    if (!before ||
+        (!segments.empty() && without_segment(before->header) != without_segment(segments.front().header)))
+      break;
     segments.push_back(std::move(*before));
   }
-  Recording all = std::move(segments.back());
-  segments.pop_back();
-  for (; !segments.empty(); segments.pop_back()) {
-    std::move(segments.back().entries.begin(), segments.back().entries.end(),
-              std::back_inserter(all.entries));
-    all.truncated = all.truncated || segments.back().truncated;
-  }
+  if (segments.empty()) return std::nullopt;
+  Recording all = joined(std::move(segments));
+  all.truncated = all.truncated || newest_is_missing;
   return all;
 }
 

@@ -28,13 +28,13 @@ class RecordingStream {
   [[nodiscard]] bool begins() const { return begins_; }
   /// There may be more at once.
   [[nodiscard]] bool more() const { return more_; }
-  /// A segment was damaged, or the last piece ended within an entry.
+  /// A segment was damaged, or the end of the last one is missing: it was cut off, or is still being written.
   [[nodiscard]] bool is_cut() const { return damaged_ || (reader_ && is_cut(*reader_)); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
   [[nodiscard]] static bool is_cut(const RecordingReader& reader) {
-    return !reader.problem().empty() || reader.pending() > 0;
+    return !reader.problem().empty() || !reader.has_ended() || reader.pending() > 0;
   }
   Source source_;
   std::shared_ptr<RecordingReader> reader_;

@@ -154,6 +154,7 @@ class Content {
     content_["last"] = total_ > 0 ? json(last_ns_) : json();
     content_["total"] = total_;
     content_["dropped"] = dropped_;
+    content_["cut"] = is_cut;
     content_["truncated"] = dropped_ > 0 || !values_.complete() || is_cut;
     values_.show_what_was(span_.from_ns);
     content_["values"] = values_.take();

@@ -29,7 +29,7 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "truncated", "path", "track"} of docs/studio.md: at most most_firings, most_samples (of
+  /// "values", "cut", "truncated", "path", "track"} of docs/studio.md: at most most_firings, most_samples (of
   /// values, together) and most_points of the span. nullopt: there is none of that name. Throws
   /// std::runtime_error when it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;

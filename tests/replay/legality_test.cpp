@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <random>
 
@@ -158,6 +159,109 @@ Recording::Entry marking_after(Recording run, std::size_t count, const net::Net&
               .subject = static_cast<std::uint32_t>(text.size())};
   event.origin = upper_layers << 8 | static_cast<std::uint32_t>(Event::Kind::marking);
   return {event, text};
+}
+
+/// What a killed controller leaves of it: each subsystem's events up to any point.
+Recording cut_off(const Recording& run, Random& random) {
+  Recording cut = as_of_threads(run, random);
+  std::map<std::uint32_t, std::uint32_t> left;
+  for (const Recording::Entry& entry : cut.entries) {
+    const std::uint32_t instance = entry.event.instance();
+    if (!left.contains(instance)) left[instance] = static_cast<std::uint32_t>(random() % 80);
+  }
+  std::erase_if(cut.entries, [&](const Recording::Entry& entry) {
+    std::uint32_t& count = left[entry.event.instance()];
+    return count == 0 || count-- == 0;
+  });
+  cut.truncated = true;
+  return cut;
+}
+
+TEST(Legality, WhatAKilledControllerLeavesIsNeverIllegal) {
+  Random random(19);
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    const net::Net net = test::build(test::random_model(seed)).net;
+    const Recording run = random_run(net, 400, random);
+    for (int cut = 0; cut < 5; ++cut) {
+      const Legality legality = check_legal(cut_off(run, random), net);
+      EXPECT_EQ(legality.verdict, Verdict::incomplete) << seed << ": " << legality.why;
+    }
+  }
+}
+
+TEST(Legality, ARunOfThreadsThatHasLostEventsIsNeverIllegal) {
+  Random random(23);
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    const net::Net net = test::build(test::random_model(seed)).net;
+    Recording run = as_of_threads(random_run(net, 400, random), random);
+    for (std::uint32_t lost = 0; lost < 1 + seed % 20 && !run.entries.empty(); ++lost) {
+      run.entries.erase(run.entries.begin() + static_cast<std::ptrdiff_t>(random() % run.entries.size()));
+      ++run.lost;
+    }
+    const Legality legality = check_legal(run, net);
+    EXPECT_EQ(legality.verdict, Verdict::incomplete) << seed << ": " << legality.why;
+  }
+}
+
+/// Each makes something of the event with that number that no run can have left.
+const std::map<std::string, std::function<void(Recording&, std::size_t)>> mutations = {
+    {"twice",
+     [](Recording& run, std::size_t at) {
+       run.entries.insert(run.entries.begin() + static_cast<std::ptrdiff_t>(at), run.entries[at]);
+     }},
+    {"left out", [](Recording& run, std::size_t at) { run = without(run, at); }},
+    {"another transition",
+     [](Recording& run, std::size_t at) {
+       Event& event = run.entries[at].event;
+       const std::uint32_t other = (event.subject + 1) % static_cast<std::uint32_t>(run.transitions.size());
+       event.subject = other;
+     }},
+    {"exchanged with the next", [](Recording& run, std::size_t at) {
+       const auto same = [&](const Recording::Entry& entry) {
+         return entry.event.instance() == run.entries[at].event.instance();
+       };
+       const auto next =
+           std::find_if(run.entries.begin() + static_cast<std::ptrdiff_t>(at) + 1, run.entries.end(), same);
+       if (next != run.entries.end()) std::swap(run.entries[at].event.sequence, next->event.sequence);
+     }}};
+
+/// Missing its end, its middle or nothing, a run that no net allows is found where what shows it is there.
+TEST(Legality, IllegalRunsAreFoundInRecordingsOfThreadsThatAreCutOff) {
+  Random random(29);
+  const net::Net net = test::build(test::line_follower()).net;
+  const Recording run = random_run(net, 400, random);
+  for (const auto& [name, mutate] : mutations)
+    for (const bool cut : {false, true}) {
+      std::size_t tried = 0, found = 0;
+      for (std::size_t at = 20; at < 200; ++at) {
+        Recording wrong = run;
+        mutate(wrong, at);
+        wrong.truncated = cut;
+        Recording in_order = wrong;
+        in_order.truncated = false;
+        if (check_legal(in_order, net).verdict == Verdict::legal) continue;  // by chance it is a run
+        ++tried;
+        found += check_legal(as_of_threads(wrong, random), net).verdict == Verdict::illegal ? 1 : 0;
+      }
+      EXPECT_GT(tried, 170U) << name;
+      // What is left out may be what was cut off.
+      EXPECT_GE(found, cut ? tried * 3 / 4 : tried) << name << (cut ? ", cut off" : "");
+    }
+}
+
+TEST(Legality, AfterWhatIsMissingTheNextSegmentIsCheckedFromItsMarking) {
+  Random random(31);
+  const net::Net net = test::build(test::line_follower()).net;
+  const Recording run = random_run(net, 300, random);
+  Recording segments = run;
+  segments.clock = "steady";
+  segments.segment = 0;
+  segments.entries.insert(segments.entries.begin() + 150, marking_after(run, 150, net));
+  segments.entries.erase(segments.entries.begin() + 70);
+  segments.lost = 1;
+  EXPECT_EQ(check_legal(segments, net).verdict, Verdict::incomplete) << check_legal(segments, net).why;
+  segments.entries[200].event.subject = segments.entries[201].event.subject;
+  EXPECT_EQ(check_legal(segments, net).verdict, Verdict::illegal);
 }
 
 TEST(Legality, ASegmentIsCheckedFromTheMarkingThatItBeginsWith) {

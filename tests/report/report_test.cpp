@@ -7,6 +7,8 @@
 
 #include "constructed.hpp"
 #include "report/charts.hpp"
+#include "report/messages.hpp"
+#include "report/text.hpp"
 
 // fontconfig, which cairo asks for a font, keeps what it read until the process ends and counts as leaking
 // it.
@@ -138,6 +140,85 @@ TEST(Report, DataUrisAreBase64) {
   EXPECT_EQ(data_uri("text/plain", "fo"), "data:text/plain;base64,Zm8=");
   EXPECT_EQ(data_uri("text/plain", "foob"), "data:text/plain;base64,Zm9vYg==");
   EXPECT_EQ(data_uri("a/b", "\xff\xfe\xfd"), "data:a/b;base64,//79");
+}
+
+TEST(Report, WhatIsNoUtf8OrTurnsTheDirectionOfWritingDoesNotReachThePage) {
+  const std::string bad = "\xef\xbf\xbd";
+  EXPECT_EQ(escaped("gr\xc3\xbc\xc3\x9f \xe2\x82\xac \xf0\x9f\xa4\x96"),
+            "gr\xc3\xbc\xc3\x9f \xe2\x82\xac \xf0\x9f\xa4\x96");
+  EXPECT_EQ(escaped("a\xff"
+                    "b\xc3"),
+            "a" + bad + "b" + bad);
+  EXPECT_EQ(escaped("\xc0\xaf\xed\xa0\x80"), bad + bad + bad + bad + bad);
+  EXPECT_EQ(escaped("\xe2\x80\xae\xc2\x9b"), bad + bad);
+}
+
+TEST(Report, ShortenedTextKeepsWholeCharacters) {
+  EXPECT_EQ(shortened("short", 10, 2), "short");
+  EXPECT_EQ(shortened("a\xc3\xbc"
+                      "b",
+                      2, 2),
+            "a \u2026");
+  EXPECT_EQ(shortened("1\n2\n3\n4", 100, 2), "1\n2 \u2026");
+}
+
+TEST(Report, OnlyTextsAreMessages) {
+  Constructed run({"robot.control"});
+  run.value(0.1, 0, 0, 0, std::string("\x01\x02\xff\x00garbage", 11)).log(0.2, 0, 0, "a line");
+  run.recording.entries.push_back(
+      {{.subject = 3, .origin = 0xffffffU << 8U | static_cast<std::uint32_t>(tessera::Event::Kind::marking)},
+       "p.q"});
+  const Messages messages = messages_of(run.recording, 10);
+  ASSERT_EQ(messages.shown.size(), 1U);
+  EXPECT_EQ(messages.shown[0].what, "a line");
+  EXPECT_EQ(messages.hidden, 0U);
+  const std::string page = render({.recording = run.recording})[0].bytes;
+  EXPECT_THAT(page, Not(HasSubstr("garbage")));
+  EXPECT_THAT(page, Not(HasSubstr("\xef\xbf\xbd")));
+}
+
+TEST(Report, OfManyMessagesTheMostImportantAreShownAndEqualOnesAreOne) {
+  Constructed run({"robot.control"});
+  for (int i = 0; i < 1000; ++i) run.log(i * 0.01, 0, 0, "line " + std::to_string(i));
+  for (int i = 0; i < 500; ++i) run.log(i * 0.02, 0, 1, "again");
+  run.log(5, 0, 2, "the motor burns");
+  const Messages messages = messages_of(run.recording, 10);
+  ASSERT_EQ(messages.shown.size(), 10U);
+  EXPECT_EQ(messages.hidden, 1000U - 8U);
+  const auto shown = [&](const std::string& what) {
+    for (const Message& message : messages.shown)
+      if (message.what == what) return message.count;
+    return std::uint64_t{0};
+  };
+  EXPECT_EQ(shown("the motor burns"), 1U);
+  EXPECT_EQ(shown("again"), 500U);
+  EXPECT_EQ(shown("line 0"), 1U);
+  EXPECT_EQ(shown("line 999"), 1U);
+  EXPECT_THAT(render({.recording = run.recording})[0].bytes, HasSubstr("more messages"));
+}
+
+TEST(Report, SaysWhatARecordingDoesNotHold) {
+  ReportInput input = run_without_a_track();
+  EXPECT_THAT(render(input)[0].bytes, Not(HasSubstr("notice\">")));
+  input.recording.truncated = true;
+  input.recording.lost = 12;
+  input.robots = "rover, rover_2";
+  const std::string page = render(input)[0].bytes;
+  EXPECT_THAT(page, HasSubstr("cut off at its end"));
+  EXPECT_THAT(page, HasSubstr("12 events of the run are missing"));
+  EXPECT_THAT(page, HasSubstr("Several robots move in this world (rover, rover_2)"));
+}
+
+TEST(Report, OfALargeFleetStaysShortAndShowsThoseWithErrors) {
+  std::vector<std::string> paths;
+  for (int robot = 0; robot < 200; ++robot) paths.push_back("robot[" + std::to_string(robot) + "].control");
+  Constructed run(paths);
+  for (std::uint32_t robot = 0; robot < 200; ++robot) run.fire(0, robot, "t_in").fire(1, robot, "go.t1");
+  run.fire(2, 150, "go.t6");
+  const std::string page = render({.recording = run.recording})[0].bytes;
+  EXPECT_THAT(page, HasSubstr("robot[150].control"));
+  EXPECT_THAT(page, Not(HasSubstr("robot[149].control")));
+  EXPECT_THAT(page, HasSubstr("and 176 more subsystems"));
 }
 
 TEST(Report, OfALongRunStaysSmall) {

@@ -45,13 +45,14 @@ TEST(Recording, ATruncatedTailLosesOnlyItself) {
     if (size < header + 600) continue;
     const auto cut = read_bytes(bytes.substr(0, size));
     if (!cut) continue;
+    EXPECT_TRUE(cut->truncated);
     EXPECT_GE(cut->entries.size(), events);
     events = cut->entries.size();
     for (std::size_t index = 0; index < events; ++index)
       EXPECT_EQ(cut->entries[index].text, whole->entries[index].text);
     EXPECT_EQ(complaint_about(*cut, system.system()), "");
   }
-  EXPECT_EQ(events, whole->entries.size() - 1);
+  EXPECT_EQ(events, whole->entries.size());  // only the event that says the end is missing
 }
 
 TEST(Recording, WhatIsNoneIsRefusedWithoutACrash) {
@@ -76,9 +77,10 @@ TEST(Recording, DamagedEventsEndItThere) {
   std::string bytes = make_recording(system);
   const auto whole = read_bytes(bytes);
   ASSERT_TRUE(whole);
-  // "duration" ends the file: one event and one of text. The event before it gets an impossible transition.
+  // "duration" ends the file: one event, one of text and one that says the end. The event before them gets an
+  // impossible transition.
   std::string damaged = bytes;
-  damaged.replace(bytes.size() - 3 * sizeof(Event) + 8, 4, "\xff\xff\xff\x7f");
+  damaged.replace(bytes.size() - 4 * sizeof(Event) + 8, 4, "\xff\xff\xff\x7f");
   const auto read = read_bytes(damaged);
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->truncated);

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
@@ -167,6 +169,94 @@ TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
   std::string error;
   EXPECT_FALSE(execute(system.system(), options, error));
   EXPECT_NE(error.find("the limit of the recording is too small"), std::string::npos) << error;
+}
+
+/// `x` and `y` in turn, by two instances, and `u` of a third after `t` of the first.
+[[nodiscard]] FlatNet three_in_turn() {
+  FlatNet net;
+  net.places = {{"a", 1}, {"b", 0}, {"c", 0}, {"d", 0}};
+  net.transitions = {
+      {"x", 0, {0}, {1}, ""}, {"y", 1, {1}, {0}, ""}, {"t", 0, {0}, {2}, ""}, {"u", 2, {2}, {3}, ""}};
+  return net;
+}
+
+[[nodiscard]] std::unique_ptr<Recorder> recorder_of(const FlatNet& net, std::uint32_t instances,
+                                                    RunOptions::Limit limit) {
+  nlohmann::json header{
+      {"system", "s"}, {"net_hash", ""}, {"verification_hash", ""}, {"clock", "steady"}, {"seed", 1}};
+  for (std::uint32_t index = 0; index < instances; ++index)
+    header["instances"].push_back(std::to_string(index));
+  for (const FlatNet::FlatTransition& transition : net.transitions)
+    header["transitions"].push_back({transition.name, transition.instance});
+  std::string error;
+  auto recorder = Recorder::open(
+      scratch_file("run.tsr"), header.dump(), instances, Recorder::Mode::threaded, error, 0, limit,
+      std::make_unique<MarkingTrack>(net, std::vector(net.transitions.size(), MarkingTrack::none)));
+  EXPECT_NE(recorder, nullptr) << error;
+  return recorder;
+}
+
+TEST(Segments, AFiringWaitsForThoseItFollowsFromHoweverManyOthersComeMeanwhile) {
+  const FlatNet net = three_in_turn();
+  const auto recorder = recorder_of(net, 3, {20'000, 1000});
+  recorder->lane(2)->firing(Time{}, 3, 0);  // whose thread was the first to write
+  for (int turn = 0; turn < 2000; ++turn) {
+    recorder->lane(0)->firing(Time{}, 0, 0);
+    recorder->lane(1)->firing(Time{}, 1, 0);
+  }
+  recorder->lane(0)->firing(Time{}, 2, 0);
+  EXPECT_EQ(recorder->close().lost, 0U);
+  const Recording read_back = read(scratch_file("run.tsr"));
+  EXPECT_FALSE(read_back.truncated);
+  ASSERT_FALSE(read_back.entries.empty());
+  EXPECT_EQ(read_back.entries.back().event.subject, 3U);
+  for (const Recording::Entry& entry : read_back.entries)
+    if (entry.event.kind() == Event::Kind::marking) EXPECT_EQ(entry.event.version, 0U);
+}
+
+TEST(Segments, WhatIsLostIsSaidAtTheEndAndTheMarkingIsNotKnownThen) {
+  const FlatNet net = three_in_turn();
+  const auto recorder = recorder_of(net, 4000, {200'000, 1000});  // of so many, rings are short
+  std::uint64_t written = 0;
+  for (; recorder->lane(0)->lost() == 0; written += 2) {
+    recorder->lane(0)->firing(Time{}, 0, 0);
+    recorder->lane(1)->firing(Time{}, 1, 0);
+  }
+  const std::uint64_t lost = recorder->close().lost;
+  EXPECT_GT(lost, 0U);
+  const Recording read_back = read(scratch_file("run.tsr"));
+  EXPECT_FALSE(read_back.truncated);
+  EXPECT_EQ(read_back.lost, lost);
+}
+
+TEST(Segments, AreReadWhenTheNewestIsNotThereOrNotBegun) {
+  const Recorded limited = recorded(simulated(2s), 50'000, 4);
+  const Recording all = read(limited.file);
+  EXPECT_FALSE(all.truncated);
+  const std::string newest = bytes_of(limited.file);
+  for (const bool is_there : {false, true}) {
+    fs::remove(limited.file);
+    if (is_there) std::ofstream(limited.file, std::ios::binary) << newest.substr(0, 100);
+    const Recording left = read(limited.file);
+    EXPECT_TRUE(left.truncated);
+    EXPECT_EQ(left.segment, all.segment);
+    EXPECT_LT(left.entries.size(), all.entries.size());
+    EXPECT_GT(left.entries.size(), all.entries.size() / 2);
+  }
+}
+
+TEST(Segments, FilesOfOthersAreNeitherRemovedNorWrittenOver) {
+  const std::string file = scratch_file("run.tsr");
+  std::ofstream(segment_path(file, 1)) << "mine";
+  TestSystem system;
+  make_talkers(system);
+  RunOptions options = simulated(1s);
+  options.recording = file;
+  options.record_limit = {50'000, 3};
+  std::string error;
+  EXPECT_FALSE(execute(system.system(), options, error));
+  EXPECT_NE(error.find("run.1.tsr' is in the way"), std::string::npos) << error;
+  EXPECT_EQ(bytes_of(segment_path(file, 1)), "mine");
 }
 
 TEST(Segments, EventsThatAreLostDoNotHoldUpTheOthers) {

@@ -104,6 +104,68 @@ TEST(World, TheTraceStartsAtTheStartAndHasAPointEveryTenMilliseconds) {
   EXPECT_NEAR(trace->points[57].t_s, 0.57, 1e-9);
 }
 
+TEST(World, ATraceDoesNotDisturbWhatSensorsSee) {
+  const auto readings = [](const std::string& trace) {
+    const auto world = open({.world = line_world(),
+                             .track = shipped_track("oval.png"),
+                             .start_x_m = 1.2,
+                             .start_y_m = 0.1,
+                             .start_heading_rad = 0,
+                             .trace = trace});
+    std::string error;
+    const auto sensor = world->receptor(eye, error);
+    const auto left = world->effector(wheel, error);
+    const auto right = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
+    std::vector<double> values;
+    for (auto t = 0ms; t < 5s; t += 50ms) {
+      EXPECT_TRUE(write(*left, 8));
+      EXPECT_TRUE(write(*right, 8 + 0.3 * static_cast<double>(t / 1s)));
+      world->advance_to(Time(t));
+      values.push_back(read(*sensor));
+    }
+    return values;
+  };
+  EXPECT_EQ(readings(""), readings(temporary("undisturbed.csv")));
+}
+
+/// The world's robot twice.
+std::string world_of_two() {
+  std::string text = bytes_of(line_world());
+  const auto renamed = [](std::string part) {
+    for (const char* name : {"\"robot", "\"chassis", "\"caster", "\"eye_left", "\"eye_middle", "\"eye_right",
+                             "\"wheel_left", "\"wheel_right"})
+      for (std::size_t at = 0; (at = part.find(std::string(name) + '"', at)) != std::string::npos; ++at)
+        part.insert(at + std::strlen(name), "_2");
+    return part;
+  };
+  const auto double_between = [&](const std::string& from, const std::string& to) {
+    const std::size_t begin = text.find(from);
+    const std::string part = text.substr(begin, text.rfind(to) - begin);
+    text.insert(text.rfind(to), renamed(part));
+  };
+  double_between("    <body name=\"robot\"", "  </worldbody>");
+  double_between("    <velocity name=", "  </actuator>");
+  return file_with("two.xml", text);
+}
+
+TEST(World, OfSeveralRobotsNoPathIsShownAsThatOfTheRobot) {
+  for (const bool both : {false, true}) {
+    const WorldOptions options{.world = world_of_two(), .trace = temporary("two.csv")};
+    const auto world = open(options);
+    std::string error;
+    // The second one alone is the robot, though its joint is not the first.
+    const auto mine = world->effector({"b.motor.left", "velocity", "wheel_left_2", {}}, error);
+    ASSERT_TRUE(mine) << error;
+    const auto other = both ? world->receptor(eye, error) : nullptr;
+    world->advance_to(Time(100ms));
+    ASSERT_TRUE(world->finish(error)) << error;
+    const auto trace = sim::read_trace(options.trace, error);
+    ASSERT_TRUE(trace) << error;
+    EXPECT_EQ(trace->robots, both ? "robot, robot_2" : "");
+    EXPECT_EQ(trace->points.size(), both ? 0U : 11U);
+  }
+}
+
 TEST(World, AStartPoseSaidInPartKeepsTheRest) {
   const WorldOptions options{.world = line_world(), .start_y_m = 3, .trace = temporary("partial.csv")};
   const auto world = open(options);

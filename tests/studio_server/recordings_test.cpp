@@ -53,6 +53,12 @@ class RecordingOfTheStudio : public Served {
   static std::string marking(const std::string& places) {
     return event(0, Event::Kind::marking, static_cast<std::uint32_t>(places.size()), places);
   }
+  /// goes_on: in the next segment.
+  static std::string end(bool goes_on) {
+    Event event{.version = goes_on ? 1U : 0U,
+                .origin = 0xffffffU << 8U | static_cast<std::uint32_t>(Event::Kind::end)};
+    return {reinterpret_cast<const char*>(&event), sizeof event};
+  }
   static std::string value(const std::string& bytes) {
     return event(0, Event::Kind::value, static_cast<std::uint32_t>(bytes.size()), bytes);
   }
@@ -71,9 +77,10 @@ class RecordingOfTheStudio : public Served {
 
 TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirstThatIsLeft) {
   const fs::path last = folder_ / "project/.tessera/last";
-  write(last / "recording.3.tsr",
-        header(3) + marking(name_of_place(2) + "\n" + name_of_place(5)) + firing(10, 1) + firing(20, 2));
-  write(last / "recording.tsr", header(4) + marking(name_of_place(7)) + firing(30, 3) + value("\1"));
+  write(last / "recording.3.tsr", header(3) + marking(name_of_place(2) + "\n" + name_of_place(5)) +
+                                      firing(10, 1) + firing(20, 2) + end(true));
+  write(last / "recording.tsr",
+        header(4) + marking(name_of_place(7)) + firing(30, 3) + value("\1") + end(false));
   write(folder_ / "project/run.tsr", header(0) + firing(10, 4));
   write(folder_ / "project/alone.7.tsr", header(7) + marking("nowhere"));
   serve();
@@ -90,6 +97,8 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
   EXPECT_EQ(whole.at("firings"), json({{10, 1}, {20, 2}, {30, 3}}));
   EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
   EXPECT_EQ(whole.at("truncated"), false);
+  EXPECT_EQ(whole.at("cut"), false);
+  EXPECT_EQ(get("/api/recordings/run.tsr").json().at("cut"), true);
   EXPECT_EQ(whole.at("path"), json::array());
   EXPECT_TRUE(whole.at("track").is_null());
   EXPECT_TRUE(get("/api/recordings/run.tsr").json().at("marking").is_null());

@@ -31,7 +31,8 @@ inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 /// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
 ///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a
-/// multiple of 8, then events of 24 bytes. A truncated tail loses only itself. Nothing in it depends on the
+/// multiple of 8, then events of 24 bytes, the last of which is `end`. A recording without it was cut off:
+/// the controller was killed, or the disk was full; that loses its tail only. Nothing in it depends on the
 /// wall clock when the run's clock is simulated. A recording with a limit goes on in segments: files of their
 /// own, with "segment": number in the header, which begin with an event `marking`.
 struct Event {
@@ -45,7 +46,10 @@ struct Event {
     value = 7,    ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
     /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
     /// Not counted in `sequence`.
-    marking = 8
+    marking = 8,
+    /// The last of a file. subject: how many events of the run are lost; version: 1: the next segment
+    /// follows. Not counted in `sequence`, and no entry of a Recording.
+    end = 15
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
@@ -55,7 +59,7 @@ struct Event {
 
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
   [[nodiscard]] bool has_text() const {
-    return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call;
+    return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call && kind() != Kind::end;
   }
   /// Events' worth of space that its text takes.
   [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
@@ -115,9 +119,8 @@ struct Recording {
   /// Of a recording with a limit: the number of this segment, from 0; of several read together the first.
   std::optional<std::uint64_t> segment;
   std::vector<Entry> entries;
-  /// The order of the entries is that of the firings: of the simulated clock, and of recordings with a limit.
-  [[nodiscard]] bool ordered() const { return clock == "simulated" || segment.has_value(); }
-  bool truncated = false;  ///< the tail was cut; what came before is here
+  bool truncated = false;  ///< its end is missing: it was cut off, or is still being written
+  std::uint64_t lost = 0;  ///< events that are missing in between, as its end says
 };
 
 /// "in", "out", "real_in", "real_out".
@@ -134,6 +137,8 @@ class RecordingReader {
   [[nodiscard]] bool has_header() const { return has_header_; }
   /// Why nothing more will come: "is no recording of Tessera", "is damaged"; empty: more may come.
   [[nodiscard]] const std::string& problem() const { return problem_; }
+  /// The last event of the file has been read.
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
   /// Bytes of an entry, or of the header, that is not whole yet.
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
   /// Who reads a long one takes the entries out as they come.
@@ -145,7 +150,7 @@ class RecordingReader {
   [[nodiscard]] std::size_t take_events(std::string_view bytes);
   void give_up(std::string problem);
   State state_ = State::header;
-  bool has_header_ = false;
+  bool has_header_ = false, has_ended_ = false;
   std::string pending_, problem_;
   Recording recording_;
 };
@@ -157,9 +162,12 @@ class RecordingReader {
 /// The other way: "run.3.tsr" -> "run.tsr"; empty: that is no name of a segment.
 [[nodiscard]] std::string without_segment_number(const std::string& path);
 
+/// The number in the header of a file; nullopt: it is no segment of a recording with a limit.
+[[nodiscard]] std::optional<std::uint64_t> segment_number_in(const std::string& file);
+
 /// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
-/// before the file that is named; of one named by its number, that one alone. nullopt and `error` when it is
-/// no recording.
+/// before the file that is named, and also when that file itself is not there or not begun; of one named by
+/// its number, that one alone. nullopt and `error` when it is no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
 
 }  // namespace tessera

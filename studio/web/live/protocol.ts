@@ -130,6 +130,8 @@ export interface Recording {
   subsystems?: string[];
   firings: FiringRow[];
   values?: Record<string, [number, unknown][]>;
+  /** Its end is missing: the controller was killed, or is still running. */
+  cut?: boolean;
   /** Firings that are not in this part, but after it. */
   dropped?: number;
   /** Of all firings of the recording: times of the first and the last one, and their number. */

@@ -33,6 +33,8 @@ export class Replay {
   /** The ends of the recording. */
   readonly first: number;
   readonly last: number;
+  /** Its end is missing. */
+  readonly cut: boolean;
   private readonly path: readonly PathRow[];
   /** Of the part that is here. */
   track!: Track;
@@ -55,6 +57,7 @@ export class Replay {
   ) {
     this.first = recording.first ?? recording.firings[0]?.[0] ?? 0;
     this.last = recording.last ?? recording.firings.at(-1)?.[0] ?? this.first;
+    this.cut = recording.cut ?? false;
     this.path = recording.path ?? [];
     this.take(recording, this.first);
     this.store = new Store<ReplayState>({ time: this.first, playing: false, speed: 1, loading: false });

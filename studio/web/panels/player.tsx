@@ -47,6 +47,7 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
       <span className="position">
         {clock(time)}
         <span className="whole"> / {clock(last)} s</span>
+        {replay.cut && <span title="The controller was killed, or is still running"> cut off</span>}
         {loading && <span role="status"> loading…</span>}
       </span>
       <select

@@ -82,7 +82,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
           <Painted
             label="The robot's path from above"
             draw={(context, size, colours) =>
-              drawWorld(context, size, colours, track, replay ? "This recording holds no path" : "No path yet")
+              drawWorld(context, size, colours, track, `${replay ? "This recording holds no path" : "No path"} of a single robot`)
             }
             of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
           />

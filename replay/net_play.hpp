@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "net/net.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::replay {
+
+/// The token game of a net, played with the firings of a recording: nothing of the runtime's own firing is
+/// used. Transitions and places are matched by name.
+///
+/// Threads: one at a time.
+class NetPlay {
+ public:
+  static constexpr std::uint32_t none = UINT32_MAX;
+
+  NetPlay(const Recording& recording, const net::Net& net);
+  /// Why the recording is none of this net; empty: every transition was found. Nothing else may be called
+  /// then.
+  [[nodiscard]] const std::string& mismatch() const { return mismatch_; }
+
+  /// Why a firing cannot be the next.
+  struct Obstacle {
+    enum class Kind : std::uint8_t {
+      no,       ///< it can
+      never,    ///< whatever other subsystems do, and whatever of them is missing
+      version,  ///< its channel is not as far yet: version `due` comes first
+      token     ///< a token that another subsystem or the upper layers bring
+    } kind = Kind::no;
+    std::uint32_t place = none;  ///< that holds no token
+    std::uint32_t due = 0;       ///< of versions
+  };
+  [[nodiscard]] Obstacle obstacle(const Event& firing) const;
+  /// "2.500000 s: 'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
+  [[nodiscard]] std::string complaint(const Event& firing, const Obstacle& obstacle) const;
+
+  /// What is wrong after it: a second token in a place; empty: nothing. Precondition: no obstacle.
+  [[nodiscard]] std::string fire(const Event& firing);
+
+  /// The tokens where a segment begins; nullopt and `wrong` when the event names a place that is not there.
+  [[nodiscard]] std::optional<std::vector<std::uint32_t>> read_marking(const Recording::Entry& entry,
+                                                                       std::string& wrong);
+  /// From here on; the versions of the channels are not known then.
+  void start_from(std::vector<std::uint32_t> marking);
+  /// The first place that holds another number of tokens; none: they are the same.
+  [[nodiscard]] std::uint32_t difference(const std::vector<std::uint32_t>& marking) const;
+
+  [[nodiscard]] std::uint32_t channels() const { return static_cast<std::uint32_t>(versions_.size()); }
+  /// That a firing touches, or none.
+  [[nodiscard]] std::uint32_t channel_of(const Event& firing) const { return channels_[firing.subject]; }
+  [[nodiscard]] bool knows_version(std::uint32_t channel) const {
+    return versions_[channel].is != Version::unknown;
+  }
+  /// The next firing of the channel carries this version, if none is missing.
+  void guess_version(std::uint32_t channel, std::uint32_t version);
+  /// None was missing.
+  void confirm_versions();
+
+  [[nodiscard]] const std::vector<std::uint32_t>& marking() const { return marking_; }
+  [[nodiscard]] std::uint64_t firings() const { return firings_; }
+  [[nodiscard]] const std::string& place_name(std::uint32_t place) const { return net_.places()[place].name; }
+
+ private:
+  [[nodiscard]] bool match_transitions();
+  [[nodiscard]] std::uint32_t channel_of(net::TransitionId id) const;
+  void find_makers();
+  struct Version {
+    std::uint32_t last = 0;
+    enum : std::uint8_t { unknown, guessed, known } is = known;
+    [[nodiscard]] std::uint32_t due() const { return last == UINT32_MAX ? 1 : last + 1; }
+  };
+
+  const Recording& recording_;
+  const net::Net& net_;
+  std::string mismatch_;
+  std::vector<std::uint32_t> marking_;
+  std::uint64_t firings_ = 0;
+  std::vector<net::TransitionId> transitions_;  // per transition of the recording
+  std::vector<std::uint32_t> channels_;         // per transition of the recording; none
+  std::vector<std::uint32_t> makers_;           // per place: the one instance that fills it, or none
+  std::vector<Version> versions_;               // per channel
+  std::unordered_map<std::string_view, std::uint32_t> places_;  // by name; empty: not needed yet
+};
+
+/// "2.500000 s".
+[[nodiscard]] std::string seconds_text(std::int64_t time_ns);
+
+/// `a` comes before `b`; versions and sequences begin again after the largest number.
+[[nodiscard]] inline bool is_before(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::int32_t>(a - b) < 0;
+}
+
+}  // namespace tessera::replay

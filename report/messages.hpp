@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tessera/recording.hpp"
+
+namespace tessera::report {
+
+/// What a run said: log lines, faults, the end. Equal messages of a subsystem are one.
+struct Message {
+  std::int64_t first_ns = 0, last_ns = 0;
+  std::uint64_t count = 0;
+  enum class Weight : std::uint8_t { bad, warning, plain } weight = Weight::plain;
+  std::string who;   ///< path of the subsystem, or "system"
+  std::string what;  ///< as it was said, shortened
+};
+
+struct Messages {
+  std::vector<Message> shown;  ///< in the order of their first times
+  std::uint64_t hidden = 0;    ///< how many more there were
+};
+
+/// At most so many: faults, errors and the end before warnings, and those before others; of one weight the
+/// first and the last.
+[[nodiscard]] Messages messages_of(const Recording& recording, std::size_t most);
+
+}  // namespace tessera::report

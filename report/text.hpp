@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace tessera::report {
+
+/// For the text of an element or an attribute. Control characters, which HTML forbids, marks that turn the
+/// direction of writing, and bytes that are no UTF-8 become U+FFFD.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// At most so many bytes and lines of it, whole characters, with "…" for the rest.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t most_bytes, std::size_t most_lines);
+
+/// 1234567 -> "1 234 567" with thin spaces.
+[[nodiscard]] std::string grouped(std::uint64_t number);
+
+/// For `src` and `href`.
+[[nodiscard]] std::string data_uri(std::string_view mime, std::string_view bytes);
+
+}  // namespace tessera::report

@@ -1,0 +1,143 @@
+// Recordings of threads on a busy machine, of controllers that are killed, and on full disks: none is called
+// illegal. TESSERA_RECORDINGS=1000 is the long form.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "cli/terminal.hpp"
+#include "command.hpp"
+#include "project/walk.hpp"
+#include "replay/legality.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::cli_test {
+namespace {
+
+using Verdict = replay::Legality::Verdict;
+
+[[nodiscard]] unsigned recordings() {
+  const char* wanted = std::getenv("TESSERA_RECORDINGS");
+  return wanted == nullptr ? 20 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
+}
+
+/// Pairs that wait for each other, and some that do not.
+constexpr const char* talkers = R"(tessera: 1
+system: talkers
+types: { Word: { n: int32 } }
+agents:
+  a: { control: { rate: 2000 Hz, outputs: { x: Word }, inputs: { y: Word }, behaviours: { go: {} } } }
+  b: { control: { inputs: { x: Word }, outputs: { y: Word }, behaviours: { go: {} } } }
+  c: { control: { rate: 1500 Hz, outputs: { x: Word, z: Word }, behaviours: { go: {} } } }
+  d: { control: { rate: 1000 Hz, inputs: { x: Word, z: Word }, behaviours: { go: {} } } }
+channels:
+  - { from: a.control.x, to: b.control.x, receive: blocking }
+  - { from: b.control.y, to: a.control.y, send: blocking, send_timeout: 5 ms }
+  - { from: c.control.x, to: d.control.x, send: blocking, receive: blocking }
+  - c.control.z -> d.control.z
+)";
+
+/// Keeps the processors busy as long as it lives.
+class Load {
+ public:
+  explicit Load(unsigned threads) {
+    for (unsigned index = 0; index < threads; ++index)
+      threads_.emplace_back([this] {
+        while (!over_.load(std::memory_order_relaxed)) ++turns_;
+      });
+  }
+  ~Load() {
+    over_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::atomic<bool> over_{false};
+  std::atomic<std::uint64_t> turns_{0};
+  std::vector<std::thread> threads_;
+};
+
+class Recordings : public Command {
+ protected:
+  Recordings() {
+    write(folder_ / "spec.yaml", talkers);
+    const project::Exit made = tessera("run --for 100ms");
+    EXPECT_EQ(made.code, 0) << made.text;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / ".tessera"))
+      if (entry.path().filename() == "talkers" && entry.is_regular_file()) controller_ = entry.path();
+    const auto specification = project::read(folder_, cli::terminal());
+    if (specification) nets_ = project::build(*specification, cli::terminal());
+  }
+
+  [[nodiscard]] replay::Legality check(const fs::path& file) const {
+    std::string error;
+    const std::optional<Recording> recording = read_recording(file.string(), error);
+    if (!recording) return {.verdict = Verdict::illegal, .why = error};
+    return replay::check_legal(*recording, nets_->flat);
+  }
+  /// The command that makes a recording of `milliseconds`.
+  [[nodiscard]] std::string record(const fs::path& file, unsigned milliseconds,
+                                   const std::string& more) const {
+    return fmt::format("'{}' run --no-monitor --for {}ms --record {} {}", controller_.string(), milliseconds,
+                       file.string(), more);
+  }
+
+  fs::path controller_;
+  std::optional<project::Nets> nets_;
+  std::mt19937 random_{20};
+};
+
+TEST_F(Recordings, OnABusyMachineAreLegalTogetherAndSegmentBySegment) {
+  ASSERT_TRUE(nets_);
+  const Load load(4);
+  unsigned segments = 0;
+  for (unsigned number = 0; number < recordings(); ++number) {
+    const fs::path folder = folder_ / "busy";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const fs::path file = folder / "recording.tsr";
+    const project::Exit ran = shell(record(file, 50 + random_() % 200, "--record-limit 16kBx2000"));
+    ASSERT_EQ(ran.code, 0) << ran.text;
+    const replay::Legality whole = check(file);
+    EXPECT_EQ(whole.verdict, Verdict::legal) << number << ": " << whole.why;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const replay::Legality one = check(entry.path());
+      EXPECT_EQ(one.verdict, Verdict::legal) << number << ", " << entry.path() << ": " << one.why;
+      ++segments;
+    }
+  }
+  EXPECT_GT(segments, recordings());
+}
+
+TEST_F(Recordings, OfKilledControllersAndOnFullDisksAreCutOffAndNotIllegal) {
+  ASSERT_TRUE(nets_);
+  for (unsigned number = 0; number < recordings(); ++number) {
+    const fs::path folder = folder_ / "cut";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const fs::path file = folder / "recording.tsr";
+    const std::string command = record(file, 10'000, number % 2 == 0 ? "" : "--record-limit 16kBx2000");
+    if (number % 4 < 2)  // dash counts blocks of 512 bytes
+      static_cast<void>(shell(fmt::format("trap '' XFSZ; ulimit -f {}; timeout -s KILL 0.{:02} {}",
+                                          10 + random_() % 100, 40 + random_() % 40, command)));
+    else
+      static_cast<void>(shell(fmt::format("timeout -s KILL 0.{:03} {}", 20 + random_() % 300, command)));
+    std::string error;
+    if (!read_recording(file.string(), error)) continue;  // killed before there was one
+    const replay::Legality whole = check(file);
+    EXPECT_EQ(whole.verdict, Verdict::incomplete) << number << ": " << whole.why;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path() != file) {
+        const replay::Legality one = check(entry.path());
+        EXPECT_EQ(one.verdict, Verdict::legal) << number << ", " << entry.path() << ": " << one.why;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::cli_test

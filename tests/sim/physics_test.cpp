@@ -1,0 +1,51 @@
+#include "sim/physics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "world_library.hpp"
+
+namespace tessera::sim {
+namespace {
+
+struct Bits {
+  std::uint64_t x, y, heading;
+  friend bool operator==(const Bits&, const Bits&) = default;
+};
+
+/// Where a robot that turns is after five seconds.
+[[nodiscard]] Bits driven(bool read_at_every_step) {
+  std::string error;
+  const auto physics = Physics::load(line_world(), error);
+  if (!physics) throw std::runtime_error(error);
+  physics->place_robot({{1, 2}, 0.5});
+  const int left = *physics->actuator("wheel_left"), right = *physics->actuator("wheel_right");
+  const int eye = *physics->site("eye_left");
+  for (int step = 0; step < 2500; ++step) {
+    physics->command(left, 5 + step % 700 * 0.01);
+    physics->command(right, 8 - step % 900 * 0.01);
+    physics->step();
+    if (!read_at_every_step) continue;
+    EXPECT_TRUE(physics->robot());
+    static_cast<void>(physics->site_position(eye));
+  }
+  EXPECT_EQ(physics->failure(), "");
+  const Pose pose = *physics->robot();
+  return {std::bit_cast<std::uint64_t>(pose.at.x_m), std::bit_cast<std::uint64_t>(pose.at.y_m),
+          std::bit_cast<std::uint64_t>(pose.heading_rad)};
+}
+
+TEST(Physics, ReadingDoesNotDisturbASingleBit) { EXPECT_EQ(driven(true), driven(false)); }
+
+TEST(Physics, DevicesAreOnTheBodyThatIsAttachedToTheWorld) {
+  std::string error;
+  const auto physics = Physics::load(line_world(), error);
+  ASSERT_TRUE(physics) << error;
+  const Physics::Root root = physics->root_of_site(*physics->site("eye_right"));
+  EXPECT_EQ(physics->name(root), "robot");
+  EXPECT_EQ(physics->root_of_actuator(*physics->actuator("wheel_left")), root);
+}
+
+}  // namespace
+}  // namespace tessera::sim

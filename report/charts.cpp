@@ -42,8 +42,10 @@ class TimeAxis {
     for (int i = 0; i * step <= end_s_ * (1 + 1e-9); ++i) {
       put(svg, R"(<line class="grid" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)", x(i * step),
           top, bottom);
-      put(svg, R"(<text class="tick" x="{:.1f}" y="{:.1f}" text-anchor="middle">{:g}{}</text>)", x(i * step),
-          bottom + 17, i * step, i == 0 ? " s" : "");
+      const bool at_the_edge = x(i * step) > width - right - 18;
+      put(svg, R"(<text class="tick" x="{:.1f}" y="{:.1f}" text-anchor="{}">{:g}{}</text>)",
+          at_the_edge ? width : x(i * step), bottom + 17, at_the_edge ? "end" : "middle", i * step,
+          i == 0 ? " s" : "");
     }
   }
 

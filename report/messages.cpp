@@ -72,13 +72,17 @@ std::vector<bool> chosen_of(const std::vector<Group>& groups, std::size_t most) 
 Message message_of(const Recording& recording, const Group& group) {
   const Event& event = group.first->event;
   const std::string text = shortened(group.first->text, most_bytes, most_lines);
+  const std::string prefix = event.kind() == Event::Kind::stop ? "ended: "
+                             : event.kind() == Event::Kind::fault
+                                 ? "fault (" + std::string(name_of(static_cast<Fault>(event.version))) + "): "
+                                 : "";
   const bool by_subsystem = event.instance() < recording.instances.size();
   return {.first_ns = event.time_ns,
           .last_ns = group.last_ns,
           .count = group.count,
           .weight = weight_of(event),
           .who = by_subsystem ? recording.instances[event.instance()] : "system",
-          .what = event.kind() == Event::Kind::stop ? "ended: " + text : text};
+          .what = prefix + text};
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void put_figures(std::string& html, const ReportInput& input) {
   }
   put_figure(html, fmt::format("{:.1f} s", input.simulated_s),
              input.recording.clock == "simulated" ? "simulated" : "run");
-  if (input.wall_s > 0 && input.recording.clock == "simulated")
+  if (input.wall_s > 0 && input.simulated_s > 0 && input.recording.clock == "simulated")
     put_figure(html, factor(input.simulated_s / input.wall_s),
                fmt::format("real time ({:.2f} s)", input.wall_s));
   put_figure(html, grouped(input.firings), "transitions fired");
@@ -67,7 +67,7 @@ void put_drive(std::string& html, const Drive& drive) {
       path_svg(drive), ramp,
       colours.by_error ? fmt::format("{:.0f} mm or more from the middle of the line.", colours.top * 1000)
                        : fmt::format("{:.0f} s.", colours.top));
-  if (drive.metrics.error_m.empty() || drive.metrics.error_m.size() != drive.trace.points.size()) return;
+  if (drive.metrics.error_m.size() < 2 || drive.metrics.error_m.size() != drive.trace.points.size()) return;
   put(html,
       R"(<h2>Lateral error</h2><div class="panel">{}<p class="note">Of the middle sensor; left of the driving direction is positive. Shaded: no sensor over the line.</p></div>)",
       error_svg(drive));
@@ -92,7 +92,7 @@ std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters)
 void put_behaviours(std::string& html, replay::Timeline timeline) {
   const std::size_t hidden =
       keep_most(timeline.lanes, most_lanes, [](const replay::Lane& lane) { return !lane.errors_s.empty(); });
-  if (timeline.lanes.empty()) return;
+  if (timeline.lanes.empty() || timeline.end_s <= 0) return;
   put(html, R"(<h2>Behaviours</h2><div class="panel">{})", timeline_svg(timeline));
   if (hidden > 0) put(html, R"(<p class="note">and {} more subsystems</p>)", grouped(hidden));
   html += "</div>";
@@ -153,7 +153,7 @@ void put_message(std::string& html, const Message& message) {
 void put_messages(std::string& html, const Recording& recording) {
   const Messages messages = messages_of(recording, most_messages);
   if (messages.shown.empty()) return;
-  html += R"(<h2>Messages</h2><div class="panel"><table>)";
+  html += R"(<h2>Messages</h2><div class="panel"><table class="messages">)";
   for (const Message& message : messages.shown) put_message(html, message);
   html += "</table>";
   if (messages.hidden > 0)
@@ -163,11 +163,19 @@ void put_messages(std::string& html, const Recording& recording) {
   html += "</div>";
 }
 
+bool has_failed(const Recording& recording) {
+  return std::ranges::any_of(recording.entries, [](const Recording::Entry& entry) {
+    return entry.event.kind() == Event::Kind::stop && entry.event.version != 0;
+  });
+}
+
 /// What a reader has to know before the figures.
 void put_notices(std::string& html, const ReportInput& input) {
-  const auto put_notice = [&](const std::string& text) {
-    put(html, R"(<p class="panel notice">{}</p>)", escaped(text));
+  const auto put_notice = [&](const std::string& text, std::string_view kind = "") {
+    put(html, R"(<p class="panel notice{}">{}</p>)", kind, escaped(text));
   };
+  if (has_failed(input.recording))
+    put_notice("The run has failed: " + shortened(input.ended, 400, 4), " failed");
   if (!input.robots.empty()) put_notice(several_robots(input.robots));
   if (input.recording.segment.value_or(0) > 0)
     put_notice(

@@ -15,13 +15,14 @@ body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,-
 main{max-width:1080px;margin:0 auto;padding:32px 24px 64px}
 h1{font-size:28px;line-height:1.2;margin:0}h2{font-size:17px;margin:36px 0 10px}
 .lead{color:var(--soft);margin:4px 0 24px}
-.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(150px,1fr));gap:12px}
+.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(130px,1fr));gap:12px}
 .figure,.panel{background:var(--card);border:1px solid var(--rule);border-radius:8px}
 .figure{padding:12px 14px}.figure b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums}
 .figure span{color:var(--soft);font-size:13px}
 .panel{padding:14px;overflow-x:auto}.panel svg{display:block;width:100%;height:auto}
 .floor svg{max-height:80vh;background:#fff;border-radius:4px}
-.notice{border-left:4px solid #b07614;margin:0 0 16px}
+.messages td:nth-child(1){width:1%;white-space:nowrap}.messages td:nth-child(2){width:24%}
+.notice{border-left:4px solid #b07614;margin:0 0 16px}.notice.failed{border-left-color:var(--bad)}
 .note{color:var(--soft);font-size:13px;margin:8px 0 0}
 .ramp{display:inline-block;width:120px;height:9px;border-radius:5px;vertical-align:middle;margin:0 6px}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}

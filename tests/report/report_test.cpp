@@ -209,6 +209,22 @@ TEST(Report, SaysWhatARecordingDoesNotHold) {
   EXPECT_THAT(page, HasSubstr("Several robots move in this world (rover, rover_2)"));
 }
 
+TEST(Report, OfARunWithoutDurationHasNoEmptyChart) {
+  Constructed run({"robot.control"});
+  run.fire(0, 0, "t_in").fire(0, 0, "follow.t1");
+  EXPECT_THAT(render({.recording = run.recording})[0].bytes, Not(HasSubstr("<svg")));
+}
+
+TEST(Report, OfAFailedRunSaysSoAboveTheFigures) {
+  ReportInput input = run_without_a_track();
+  EXPECT_THAT(render(input)[0].bytes, Not(HasSubstr("has failed")));
+  input.recording.entries.push_back(
+      {{.version = 1, .origin = 0xffffffU << 8U | static_cast<std::uint32_t>(tessera::Event::Kind::stop)},
+       "x"});
+  input.ended = "the <motor> burns";
+  EXPECT_THAT(render(input)[0].bytes, HasSubstr("The run has failed: the &lt;motor&gt; burns"));
+}
+
 TEST(Report, OfALargeFleetStaysShortAndShowsThoseWithErrors) {
   std::vector<std::string> paths;
   for (int robot = 0; robot < 200; ++robot) paths.push_back("robot[" + std::to_string(robot) + "].control");

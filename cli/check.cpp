@@ -27,15 +27,17 @@ std::string count_of(const Things& things, const char* name) {
 int check_json(const Options& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
-    if (const std::optional<spec::Model> model = spec::parse(found)) judge_models(*model, found);
+    if (const std::optional<spec::Model> model = spec::parse(found))
+      if (judge_models(*model, found)) static_cast<void>(build(*model, found));
   write_output(options.json, diagnostics::render_json(found) + "\n");
-  return found.has_errors() ? failed : ok;
+  if (!found.has_errors()) return ok;
+  return is_unreadable(found) ? usage : failed;
 }
 
 int check_command(const Options& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification || !models_are_sound(*specification, terminal())) return failed;
+  if (!specification || !models_are_sound(*specification, terminal())) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;
@@ -53,7 +55,9 @@ void add_check(CLI::App& app, int& exit_code) {
   command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
       ->capture_default_str();
   command->add_option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
-  command->footer("Example: tessera check robot/spec.yaml");
+  command->footer(
+      "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"
+      "Example: tessera check robot/spec.yaml");
   command->callback([options, &exit_code] { exit_code = check_command(*options); });
 }
 

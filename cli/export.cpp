@@ -19,7 +19,7 @@ struct Options {
 
 int export_command(const Options& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return failed;
+  if (!specification) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::Net net =

@@ -22,7 +22,7 @@ struct Options {
 
 int generate_command(const Options& options) {
   const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
-  if (!verified) return failed;
+  if (!verified) return refused();
   const Step step(terminal(), "generating");
   const Generated generated = generate(*verified, {options.stubs, options.output});
   if (!options.json.empty()) {

@@ -67,7 +67,7 @@ bool draw(const Options& options, const Specification& specification, const Nets
 
 int show_command(const Options& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return failed;
+  if (!specification) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::PageId page = nets->pages.find(options.page);

@@ -113,7 +113,7 @@ int simulate_command(SimulateOptions options) {
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
-  if (!controller) return failed;
+  if (!controller) return refused();
   if (!options.from.empty()) return run_again(*controller, options);
   const bool with_world = controller->specification.model.simulation.has_value();
   if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
@@ -155,7 +155,7 @@ int complain_of_drivers(const std::vector<std::string>& missing) {
 int run_command(const RunCommandOptions& options) {
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
-  if (!controller) return failed;
+  if (!controller) return refused();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is no world to drive");
   const std::vector<std::string> missing = buffers_without_driver(controller->specification.model);

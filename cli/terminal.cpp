@@ -3,12 +3,14 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <vector>
 
 namespace tessera::cli {
 
@@ -20,6 +22,7 @@ class StandardError final : public project::Listener {
  public:
   void say(std::string_view text) override { fmt::print(stderr, "{}", text); }
   void say(const diagnostics::Diagnostics& diagnostics) override {
+    unreadable = unreadable || is_unreadable(diagnostics);
     say(diagnostics::render(diagnostics, colour()));
   }
   void progress(std::string_view what) override {
@@ -27,14 +30,28 @@ class StandardError final : public project::Listener {
     fmt::print(stderr, "\r\033[K{}", what);
     std::fflush(stderr);
   }
+
+  bool unreadable = false;  ///< some file that was told of
 };
+
+StandardError& standard_error() {
+  static StandardError one;
+  return one;
+}
 
 }  // namespace
 
-project::Listener& terminal() {
-  static StandardError standard_error;
-  return standard_error;
+bool is_unreadable(const diagnostics::Diagnostics& found) {
+  const std::vector<diagnostics::Diagnostic> all = found.sorted();
+  return std::ranges::any_of(all, [](const diagnostics::Diagnostic& one) {
+    return one.severity == diagnostics::Severity::error &&
+           (one.code.starts_with("E0") || one.code.starts_with("E42"));
+  });
 }
+
+project::Listener& terminal() { return standard_error(); }
+
+int refused() { return standard_error().unreadable ? usage : failed; }
 
 int complain(const std::string& text) {
   fmt::print(stderr, "tessera: error: {}\n", text);

@@ -29,7 +29,7 @@ int test_command(const Options& options) {
                                 std::filesystem::absolute(project).string()));
   const std::optional<Controller> tests =
       make_controller(options.spec, {options.debug, "tests", options.gate}, terminal());
-  if (!tests) return failed;
+  if (!tests) return refused();
   Command command{tests->program.string()};
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
   return run(command).code == 0 ? ok : failed;

@@ -171,7 +171,7 @@ int exit_code_of(const verify::Report& report) {
 
 int verify_command(const Options& options) {
   const std::optional<Judged> judged = load(options.spec);
-  if (!judged) return failed;
+  if (!judged) return refused();
   if (!known(options.properties, judged->properties())) return usage;
   const Interruptible interruptible;
   json result;
@@ -229,7 +229,8 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_flag("--explain", options->explain,
                     "Say how each verdict came about, and what it means for the net with conditions");
   command->footer(
-      "Ends with 0 if all properties hold, 1 if one is violated, 3 if one is unknown.\n"
+      "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
+      "2 if a file cannot be read, 3 if a property is unknown.\n"
       "Example: tessera verify robot/spec.yaml --explain\n"
       "         tessera verify net.pnml --states --json -");
   command->callback([options, &exit_code] { exit_code = verify_command(*options); });

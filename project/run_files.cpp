@@ -45,6 +45,13 @@ json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) 
   return story;
 }
 
+json behaviours_json(const verify::PropertyResult& property) {
+  json behaviours = json::array();
+  for (const verify::PropertyResult::Behaviour& one : property.behaviours)
+    behaviours.push_back({{"path", one.path}, {"line", one.line}});
+  return behaviours;
+}
+
 json report_json(const net::Net& net, const net::HierarchicalNet* pages, const verify::Report& report) {
   json properties = json::array();
   for (const verify::PropertyResult& property : report.properties) {
@@ -59,6 +66,7 @@ json report_json(const net::Net& net, const net::HierarchicalNet* pages, const v
              {"states", property.states},
              {"warning", property.warning},
              {"waits", property.waits},
+             {"behaviours", behaviours_json(property)},
              {"trace", nullptr}};
     if (property.has_trace) one["trace"] = firings_json(net_of_run(net, property), pages, property.trace);
     properties.push_back(std::move(one));

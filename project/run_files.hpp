@@ -22,11 +22,15 @@ namespace tessera::project {
 [[nodiscard]] nlohmann::json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
                                           const std::vector<net::TransitionId>& run);
 
+/// [{"path", "line"}]: the behaviours that a verdict is about.
+[[nodiscard]] nlohmann::json behaviours_json(const verify::PropertyResult& property);
+
 /// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers, told (verify::narrate).
 [[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run);
 
 /// {"properties": [{"name", "asks", "verdict", "method", "why", "meaning", "explanation", "seconds",
-/// "states", "warning", "waits", "trace": firings or null}], "net_hash", "verification_hash"}
+/// "states", "warning", "waits", "behaviours": [{"path", "line"}], "trace": firings or null}], "net_hash",
+/// "verification_hash"}
 [[nodiscard]] nlohmann::json report_json(const net::Net& net, const net::HierarchicalNet* pages,
                                          const verify::Report& report);
 

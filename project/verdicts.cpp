@@ -11,6 +11,7 @@
 
 #include "layers/layers.hpp"
 #include "project/listener.hpp"
+#include "project/run_files.hpp"
 
 namespace tessera::project {
 
@@ -33,6 +34,7 @@ json to_json(const verify::PropertyResult& property) {
           {"trace", trace},
           {"has_trace", property.has_trace},
           {"waits", property.waits},
+          {"behaviours", behaviours_json(property)},
           {"seconds", property.seconds},
           {"states", property.states},
           {"warning", property.warning},
@@ -53,6 +55,8 @@ verify::PropertyResult property_from(const json& kept) {
   for (const json& id : kept.at("trace")) property.trace.push_back({id.get<std::uint32_t>()});
   kept.at("has_trace").get_to(property.has_trace);
   kept.at("waits").get_to(property.waits);
+  for (const json& one : kept.at("behaviours"))
+    property.behaviours.push_back({one.at("path").get<std::string>(), one.at("line").get<std::uint32_t>()});
   kept.at("seconds").get_to(property.seconds);
   kept.at("states").get_to(property.states);
   kept.at("warning").get_to(property.warning);

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "diagnostics/source.hpp"
 #include "layers/closed_pair.hpp"
 #include "layers/layers.hpp"
@@ -33,16 +35,38 @@ std::optional<Specification> read(const fs::path& given, Listener& listener) {
   return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
 }
 
+namespace {
+
+/// A verdict on a default property must never be taken for one on the author's, or the other way round.
+bool names_are_free(const spec::Model& model, diagnostics::Diagnostics& out) {
+  bool free = true;
+  for (const spec::Property& property : model.properties) {
+    if (std::ranges::count(verify::default_properties(), property.name) == 0) continue;
+    out.error("E106", property.span, fmt::format("the property name '{}' is taken", property.name),
+              "a property of that name is judged in every system; choose another name");
+    free = false;
+  }
+  return free;
+}
+
+}  // namespace
+
+std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out) {
+  const bool free = names_are_free(model, out);
+  std::optional<net::HierarchicalNet> pages = layers::build(model, out);
+  std::optional<net::Net> flat;
+  if (pages) flat = net::flatten(*pages, out);
+  std::optional<std::vector<net::Property>> properties;
+  if (flat) properties = layers::properties(model, *pages, *flat, out);
+  if (!properties || !free) return std::nullopt;
+  return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
+}
+
 std::optional<Nets> build(const Specification& specification, Listener& listener) {
   diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
-  std::optional<net::HierarchicalNet> pages = layers::build(specification.model, found);
-  std::optional<net::Net> flat;
-  if (pages) flat = net::flatten(*pages, found);
-  std::optional<std::vector<net::Property>> properties;
-  if (flat) properties = layers::properties(specification.model, *pages, *flat, found);
+  std::optional<Nets> nets = build(specification.model, found);
   listener.say(found);
-  if (!properties) return std::nullopt;
-  return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
+  return nets;
 }
 
 bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {

@@ -40,6 +40,10 @@ struct Nets {
   net::Net flat;
   std::vector<net::Property> properties;  ///< of the author
 };
+/// Errors: those of layers::build, net::flatten and layers::properties; E106 a property of the author's with
+/// the name of a default one. nullopt after an error.
+[[nodiscard]] std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out);
+/// The same, told.
 [[nodiscard]] std::optional<Nets> build(const Specification& specification, Listener& listener);
 
 /// "holds", "violated", "unknown"

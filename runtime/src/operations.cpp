@@ -264,7 +264,7 @@ Outcome Operations::decide(std::uint16_t behaviour, Time now) {
   Outcome outcome = Outcome::error;
   if (!survives(Fault::exception, behaviour,
                 "a condition: ", [&] { outcome = parts_.subsystem->decide(behaviour, failed_); }))
-    outcome = Outcome::error;
+    outcome = parts_.subsystem->decide(behaviour, /*failed=*/true);  // no named condition has held
   if (failed_) outcome = Outcome::error;
   accept_outcome(outcome);
   return outcome;

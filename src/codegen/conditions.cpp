@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "codegen/cpp_text.hpp"
+#include "spec/endings.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -42,10 +43,13 @@ Conditions::Conditions(const Project& project, const Unit& unit)
   for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
     Asked asked;
     asked.error = add_all(behaviour, behaviour.error, "error");
-    asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
+    if (behaviour.error.kind != spec::Condition::Kind::always)
+      asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
     asked.next.resize(behaviour.next.size());
-    for (std::size_t entry = 0; entry < behaviour.next.size(); ++entry) {
+    const spec::Endings endings(behaviour);
+    for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
       const spec::Next& next = behaviour.next[entry];
+      if (!endings.can_be_taken(entry)) continue;
       if (next.when.kind == spec::When::Kind::expression)
         asked.next[entry] = add(fmt::format("{}_next_{}", behaviour.name, entry + 1), next.when.text,
                                 fmt::format("{} -> {}", behaviour.name, goal(subsystem_, next)));
@@ -144,8 +148,10 @@ std::string Conditions::route_case(std::size_t behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
   if (!conditional(what)) return {};
   std::vector<Declaration> lines;
+  const spec::Endings endings(what);
   bool ends = false;  // by an entry without condition
-  for (std::size_t entry = 0; entry < what.next.size() && !ends; ++entry) {
+  for (spec::Index entry = 0; entry < what.next.size() && !ends; ++entry) {
+    if (!endings.can_be_taken(entry)) continue;
     const std::string when = asks(behaviour, entry);
     ends = when.empty();
     lines.push_back({fmt::format("{}return {};", when, entry), goal(subsystem_, what.next[entry])});
@@ -160,6 +166,7 @@ std::string Conditions::asks(std::size_t behaviour, std::size_t entry) const {
   const Asked& asked = asked_[behaviour];
   switch (when.kind) {
     case spec::When::Kind::always:
+    case spec::When::Kind::never:  // not asked
       return {};
     case spec::When::Kind::error:
       return "if (failed) ";

@@ -70,12 +70,24 @@ class DotPen {
              "];\n";
   }
 
+  static const char* colour(Fires fires) {
+    switch (fires) {
+      case Fires::by_condition:
+        return "black";
+      case Fires::after_failure:
+        return "\"#ffffff\", color=\"#8693a0\"";
+      case Fires::never:
+        return "\"#cbd2d9\"";
+    }
+    return "black";
+  }
+
   void add_bar(std::uint32_t index, const std::string& indent) {
     const Bar& bar = picture_.bars[index];
-    text_ += indent + "t" + std::to_string(index) +
-             " [shape=box, width=0.4, height=0.05, fixedsize=true, style=filled, fillcolor=" +
-             (bar.never ? "\"#cbd2d9\"" : "black") + ", label=\"\", xlabel=" + beside(bar.name, bar.details) +
-             "];\n";
+    text_ +=
+        indent + "t" + std::to_string(index) +
+        " [shape=box, width=0.4, height=0.05, fixedsize=true, style=filled, fillcolor=" + colour(bar.fires) +
+        ", label=\"\", xlabel=" + beside(bar.name, bar.details) + "];\n";
   }
 
   void add_arrow(const Arrow& arrow) {

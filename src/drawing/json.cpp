@@ -37,6 +37,7 @@ class NetWriter : public JsonWriter {
     object([&] {
       member("kind", kinds[static_cast<std::size_t>(condition.kind)]);
       member("truth", truths[static_cast<std::size_t>(condition.truth)]);
+      member("truth_with_failures", truths[static_cast<std::size_t>(condition.known(true).truth)]);
       member("subject", condition.subject);
       member("text", std::string_view(condition.text));
     });

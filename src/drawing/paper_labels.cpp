@@ -93,7 +93,7 @@ class PaperLabels : public Labels {
   [[nodiscard]] std::vector<Label> condition(net::PageId id, const net::Condition& condition) const override {
     using Kind = net::Condition::Kind;
     if (condition.text.empty()) return {};
-    if (condition.truth == net::Condition::Truth::never) return {Label("never")};
+    if (condition.known(true).truth == net::Condition::Truth::never) return {Label("never")};
     switch (condition.kind) {
       case Kind::none:
         return {};
@@ -103,6 +103,7 @@ class PaperLabels : public Labels {
       case Kind::terminal:
         return {function(id, "\u03c4").add(" \u2227 \u00ac").add(function(id, "\u03b5"))};
       case Kind::error:
+        if (condition.truth == net::Condition::Truth::never) return {Label("failure")};
         return {function(id, "\u03b5")};
       case Kind::next: {
         Label label = raised_letter(net_.pages[id.value]);

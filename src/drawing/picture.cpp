@@ -95,7 +95,7 @@ class Sketch {
       made.name = labels_.transition(id, index);
       made.details = in_brackets(labels_.condition(id, drawn.condition));
       made.path = above.empty() ? drawn.name : above + "." + drawn.name;
-      made.never = drawn.condition.truth == net::Condition::Truth::never;
+      made.fires = fires(drawn.condition);
       made.frame = frame_of_[id.value];
       const auto bar = static_cast<std::uint32_t>(picture_.bars.size());
       picture_.bars.push_back(std::move(made));
@@ -104,6 +104,11 @@ class Sketch {
       for (const std::uint32_t end : drawn.outputs)
         picture_.arrows.push_back({resolve(id, end, &net::Page::input), bar, false, false});
     }
+  }
+
+  static Fires fires(const net::Condition& condition) {
+    if (condition.known(true).truth == net::Condition::Truth::never) return Fires::never;
+    return condition.truth == net::Condition::Truth::never ? Fires::after_failure : Fires::by_condition;
   }
 
   static std::vector<Label> in_brackets(std::vector<Label> lines) {

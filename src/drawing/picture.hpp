@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,12 +22,19 @@ struct Circle {
   std::uint32_t frame = no_frame;
 };
 
+/// When a transition can fire, as far as it is known before run time.
+enum class Fires : std::uint8_t {
+  by_condition,
+  after_failure,  ///< only if user code throws, a device fails or the watchdog strikes
+  never
+};
+
 /// A transition.
 struct Bar {
   Label name;
   std::vector<Label> details;  ///< the condition, in square brackets
   std::string path;
-  bool never = false;  ///< its condition is known to be false
+  Fires fires = Fires::by_condition;
   std::uint32_t frame = no_frame;
 };
 

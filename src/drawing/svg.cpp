@@ -34,7 +34,8 @@ constexpr const char* style =
     ".place{fill:#fff;stroke:#1f2933;stroke-width:1.4}.ring{fill:none;stroke:#1f2933;stroke-width:1.2}\n"
     ".fused{fill:#fffbf0;stroke:#b4540a;stroke-dasharray:4 2.5}.token{fill:#1f2933}\n"
     ".bar{fill:#1f2933}.arc{fill:none;stroke:#52606d;stroke-width:1.1;marker-end:url(#tip)}\n"
-    ".never{fill:#b8c2cc}.arc.faint{stroke:#c5ced6;fill:none;marker-end:url(#faint-tip)}text.faint{fill:#"
+    ".never{fill:#b8c2cc}.failure{fill:#fff;stroke:#8693a0}.arc.faint{stroke:#c5ced6;fill:none;marker-end:"
+    "url(#faint-tip)}text.faint{fill:#"
     "8693a0}\n"
     ".arc.memory{stroke:#d09a63;marker-end:url(#memory-tip)}\n"
     "</style>\n";
@@ -151,20 +152,22 @@ class SvgPen {
       path += (point % 3 == 1 ? "C" : " ") + number(curve[point].x) + " " + number(curve[point].y);
     const Arrow& arrow = picture_.arrows[index];
     std::string kind = picture_.circles[arrow.circle].fused ? " memory" : "";
-    if (picture_.bars[arrow.bar].never) kind = " faint";
+    if (picture_.bars[arrow.bar].fires != Fires::by_condition) kind = " faint";
     text_ += "<path class=\"arc" + kind + "\" d=\"" + path + "\"/>\n";
   }
 
   void add_bar(std::size_t index) {
     const Bar& bar = picture_.bars[index];
     const Point centre = layout_.bars[index];
-    text_ += "<g><title>" + net::xml_text(bar.path) + "</title>" + bar_symbol(centre, bar.never) + "</g>\n";
-    add_beside(centre, bar.name, bar.details, bar.never ? "condition faint" : "condition",
-               bar.never ? "name faint" : "name");
+    text_ += "<g><title>" + net::xml_text(bar.path) + "</title>" + bar_symbol(centre, bar.fires) + "</g>\n";
+    const bool faint = bar.fires != Fires::by_condition;
+    add_beside(centre, bar.name, bar.details, faint ? "condition faint" : "condition",
+               faint ? "name faint" : "name");
   }
 
-  static std::string bar_symbol(Point centre, bool never) {
-    return std::string("<rect class=\"bar") + (never ? " never" : "") + "\" " +
+  static std::string bar_symbol(Point centre, Fires fires) {
+    const char* kind = fires == Fires::never ? " never" : fires == Fires::after_failure ? " failure" : "";
+    return std::string("<rect class=\"bar") + kind + "\" " +
            at(centre.x - Sizes::bar_width / 2, centre.y - Sizes::bar_height / 2) + " width=\"" +
            number(Sizes::bar_width) + "\" height=\"" + number(Sizes::bar_height) + "\" rx=\"1\"/>";
   }
@@ -222,8 +225,9 @@ class SvgPen {
         {circle_symbol(origin, page), "page"},
         {circle_symbol(origin, fused), "fused place"},
         {circle_symbol(origin, token), "marked"},
-        {bar_symbol(origin, false), "transition"},
-        {bar_symbol(origin, true), "never fires"},
+        {bar_symbol(origin, Fires::by_condition), "transition"},
+        {bar_symbol(origin, Fires::after_failure), "fires only after a failure"},
+        {bar_symbol(origin, Fires::never), "never fires"},
         {"<text class=\"condition\" x=\"4\" y=\"4\">[c]</text>", "condition"}};
     std::string text;
     double x = 0, y = legend_row / 2;

@@ -1,22 +1,12 @@
+#include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
+#include "spec/endings.hpp"
 
 namespace tessera::layers {
 namespace {
 
 using net::Condition;
 using Truth = Condition::Truth;
-
-Truth truth_of(const spec::Condition& condition) {
-  switch (condition.kind) {
-    case spec::Condition::Kind::never:
-      return Truth::never;
-    case spec::Condition::Kind::always:
-      return Truth::always;
-    case spec::Condition::Kind::expressions:
-      return Truth::free;
-  }
-  return Truth::free;
-}
 
 Truth negation(Truth truth) {
   switch (truth) {
@@ -58,17 +48,22 @@ struct Ending {
 };
 
 Ending ending(const spec::Behaviour& behaviour) {
-  const Truth terminal = truth_of(behaviour.terminal);
-  const Truth error = truth_of(behaviour.error);
+  const Truth terminal = truth(truth_of(behaviour.terminal));
+  const Truth error = truth(truth_of(behaviour.error));
   const Truth no_error = negation(error);
   std::string go_on_text = error == Truth::free ? "no error" : "";
   if (terminal == Truth::free) go_on_text += go_on_text.empty() ? "not terminal" : ", not terminal";
   std::string terminal_text = terminal == Truth::free ? "terminal: " + alternatives(behaviour.terminal) : "";
   if (error == Truth::free) terminal_text += terminal_text.empty() ? "no error" : "; no error";
+  Condition fails = condition(Condition::Kind::error, error, "error: " + alternatives(behaviour.error));
+  if (error == Truth::never) {  // any behaviour ends by an exception, or the failure of a device
+    fails.text = "failure";
+    fails.set_with_failures({Truth::free, fails.exhaustive});
+  }
   return {
       condition(Condition::Kind::go_on, conjunction(no_error, negation(terminal)), std::move(go_on_text)),
       condition(Condition::Kind::terminal, conjunction(no_error, terminal), std::move(terminal_text)),
-      condition(Condition::Kind::error, error, "error: " + alternatives(behaviour.error)),
+      std::move(fails),
   };
 }
 

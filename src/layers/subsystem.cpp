@@ -1,34 +1,27 @@
+#include <optional>
+#include <utility>
+
+#include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
+#include "spec/endings.hpp"
 
 namespace tessera::layers {
 namespace {
 
 using net::Condition;
+using Known = Condition::Known;
 using Truth = Condition::Truth;
 
 std::string label(const spec::Expression& expression) {
   return expression.name.empty() ? expression.text : expression.name;
 }
 
-/// What is known of one entry's `when`, taken alone.
-Truth truth_alone(const spec::When& when, const spec::Behaviour& behaviour) {
-  if (when.kind == spec::When::Kind::always) return Truth::always;
-  if (when.kind != spec::When::Kind::error) return Truth::free;
-  switch (behaviour.error.kind) {
-    case spec::Condition::Kind::never:
-      return Truth::never;
-    case spec::Condition::Kind::always:
-      return Truth::always;
-    case spec::Condition::Kind::expressions:
-      return Truth::free;
-  }
-  return Truth::free;
-}
-
 std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
   switch (when.kind) {
     case spec::When::Kind::always:
       return "otherwise";
+    case spec::When::Kind::never:
+      return "never";
     case spec::When::Kind::error:
       return "error";
     case spec::When::Kind::terminal:
@@ -41,24 +34,39 @@ std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
   return {};
 }
 
+/// What is known of an entry of `next` over the endings that are possible.
+Known known(const spec::Endings& endings, spec::Index entry, bool with_failures) {
+  std::optional<Truth> all;
+  bool exhaustive = true;
+  for (const spec::Ending ending : spec::all_endings) {
+    if (!endings.possible(ending) || (ending == spec::Ending::failure && !with_failures)) continue;
+    const Truth one = truth(endings.taken(entry, ending));
+    all = !all || *all == one ? one : Truth::free;
+    exhaustive = exhaustive && !endings.none_possible(ending);
+  }
+  return {all.value_or(Truth::never), exhaustive};
+}
+
+template <class Possible>
+Condition::After after(Possible possible) {
+  return {possible(spec::Ending::terminal), possible(spec::Ending::error) || possible(spec::Ending::failure)};
+}
+
 /// The initial conditions of a behaviour's successors: of the entries of `next`, the first that holds is
-/// taken, so an entry is certain only if it holds and all before it cannot.
+/// taken.
 std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
   if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always) return {{}};
   std::vector<Condition> conditions;
-  const bool exhaustive = spec::always_continues(behaviour);
-  Truth earlier = Truth::never;
+  const spec::Endings endings(behaviour);
   for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
-    const spec::When& when = behaviour.next[entry].when;
-    const Truth alone = truth_alone(when, behaviour);
-    Truth truth = alone;
-    if (earlier == Truth::always) truth = Truth::never;
-    if (earlier == Truth::free && alone == Truth::always) truth = Truth::free;
-    if (alone == Truth::always || earlier == Truth::always)
-      earlier = Truth::always;
-    else if (alone == Truth::free)
-      earlier = Truth::free;
-    conditions.push_back({Condition::Kind::next, truth, entry, text_of(when, behaviour), exhaustive});
+    const Known now = known(endings, entry, false);
+    Condition made{Condition::Kind::next, now.truth, entry, text_of(behaviour.next[entry].when, behaviour),
+                   now.exhaustive};
+    made.set_with_failures(known(endings, entry, true));
+    made.follows =
+        after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
+    made.none_follows = after([&](spec::Ending ending) { return endings.none_possible(ending); });
+    conditions.push_back(std::move(made));
   }
   return conditions;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,7 +58,28 @@ struct Condition {
   std::string text;  ///< as drawn, without the brackets; empty: nothing to draw
   /// next: however the behaviour ended, one of its entries holds ("none holds" cannot happen).
   bool exhaustive = false;
+  struct Known {
+    Truth truth;
+    bool exhaustive;
+    bool operator==(const Known&) const = default;
+  };
+  /// What is known if any iteration may end by a failure: user code throws, a device fails, the watchdog
+  /// strikes. nullopt: the same as without.
+  std::optional<Known> with_failures{};
+  struct After {
+    bool terminal, error;  ///< t5; t6, by a condition or a failure
+    bool operator==(const After&) const = default;
+  };
+  /// next: after which of the two the entry can be taken; after which it can be that no entry holds.
+  After follows{true, true}, none_follows{true, true};
   bool operator==(const Condition&) const = default;
+
+  [[nodiscard]] Known known(bool failures) const {
+    return failures && with_failures ? *with_failures : Known{truth, exhaustive};
+  }
+  void set_with_failures(Known what) {
+    if (what != known(false)) with_failures = what;
+  }
 };
 
 inline constexpr std::uint32_t no_subsystem = UINT32_MAX;

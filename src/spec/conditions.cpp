@@ -19,6 +19,31 @@ constexpr std::array reserved = std::to_array<std::string_view>({"error", "termi
 constexpr const char* condition_hint =
     "write true, an expression such as in.line.left, or a map of named expressions";
 
+/// A constant in quotes is text in YAML, and the same constant in C++.
+std::optional<bool> quoted_constant(const Node& node) {
+  if (!node.is_scalar() || !node.quoted) return std::nullopt;
+  const std::size_t first = node.text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return std::nullopt;
+  const std::string_view text =
+      std::string_view(node.text).substr(first, node.text.find_last_not_of(" \t\r\n") - first + 1);
+  if (text == "true" || text == "false") return text == "true";
+  return std::nullopt;
+}
+
+void warn_of_quotes(const Node& node, Diagnostics& out) {
+  const std::optional<bool> known = quoted_constant(node);
+  if (!known) return;
+  const std::string word = *known ? "true" : "false";
+  out.warning("W322", node.span, "this condition is always " + word,
+              "write " + word + " without quotes if that is meant");
+}
+
+/// The truth of a constant, however it is written.
+std::optional<bool> constant(const Node& node) {
+  if (is_true(node) || is_false(node)) return is_true(node);
+  return quoted_constant(node);
+}
+
 Expression read_expression(const Node& node, Span at, std::string name, Diagnostics& out) {
   Expression expression{std::move(name), {}, at};
   const Node* text = text_of(node, at, "a condition", out, condition_hint);
@@ -27,7 +52,9 @@ Expression read_expression(const Node& node, Span at, std::string name, Diagnost
     out.error("E104", text->span, quoted(text->text) + " is no condition", "write true or false");
   }
   expression.span = text->span;
-  expression.text = expression_text(*text, out);
+  warn_of_quotes(*text, out);
+  const std::optional<bool> known = constant(*text);
+  expression.text = known ? (*known ? "true" : "false") : expression_text(*text, out);
   return expression;
 }
 
@@ -74,8 +101,9 @@ Condition read_condition(const Entry* entry, Diagnostics& out) {
   if (entry == nullptr) return condition;
   const Node& value = *entry->value;
   condition.span = value.is_scalar() ? value.span : entry->span;
-  if (is_true(value) || is_false(value)) {
-    condition.kind = is_true(value) ? Condition::Kind::always : Condition::Kind::never;
+  if (const std::optional<bool> known = constant(value)) {
+    warn_of_quotes(value, out);
+    condition.kind = *known ? Condition::Kind::always : Condition::Kind::never;
     return condition;
   }
   condition.kind = Condition::Kind::expressions;
@@ -91,8 +119,9 @@ When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
   When when;
   const Expression expression = read_expression(*entry.value, entry.span, {}, out);
   const std::string& word = expression.text;
-  if (is_true(*entry.value)) return when;
-  if (word == "error") {
+  if (const std::optional<bool> known = constant(*entry.value)) {
+    when.kind = *known ? When::Kind::always : When::Kind::never;
+  } else if (word == "error") {
     when.kind = When::Kind::error;
   } else if (const auto terminal = place(of.terminal, word); terminal && !word.empty()) {
     when.kind = When::Kind::terminal;
@@ -100,7 +129,7 @@ When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
   } else if (const auto error = place(of.error, word); error && !word.empty()) {
     when.kind = When::Kind::named_error;
     when.expression = *error;
-  } else if (is_identifier(word) && !is_false(*entry.value) && !is_old_boolean(*entry.value)) {
+  } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {
     out.error("E101", expression.span, "unknown condition " + quoted(word), hint_for(word, of));
     when.kind = When::Kind::expression;
   } else {

@@ -1,25 +1,8 @@
 #include "spec/model.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace tessera::spec {
-
-bool always_continues(const Behaviour& behaviour) {
-  const auto asks = [&behaviour](When::Kind kind, Index expression) {
-    return std::any_of(behaviour.next.begin(), behaviour.next.end(), [&](const Next& entry) {
-      return entry.when.kind == kind && (expression == none || entry.when.expression == expression);
-    });
-  };
-  if (asks(When::Kind::always, none)) return true;
-  // Any behaviour may end by an exception, so errors must be asked for even where no error condition is
-  // given.
-  if (!asks(When::Kind::error, none) || behaviour.terminal.kind == Condition::Kind::always) return false;
-  for (Index i = 0; i < behaviour.terminal.expressions.size(); ++i) {
-    if (!asks(When::Kind::terminal, i)) return false;
-  }
-  return true;
-}
 
 std::string_view name_of(Property::Kind kind) {
   constexpr std::array<std::string_view, 5> names{"never", "always", "reachable", "always_reachable",

@@ -91,6 +91,7 @@ struct Condition {
 struct When {
   enum class Kind : std::uint8_t {
     always,       ///< no `when`
+    never,        ///< `when: false`
     error,        ///< the behaviour ended by its error condition
     terminal,     ///< the terminal expression `expression` of the behaviour held
     named_error,  ///< the error expression `expression` of the behaviour held
@@ -122,11 +123,6 @@ struct Behaviour {
   Duration takes{0};  ///< simulated time of its transition function
   Span span;
 };
-
-/// Whether some entry of `next` holds however the behaviour ends, so that "none holds" cannot happen: an
-/// unconditional entry, or `when: error` together with every way to end well (none, or each named terminal
-/// expression asked for).
-[[nodiscard]] bool always_continues(const Behaviour& behaviour);
 
 // ---------------------------------------------------------------------------------------------- subsystems,
 // agents

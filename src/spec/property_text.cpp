@@ -174,7 +174,9 @@ class Reader {
     while (at_ < end_ && text_.text[at_] == '.') {
       ++at_;
       std::size_t length = 0;
-      while (at_ + length < end_ && is_word(text_.text[at_ + length])) ++length;
+      // The blocks of an output that feeds several channels are numbered: motion#2.
+      const auto of_name = [&](char c) { return is_word(c) || (length > 0 && c == '#'); };
+      while (at_ + length < end_ && of_name(text_.text[at_ + length])) ++length;
       if (length == 0) return fail("E112", at_ - 1, 1, "a name should follow the '.'", path_hint);
       path.parts.push_back({text_.text.substr(at_, length), text_.part(at_, length)});
       at_ += length;

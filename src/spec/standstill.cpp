@@ -2,13 +2,24 @@
 
 #include <algorithm>
 
+#include "spec/endings.hpp"
+
 namespace tessera::spec {
 namespace {
 
 /// Whether a behaviour may begin another iteration of its own.
 bool repeats(const Behaviour& behaviour) {
-  return behaviour.terminal.kind != Condition::Kind::always &&
-         behaviour.error.kind != Condition::Kind::always;
+  return truth_of(behaviour.terminal) != Truth::always && truth_of(behaviour.error) != Truth::always;
+}
+
+/// Whether one of these behaviours may follow it.
+bool passes_on(const Behaviour& behaviour, const std::vector<bool>& to) {
+  const Endings endings(behaviour);
+  for (Index entry = 0; entry < behaviour.next.size(); ++entry)
+    if (const Index next = behaviour.next[entry].behaviour;
+        next != none && to[next] && endings.can_be_taken(entry))
+      return true;
+  return false;
 }
 
 /// Removes, as long as there are any, the behaviours from which nothing that stays can follow: what is left
@@ -20,11 +31,7 @@ std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& w
     changed = false;
     for (std::size_t i = left.size(); i-- > 0;) {  // behaviours mostly lead to later ones
       const Behaviour& behaviour = subsystem.behaviours[i];
-      const bool goes_on = repeats(behaviour) ||
-                           std::any_of(behaviour.next.begin(), behaviour.next.end(), [&](const Next& next) {
-                             return next.behaviour != none && left[next.behaviour];
-                           });
-      if (!left[i] || goes_on) continue;
+      if (!left[i] || repeats(behaviour) || passes_on(behaviour, left)) continue;
       left[i] = false;
       changed = true;
     }

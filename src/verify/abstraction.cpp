@@ -21,6 +21,7 @@ bool possible(const net::Net& net, TransitionId id) {
 struct Exit {
   bool certain = false;  ///< one of its conditions holds
   bool entered = false;  ///< something leads to it
+  Condition::After none_follows{true, true};
 };
 
 std::map<PlaceId, Exit> exits(const net::Net& net) {
@@ -30,7 +31,7 @@ std::map<PlaceId, Exit> exits(const net::Net& net) {
     const Condition& condition = net[id].condition;
     if (condition.kind != Condition::Kind::next || net.preset(id).size() != 1) continue;
     Exit& exit = found[net.preset(id).front().place];
-    if (!possible(net, id)) continue;
+    exit.none_follows = condition.none_follows;
     exit.certain = exit.certain || condition.truth == Condition::Truth::always || condition.exhaustive;
   }
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
@@ -42,7 +43,7 @@ std::map<PlaceId, Exit> exits(const net::Net& net) {
   return found;
 }
 
-void add_outcome(net::Net& net, PlaceId exit) {
+void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   const net::Place from = net[exit];
   net::Place lost = from;
   lost.name = from.name + ".none";
@@ -52,6 +53,7 @@ void add_outcome(net::Net& net, PlaceId exit) {
   net::Transition none;
   none.name = from.name + " none";
   none.condition = {Condition::Kind::next, Condition::Truth::free, UINT32_MAX, "none holds"};
+  none.condition.follows = none_follows;
   none.layer = net::Layer::subsystem;
   none.page = from.page;
   none.subsystem = from.subsystem;
@@ -65,10 +67,9 @@ net::Net copied(const net::Net& net, Assume assume) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
     net::Transition transition = net[id];
-    const Condition::Kind kind = transition.condition.kind;
-    const bool freed = kind == Condition::Kind::error || kind == Condition::Kind::next;
-    if (assume == Assume::exceptions && freed && transition.condition.truth == Condition::Truth::never)
-      transition.condition.truth = Condition::Truth::free;
+    const Condition::Known known = transition.condition.known(assume == Assume::exceptions);
+    transition.condition.truth = known.truth;
+    transition.condition.exhaustive = known.exhaustive;
     copy.add(std::move(transition), net.preset(id), net.postset(id));
   }
   return copy;
@@ -98,7 +99,7 @@ std::vector<bool> last_transitions(const net::Net& net) {
 net::Net abstract_net(const net::Net& net, Assume assume) {
   net::Net abstract = copied(net, assume);
   for (const auto& [place, exit] : exits(abstract))
-    if (exit.entered && !exit.certain) add_outcome(abstract, place);
+    if (exit.entered && !exit.certain) add_outcome(abstract, place, exit.none_follows);
   return abstract;
 }
 

@@ -70,13 +70,15 @@ Finding channels_flow(const Case& given, std::vector<std::uint32_t> subjects) {
   return subjects.empty() ? holds() : open(given, std::move(subjects));
 }
 
-std::string never_follows(const Case& given, const std::vector<std::uint32_t>& places) {
+/// Of places that start a behaviour, those of behaviours that follow none that can run.
+std::vector<std::uint32_t> never_following(const Case& given, const std::vector<std::uint32_t>& places) {
   std::set<std::string> reached;
   for (const SubsystemFlow& subsystem : given.communication.structure->subsystems)
     for (const BehaviourFlow& behaviour : subsystem.behaviours) reached.insert(behaviour.name);
+  std::vector<std::uint32_t> never;
   for (const std::uint32_t place : places)
-    if (std::string name = behaviour_of(given.abstract, {place}); !reached.contains(name)) return name;
-  return {};
+    if (!reached.contains(behaviour_of(given.abstract, {place}))) never.push_back(place);
+  return never;
 }
 
 /// A subsystem that always goes on comes to the end of every round, where everything that may follow can;
@@ -96,8 +98,9 @@ std::set<std::string> certainly_reached(const Case& given) {
 Finding live_behaviours(const Case& given, std::vector<std::uint32_t> places) {
   constexpr const char* by_structure = "communication structure";
   Finding finding;
-  if (const std::string unreachable = never_follows(given, places); !unreachable.empty()) {
-    finding = violated(unreachable + " follows no behaviour that can run", {});
+  if (std::vector<std::uint32_t> never = never_following(given, places); !never.empty()) {
+    finding = violated(behaviour_of(given.abstract, {never.front()}) + " follows no behaviour that can run",
+                       std::move(never));
     finding.method = by_structure;
     return finding;
   }

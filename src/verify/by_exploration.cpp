@@ -3,6 +3,7 @@
 #include "verify/causes.hpp"
 #include "verify/claims.hpp"
 #include "verify/decider.hpp"
+#include "verify/explanation.hpp"
 #include "verify/exploration.hpp"
 #include "verify/forbidden.hpp"
 #include "verify/goals.hpp"
@@ -65,7 +66,7 @@ Finding deadlock_free(const Case& given, Facts& facts, const explore::Limits& li
   Finding finding = judged(find_dead(given.abstract, end, facts.reducing(), limits), Found::Kind::no);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = end.valid() ? "a dead marking is reachable that is not final" : "a dead marking is reachable";
-  finding.waits = waits_after(given.abstract, finding.trace, {});
+  finding.waits = waits_for_ever(given.abstract, finding.trace);
   return finding;
 }
 
@@ -99,8 +100,9 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
   // Probes change nothing, and the net that is shown has none.
   for (std::vector<TransitionId>* ids : {&finding.trace, &stuck})
     std::erase_if(*ids, [&](TransitionId id) { return id.value >= given.probed.transitions; });
-  finding.trace = until_all_concerned_wait(given.abstract, std::move(finding.trace), stuck);
-  finding.waits = waits_after(given.abstract, finding.trace, {given.abstract[stuck.front()].subsystem});
+  Explanation explanation = explained(given.abstract, std::move(finding.trace), stuck);
+  finding.trace = std::move(explanation.run);
+  finding.waits = std::move(explanation.waits);
   return finding;
 }
 
@@ -195,8 +197,13 @@ Finding live_behaviours(const Case& given, const Question& question, const Reduc
                         const explore::Limits& limits) {
   std::vector<Goal> goals;
   for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
-  Finding finding = judged_together(ask(given.abstract, Ask::reachable, goals, Found::Kind::no, how, limits),
-                                    Found::Kind::no);
+  const std::vector<Found> found = ask(given.abstract, Ask::reachable, goals, std::nullopt, how, limits);
+  Finding finding = judged_together(found, Found::Kind::no);
+  if (finding.kind == Finding::Kind::violated) {  // all of them, not the first alone
+    finding.subjects.clear();
+    for (std::uint32_t goal = 0; goal < found.size(); ++goal)
+      if (found[goal].kind == Found::Kind::no) finding.subjects.push_back(goal);
+  }
   name_subjects(finding, question);
   if (finding.kind == Finding::Kind::holds) return finding;
   const std::string name = behaviour_of(given.abstract, {finding.subjects.front()});
@@ -223,7 +230,7 @@ Finding claims(const Case& given, const Question& question, const Reducing& how,
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
   finding.has_trace = kind != Claims::reachable;
-  if (what != Ask::reachable) finding.waits = waits_after(given.abstract, finding.trace, {});
+  if (what != Ask::reachable) finding.waits = waits_for_ever(given.abstract, finding.trace);
   return finding;
 }
 

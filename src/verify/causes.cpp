@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "verify/waits.hpp"
+
 namespace tessera::verify {
 namespace {
 
@@ -57,22 +59,12 @@ class History {
   bool is_run_ = false;
 };
 
-std::vector<std::int64_t> tokens_after(const net::Net& net, const Run& run) {
-  std::vector<std::int64_t> tokens;
-  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
-  for (const TransitionId id : run) {
-    for (const Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
-    for (const Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
-  }
-  return tokens;
-}
-
 /// What might fire after a run if tokens were never used up: at least all that can.
 class Prospect {
  public:
   Prospect(const net::Net& net, const Run& run)
       : net_(net), reached_by_(net.places().size(), unknown), missing_(net.transitions().size()) {
-    const std::vector<std::int64_t> tokens = tokens_after(net, run);
+    const std::vector<std::uint32_t> tokens = tokens_after(net, run);
     std::vector<std::vector<std::uint32_t>> takers(net.places().size());
     for (std::uint32_t index = 0; index < missing_.size(); ++index) {
       missing_[index] = net.preset({index}).size();
@@ -157,7 +149,7 @@ class Concern {
 /// Those that give or take tokens which the stuck transitions lack where a token waits for them.
 std::vector<TransitionId> awaited(const net::Net& net, const Run& run,
                                   const std::vector<TransitionId>& stuck) {
-  const std::vector<std::int64_t> tokens = tokens_after(net, run);
+  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
   std::set<std::uint32_t> lacking;
   for (const TransitionId id : stuck) {
     const auto inputs = net.preset(id);
@@ -197,6 +189,11 @@ Run causes_of_standstill(const net::Net& net, Run run, const std::vector<Transit
     if (excluded) return kept;
     if (!more) return run;
   }
+}
+
+bool never_again(const net::Net& net, const Run& run, const std::vector<TransitionId>& transitions) {
+  const Prospect prospect(net, run);
+  return std::ranges::none_of(transitions, [&](TransitionId id) { return prospect.possible(id); });
 }
 
 namespace {
@@ -282,7 +279,7 @@ class Continuation {
 
   const net::Net& net_;
   Run run_;
-  std::vector<std::int64_t> tokens_;
+  std::vector<std::uint32_t> tokens_;
   std::vector<std::vector<TransitionId>> of_subsystem_;  // those that start it too
   std::vector<TransitionId> nobodys_;
   std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // per place of a channel

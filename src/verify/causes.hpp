@@ -15,6 +15,11 @@ namespace tessera::verify {
 [[nodiscard]] std::vector<net::TransitionId> causes_of_standstill(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 
+/// Can it be shown that none of the transitions can ever be fired after the run? It is, if they could not
+/// even if tokens were never used up.
+[[nodiscard]] bool never_again(const net::Net& net, const std::vector<net::TransitionId>& run,
+                               const std::vector<net::TransitionId>& transitions);
+
 /// The run, gone on with until those that the stuck transitions wait for wait too, and so on: then it shows
 /// the circle, or who has ended. As it is if some of them would run for ever.
 [[nodiscard]] std::vector<net::TransitionId> until_all_concerned_wait(

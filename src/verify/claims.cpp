@@ -41,7 +41,7 @@ std::string complaint(Property::Kind kind, const net::Claim& claim) {
     case Property::Kind::always_reachable:
       return about + "a run leads to where it is out of reach for ever";
     case Property::Kind::leads_to:
-      return about + "a run leads from the first to where the second is out of reach for ever";
+      return about + "a run leads from where the first is true to where the second can never follow any more";
   }
   return about;
 }

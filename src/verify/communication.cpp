@@ -116,10 +116,11 @@ class SubsystemReader {
     });
   }
 
+  [[nodiscard]] Condition::Known known(const Condition& condition) const {
+    return condition.known(assume_ == Assume::exceptions);
+  }
   [[nodiscard]] bool possible(const Condition& condition) const {
-    if (condition.truth != Condition::Truth::never) return true;
-    return assume_ == Assume::exceptions &&
-           (condition.kind == Condition::Kind::error || condition.kind == Condition::Kind::next);
+    return known(condition).truth != Condition::Truth::never;
   }
 
   /// t4, t5 and t6.
@@ -154,9 +155,9 @@ class SubsystemReader {
       if (!step.from.valid() || !step.to.valid() || step.channel != UINT32_MAX ||
           (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))
         return fail("is left in an unknown way", out), false;
+      behaviour.complete = behaviour.complete || known(condition).truth == Condition::Truth::always ||
+                           known(condition).exhaustive;
       if (!possible(condition)) continue;
-      behaviour.complete =
-          behaviour.complete || condition.truth == Condition::Truth::always || condition.exhaustive;
       if (const auto next = behaviour_at(step.to))
         behaviour.next.push_back(*next);
       else if (steps_.from(step.to).empty())

@@ -256,8 +256,8 @@ std::vector<std::vector<std::size_t>> alike(const net::Net& net, const std::vect
 
 }  // namespace
 
-std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals, Kind stop_at,
-                       const Reducing& how, const explore::Limits& limits) {
+std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
+                       std::optional<Kind> stop_at, const Reducing& how, const explore::Limits& limits) {
   const Budget budget(limits);
   std::vector<Found> found(goals.size());
   for (Found& one : found) one.why = "the time is over";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "explore/explore.hpp"
@@ -20,10 +21,11 @@ struct Goal {
   explore::Formula then = explore::Formula::never();  ///< leads_to only
 };
 
-/// One answer for each goal, up to the first that is `stop_at`; those after it are `unknown` without a
-/// reason. Looks only at the parts of the reduced net that have to do with a goal, and once at parts and
-/// goals that are equal but for the agents.
+/// One answer for each goal, up to the first that is `stop_at` (nullopt: all); those after it are `unknown`
+/// without a reason. Looks only at the parts of the reduced net that have to do with a goal, and once at
+/// parts and goals that are equal but for the agents.
 [[nodiscard]] std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
-                                     Found::Kind stop_at, const Reducing& how, const explore::Limits& limits);
+                                     std::optional<Found::Kind> stop_at, const Reducing& how,
+                                     const explore::Limits& limits);
 
 }  // namespace tessera::verify

@@ -81,9 +81,13 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
     fact(hash, "transition " + transition.name, index);
     const net::Condition& condition = transition.condition;
     if (condition == net::Condition{}) continue;
-    if (condition.text == "error") fact(hash, "error leads on at " + transition.name);
-    fact(hash, (condition.exhaustive ? "exhaustive condition at " : "condition at ") + transition.name,
-         static_cast<std::uint64_t>(condition.truth));
+    for (const bool failures : {false, true}) {
+      const net::Condition::Known known = condition.known(failures);
+      fact(hash,
+           std::string(known.exhaustive ? "exhaustive condition" : "condition") +
+               (failures ? " with failures at " : " at ") + transition.name,
+           static_cast<std::uint64_t>(known.truth));
+    }
   }
   if (subject.pages != nullptr)
     for (std::uint32_t page = 0; page < subject.pages->pages.size(); ++page)

@@ -15,6 +15,9 @@ std::string meaning_of(Verdict verdict, Sort sort) {
       return "this is so with conditions too, as long as one holds wherever a choice is due";
     case Sort::always_can:
       return "this is so with conditions too, if every branch that is offered is taken eventually";
+    case Sort::follows:
+      return "with conditions too the second follows every time, if every branch that is offered is taken "
+             "eventually";
     case Sort::existential:
       return "conditions may still exclude what the net allows";
   }

@@ -11,6 +11,7 @@ enum class Sort : std::uint8_t {
   universal,     ///< of every marking
   completeness,  ///< of every marking, that something can fire in it
   always_can,    ///< of every marking, that something can come of it
+  follows,       ///< of some markings, that something always comes of them
   existential    ///< of some marking
 };
 

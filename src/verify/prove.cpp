@@ -4,6 +4,7 @@
 
 #include "verify/abstraction.hpp"
 #include "verify/decider.hpp"
+#include "verify/fitting_endings.hpp"
 #include "verify/hashes.hpp"
 #include "verify/meaning.hpp"
 #include "verify/tidy_run.hpp"
@@ -54,8 +55,9 @@ Sort sort_of(net::Property::Kind kind) {
     case net::Property::Kind::reachable:
       return Sort::existential;
     case net::Property::Kind::always_reachable:
-    case net::Property::Kind::leads_to:
       return Sort::always_can;
+    case net::Property::Kind::leads_to:
+      return Sort::follows;
   }
   return Sort::universal;
 }
@@ -151,7 +153,8 @@ class Prover {
     PropertyResult result;
     std::uint64_t states = 0;
     for (const Kind kind : property.questions) {
-      result = answer(question(property, kind), property.name);
+      result = kind == Kind::live_behaviours ? live_behaviours(question(property, kind), property.name)
+                                             : answer(question(property, kind), property.name);
       states += result.states;
       if (result.verdict != Verdict::holds) break;
     }
@@ -171,7 +174,45 @@ class Prover {
     return {kind, property.assume, std::move(claims), property.author};
   }
 
-  PropertyResult answer(Question question, const std::string& name) {
+  /// A method may know of some behaviours only that they never run: then the others are asked about.
+  PropertyResult live_behaviours(Question question, const std::string& name) {
+    std::vector<std::uint32_t> dead;
+    PropertyResult violated;
+    while (true) {
+      std::vector<std::uint32_t> found;
+      PropertyResult result = answer(question, name, &found);
+      if (result.verdict != Verdict::violated) {
+        if (dead.empty()) return result;
+        violated.states += result.states;
+        break;
+      }
+      if (dead.empty()) violated = std::move(result);
+      dead.insert(dead.end(), found.begin(), found.end());
+      std::erase_if(question.subjects,
+                    [&](std::uint32_t place) { return std::ranges::count(found, place) > 0; });
+      if (found.empty() || question.subjects.empty()) break;
+    }
+    std::ranges::sort(dead);
+    const net::Net& net = facts_.subject().net;
+    for (const std::uint32_t place : dead)
+      violated.behaviours.push_back({behaviour_of(net, {place}), net.places()[place].span.line});
+    if (dead.size() > 1) violated.why = never_run(violated.behaviours);
+    return violated;
+  }
+
+  static std::string never_run(const std::vector<PropertyResult::Behaviour>& behaviours) {
+    constexpr std::size_t shown = 20;
+    std::string text = std::to_string(behaviours.size()) + " behaviours can never run: ";
+    for (std::size_t index = 0; index < std::min(shown, behaviours.size()); ++index)
+      text += (index > 0 ? ", " : "") + behaviours[index].path + " (line " +
+              std::to_string(behaviours[index].line) + ")";
+    if (behaviours.size() > shown) text += " and " + std::to_string(behaviours.size() - shown) + " more";
+    return text;
+  }
+
+  /// to_blame: if given, the subjects that a violation is about.
+  PropertyResult answer(Question question, const std::string& name,
+                        std::vector<std::uint32_t>* to_blame = nullptr) {
     Answering answering(std::move(question));
     for (const auto& decider : portfolio()) {
       const bool allowed = options_.method.empty() || options_.method == decider->name();
@@ -180,6 +221,7 @@ class Prover {
       if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
         answering.hear(std::move(*finding), *decider);
     }
+    if (to_blame != nullptr) *to_blame = answering.question().subjects;
     return std::move(answering).result();
   }
 
@@ -211,9 +253,10 @@ bool shown_by_end(const Subject& subject, const PropertyResult& result) {
 }
 
 void make_readable(const Subject& subject, PropertyResult& result) {
-  if (!result.has_trace || subject.pages == nullptr || !shown_by_end(subject, result)) return;
-  const Assume assume = result.exceptions ? Assume::exceptions : Assume::conditions;
-  result.trace = tidy(abstract_net(subject.net, assume), std::move(result.trace));
+  if (!result.has_trace || subject.pages == nullptr) return;
+  const net::Net net = abstract_net(subject.net, result.exceptions ? Assume::exceptions : Assume::conditions);
+  if (shown_by_end(subject, result)) result.trace = tidy(net, std::move(result.trace));
+  result.trace = with_fitting_endings(net, std::move(result.trace));
 }
 
 }  // namespace

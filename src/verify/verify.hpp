@@ -18,7 +18,7 @@
 namespace tessera::verify {
 
 /// Part of every verification hash: verdicts of another version do not count.
-inline constexpr std::string_view checker_version = "1";
+inline constexpr std::string_view checker_version = "2";
 
 enum class Verdict : std::uint8_t { holds, violated, unknown };
 
@@ -34,6 +34,13 @@ struct PropertyResult {
   std::vector<net::TransitionId> trace = {};
   bool has_trace = false;               ///< an empty run can be one: the start is already bad
   std::vector<std::string> waits = {};  ///< violated: who waits for whom where the run ends
+  struct Behaviour {
+    std::string path;        ///< "robot.control.stop"
+    std::uint32_t line = 0;  ///< of the specification
+    bool operator==(const Behaviour&) const = default;
+  };
+  /// live_behaviours, violated: all that are known never to run.
+  std::vector<Behaviour> behaviours = {};
   double seconds = 0;
   std::uint64_t states = 0;  ///< markings visited
   bool warning = false;      ///< a violation is worth knowing, and no more

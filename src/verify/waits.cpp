@@ -1,103 +1,131 @@
 #include "verify/waits.hpp"
 
 #include <algorithm>
-#include <set>
+#include <utility>
 
 namespace tessera::verify {
 namespace {
 
-using net::PlaceId;
 using net::TransitionId;
 
-struct Line {
-  std::uint32_t subsystem = 0;
-  std::uint32_t peer = net::no_subsystem;
-  std::string text;
-};
-
-class Waits {
- public:
-  Waits(const net::Net& net, const std::vector<TransitionId>& run)
-      : net_(net), names_(subsystem_names(net)), tokens_(net.places().size(), 0) {
-    for (std::uint32_t place = 0; place < tokens_.size(); ++place)
-      tokens_[place] = net.places()[place].tokens;
-    for (const TransitionId id : run) {
-      for (const net::Arc& arc : net.preset(id)) tokens_[arc.place.value] -= arc.weight;
-      for (const net::Arc& arc : net.postset(id)) tokens_[arc.place.value] += arc.weight;
-    }
-  }
-
-  std::vector<Line> lines() {
-    std::set<std::uint32_t> moving;
-    for (std::uint32_t index = 0; index < net_.transitions().size(); ++index)
-      if (possible({index}) && enabled({index})) moving.insert(net_.transitions()[index].subsystem);
-    std::vector<Line> lines;
-    for (std::uint32_t index = 0; index < net_.transitions().size(); ++index) {
-      const TransitionId id{index};
-      const std::uint32_t subsystem = net_[id].subsystem;
-      if (subsystem == net::no_subsystem || moving.contains(subsystem) || !possible(id)) continue;
-      // Who waits with a timeout is told of by what it waits for, not by what the timeout takes back.
-      if (net_[id].condition.kind == net::Condition::Kind::elapsed) continue;
-      if (const PlaceId missing = missing_memory(id); missing.valid())
-        lines.push_back(line(subsystem, missing));
-    }
-    for (std::uint32_t index = 0; index < tokens_.size(); ++index)
-      if (tokens_[index] > 0 && net_.places()[index].name.ends_with(".none"))
-        lines.push_back({net_.places()[index].subsystem, net::no_subsystem,
-                         names_[net_.places()[index].subsystem] +
-                             " left a behaviour, and none of its initial conditions held"});
-    return lines;
-  }
-
- private:
-  [[nodiscard]] bool possible(TransitionId id) const {
-    return net_[id].condition.truth != net::Condition::Truth::never;
-  }
-  [[nodiscard]] bool enabled(TransitionId id) const {
-    return std::ranges::all_of(net_.preset(id),
-                               [&](const net::Arc& arc) { return tokens_[arc.place.value] >= arc.weight; });
-  }
-
-  /// The channel place without a token, if that is all that a transition lacks.
-  [[nodiscard]] PlaceId missing_memory(TransitionId id) const {
-    PlaceId missing;
-    for (const net::Arc& arc : net_.preset(id)) {
-      if (tokens_[arc.place.value] >= arc.weight) continue;
-      if (!net_[arc.place].fused()) return {};
-      missing = arc.place;
-    }
-    return missing;
-  }
-
-  [[nodiscard]] Line line(std::uint32_t subsystem, PlaceId missing) const {
-    const std::string& name = net_[missing].name;
-    const std::size_t dot = name.rfind('.');
-    const std::string state = name.substr(dot + 1);
-    const std::uint32_t peer = giver(missing, subsystem);
-    std::string what = " waits for the memory of ";
-    if (state == "full") what = " waits for a value of ";
-    if (state == "ack") what = " waits for the acknowledgement of ";
-    const std::string from = peer == net::no_subsystem ? ", which nobody gives" : " from " + names_[peer];
-    return {subsystem, peer, names_[subsystem] + what + name.substr(0, dot) + from};
-  }
-
-  /// Another subsystem that can put a token into the place.
-  [[nodiscard]] std::uint32_t giver(PlaceId place, std::uint32_t not_this) const {
-    for (std::uint32_t index = 0; index < net_.transitions().size(); ++index) {
-      const net::Transition& transition = net_.transitions()[index];
-      if (transition.subsystem == not_this || !possible({index})) continue;
-      for (const net::Arc& arc : net_.postset({index}))
-        if (arc.place == place) return transition.subsystem;
-    }
-    return net::no_subsystem;
-  }
-
-  const net::Net& net_;
-  std::vector<std::string> names_;
-  std::vector<std::uint32_t> tokens_;
-};
+/// "full" of "a.control.y->b.control.x.full"
+std::string state_of(const std::string& place) { return place.substr(place.rfind('.') + 1); }
+std::string channel_of(const std::string& place) { return place.substr(0, place.rfind('.')); }
 
 }  // namespace
+
+Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
+    : net_(net), tokens_(std::move(tokens)), names_(subsystem_names(net)), transitions_(names_.size()) {
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::Transition& transition = net.transitions()[index];
+    if (transition.subsystem < transitions_.size() &&
+        transition.condition.truth != net::Condition::Truth::never)
+      transitions_[transition.subsystem].push_back({index});
+  }
+}
+
+bool Waits::moves(std::uint32_t subsystem) const {
+  return std::ranges::any_of(transitions_[subsystem], [&](TransitionId id) {
+    return std::ranges::all_of(net_.preset(id), [&](const net::Arc& arc) { return has(arc); });
+  });
+}
+
+bool Waits::has_ended(std::uint32_t subsystem) const {
+  const std::string end = names_[subsystem] + ".out";
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    const net::Place& given = net_.places()[place];
+    if (tokens_[place] > 0 && given.subsystem == subsystem && !given.fused() && given.name != end)
+      return false;
+  }
+  // It has not ended if it has never begun: its agent is still to start it.
+  const std::string agent = names_[subsystem].substr(0, names_[subsystem].rfind('.'));
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    const std::string& name = net_.places()[place].name;
+    if (tokens_[place] > 0 && (name == "in" || name == agent + ".in")) return false;
+  }
+  return true;
+}
+
+std::set<std::uint32_t> Waits::lacking(std::uint32_t subsystem) const {
+  return verify::lacking(net_, tokens_, transitions_[subsystem]);
+}
+
+std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
+  std::vector<std::string> texts;
+  for (const std::uint32_t place : lacking(subsystem))
+    if (std::string text = line(subsystem, place); std::ranges::count(texts, text) == 0)
+      texts.push_back(std::move(text));
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place)
+    if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
+        net_.places()[place].name.ends_with(".none"))
+      texts.push_back(names_[subsystem] + " left a behaviour, and none of its initial conditions held");
+  return texts;
+}
+
+std::string Waits::line(std::uint32_t subsystem, std::uint32_t missing) const {
+  const std::string& place = net_.places()[missing].name;
+  const std::string state = state_of(place);
+  std::string what = " waits for the memory of ";
+  if (state == "full") what = " waits for a value of ";
+  if (state == "ack") what = " waits for the acknowledgement of ";
+  std::string from;
+  for (const std::uint32_t giver : givers(missing, subsystem))
+    from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : names_[giver]);
+  return names_[subsystem] + what + channel_of(place) + (from.empty() ? ", which nobody gives" : from);
+}
+
+std::set<std::uint32_t> Waits::givers(std::uint32_t place, std::uint32_t waiting) const {
+  std::set<std::uint32_t> all;
+  for (std::uint32_t subsystem = 0; subsystem < transitions_.size(); ++subsystem)
+    for (const TransitionId id : transitions_[subsystem]) {
+      const bool takes =
+          std::ranges::any_of(net_.preset(id), [&](const net::Arc& arc) { return arc.place.value == place; });
+      const bool gives = std::ranges::any_of(net_.postset(id),
+                                             [&](const net::Arc& arc) { return arc.place.value == place; });
+      if (gives && !takes) all.insert(subsystem);
+    }
+  if (all.size() > 1) all.erase(waiting);
+  return all;
+}
+
+std::string Waits::takes_no_more(std::uint32_t reader, std::uint32_t place) const {
+  return names_[reader] + " goes on and receives " + channel_of(net_.places()[place].name) + " no more";
+}
+
+std::string Waits::gives_no_more(std::uint32_t giver, std::uint32_t place) const {
+  const std::string& name = net_.places()[place].name;
+  const std::string state = state_of(name);
+  std::string does = " goes on and gives the memory of ";
+  if (state == "full") does = " goes on and sends ";
+  if (state == "ack") does = " goes on and acknowledges ";
+  return names_[giver] + does + channel_of(name) + " no more";
+}
+
+std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
+                                const std::vector<TransitionId>& transitions) {
+  const auto has = [&](const net::Arc& arc) { return tokens[arc.place.value] >= arc.weight; };
+  std::set<std::uint32_t> places;
+  for (const TransitionId id : transitions) {
+    // Who waits with a timeout is told of by what it waits for, not by what the timeout takes back.
+    if (net[id].condition.kind == net::Condition::Kind::elapsed) continue;
+    const auto inputs = net.preset(id);
+    const auto of_channel = [&](const net::Arc& arc) { return has(arc) || net[arc.place].fused(); };
+    if (!std::ranges::all_of(inputs, of_channel)) continue;
+    for (const net::Arc& arc : inputs)
+      if (!has(arc)) places.insert(arc.place.value);
+  }
+  return places;
+}
+
+std::vector<std::uint32_t> tokens_after(const net::Net& net, const std::vector<TransitionId>& run) {
+  std::vector<std::uint32_t> tokens;
+  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
+  for (const TransitionId id : run) {
+    for (const net::Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
+    for (const net::Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
+  }
+  return tokens;
+}
 
 std::vector<std::string> subsystem_names(const net::Net& net) {
   std::vector<std::string> names;
@@ -107,23 +135,6 @@ std::vector<std::string> subsystem_names(const net::Net& net) {
     if (place.name.ends_with(".in")) names[place.subsystem] = place.name.substr(0, place.name.size() - 3);
   }
   return names;
-}
-
-std::vector<std::string> waits_after(const net::Net& net, const std::vector<TransitionId>& run,
-                                     const std::vector<std::uint32_t>& only) {
-  const std::vector<Line> lines = Waits(net, run).lines();
-  std::set<std::uint32_t> wanted(only.begin(), only.end());
-  for (bool grew = !only.empty(); grew;) {
-    grew = false;
-    for (const Line& line : lines)
-      if (wanted.contains(line.subsystem) && line.peer != net::no_subsystem)
-        grew = wanted.insert(line.peer).second || grew;
-  }
-  std::vector<std::string> texts;
-  for (const Line& line : lines)
-    if ((only.empty() || wanted.contains(line.subsystem)) && std::ranges::count(texts, line.text) == 0)
-      texts.push_back(line.text);
-  return texts;
 }
 
 }  // namespace tessera::verify

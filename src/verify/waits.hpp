@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -7,14 +9,53 @@
 
 namespace tessera::verify {
 
-/// Who can fire nothing in the marking that a run leads to, and for whom it waits: "a.control waits for a
-/// value of b.control.y->a.control.x from b.control".
-///
-/// only: indices of subsystems; then just these, those they wait for, and so on. Empty: all.
-/// Precondition: the run is one of the net.
-[[nodiscard]] std::vector<std::string> waits_after(const net::Net& net,
-                                                   const std::vector<net::TransitionId>& run,
-                                                   const std::vector<std::uint32_t>& only = {});
+/// Who waits for whom in one marking of a net, in words.
+class Waits {
+ public:
+  /// tokens: of every place. Precondition: the net outlives this.
+  Waits(const net::Net& net, std::vector<std::uint32_t> tokens);
+
+  /// Can the subsystem fire something at once?
+  [[nodiscard]] bool moves(std::uint32_t subsystem) const;
+  /// Has it started and come to its end?
+  [[nodiscard]] bool has_ended(std::uint32_t subsystem) const;
+  /// What a subsystem that can fire nothing waits for: "a.control waits for a value of
+  /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
+  [[nodiscard]] std::vector<std::string> lines(std::uint32_t subsystem) const;
+
+  /// The places of channels that its transitions lack, where they lack nothing else.
+  [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const;
+  /// Those who can put a token there, without the one who waits unless it is the only one.
+  [[nodiscard]] std::set<std::uint32_t> givers(std::uint32_t place, std::uint32_t waiting) const;
+  /// "a.control goes on and receives ... no more", of a reader and a place that its reads need.
+  [[nodiscard]] std::string takes_no_more(std::uint32_t reader, std::uint32_t place) const;
+  /// What a giver does no more if it never gives the place: "a.control goes on and sends ... no more".
+  [[nodiscard]] std::string gives_no_more(std::uint32_t giver, std::uint32_t place) const;
+
+  [[nodiscard]] const std::string& name(std::uint32_t subsystem) const { return names_[subsystem]; }
+  /// The transitions of a subsystem that are possible.
+  [[nodiscard]] const std::vector<net::TransitionId>& transitions(std::uint32_t subsystem) const {
+    return transitions_[subsystem];
+  }
+  [[nodiscard]] std::size_t subsystems() const { return names_.size(); }
+
+ private:
+  [[nodiscard]] bool has(const net::Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
+  [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
+
+  const net::Net& net_;
+  std::vector<std::uint32_t> tokens_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
+};
+
+/// The places of channels that the transitions lack, where they lack nothing else. tokens: of every place.
+[[nodiscard]] std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
+                                              const std::vector<net::TransitionId>& transitions);
+
+/// Tokens of every place after a run. Precondition: the run is one of the net.
+[[nodiscard]] std::vector<std::uint32_t> tokens_after(const net::Net& net,
+                                                      const std::vector<net::TransitionId>& run);
 
 /// The path of each subsystem, by its number: "robot.control".
 [[nodiscard]] std::vector<std::string> subsystem_names(const net::Net& net);

@@ -35,6 +35,8 @@ Json when_json(const spec::When& when, const spec::Behaviour& from) {
   switch (when.kind) {
     case spec::When::Kind::always:
       return nullptr;
+    case spec::When::Kind::never:
+      return "false";
     case spec::When::Kind::error:
       return "error";
     case spec::When::Kind::terminal:

@@ -55,8 +55,8 @@ TEST_F(PlayNet, SaysWhatFiredAndRefusesWhatIsNoNet) {
   EXPECT_NE(played.text.find("5 go\n"), std::string::npos) << played.text;
   EXPECT_NE(played.text.find("1 of 3 transitions never fired\n"), std::string::npos) << played.text;
   write(folder_ / "wrong.pnml", "<pnml");
-  EXPECT_EQ(tessera("simulate wrong.pnml").code, 1);
-  EXPECT_EQ(tessera("simulate nowhere.pnml").code, 1);
+  EXPECT_EQ(tessera("simulate wrong.pnml").code, 2);
+  EXPECT_EQ(tessera("simulate nowhere.pnml").code, 2);
 }
 
 }  // namespace tessera::cli_test

@@ -12,12 +12,35 @@ TEST_F(Usage, ExitCodesTellMistakesInTheFileFromMistakesInTheCall) {
   EXPECT_EQ(wrong.code, 1);
   EXPECT_NE(wrong.text.find("wrong.yaml:3:"), std::string::npos) << wrong.text;
   EXPECT_NE(wrong.text.find("did you mean 'control'?"), std::string::npos) << wrong.text;
-  EXPECT_EQ(tessera("check nowhere.yaml").code, 1);
+  EXPECT_EQ(tessera("check nowhere.yaml").code, 2);
   EXPECT_EQ(tessera("check --no-such-option").code, 2);
   EXPECT_EQ(tessera("").code, 2);
   EXPECT_EQ(tessera("chekc").code, 2);
   EXPECT_EQ(tessera("--help").code, 0);
   EXPECT_EQ(tessera("simulate --help").code, 0);
+}
+
+TEST_F(Usage, AFileThatCannotBeReadIsNoViolation) {
+  write(folder_ / "text.yaml", "tessera: [1\n");
+  write(folder_ / "wrong.yaml", "tessera: 1\nsystem: x\nagents: { a: { kontrol: {} } }\n");
+  for (const char* command : {"check", "check --json -", "verify", "generate", "show", "export", "simulate"}) {
+    SCOPED_TRACE(command);
+    EXPECT_EQ(tessera(std::string(command) + " text.yaml").code, 2);
+    EXPECT_EQ(tessera(std::string(command) + " nowhere.yaml").code, 2);
+    EXPECT_EQ(tessera(std::string(command) + " wrong.yaml").code, 1);
+  }
+}
+
+TEST_F(Usage, APropertyMayNotHaveTheNameOfADefaultOne) {
+  write(folder_ / "named.yaml",
+        "tessera: 1\nsystem: x\n"
+        "agents: { a: { control: { rate: 1 Hz, behaviours: { b: {} } } } }\n"
+        "properties: [ { name: safe, reachable: a.control.b } ]\n");
+  for (const char* command : {"check", "check --json -", "verify"}) {
+    const project::Exit named = tessera(std::string(command) + " named.yaml");
+    EXPECT_EQ(named.code, 1) << named.text;
+    EXPECT_NE(named.text.find("the property name 'safe' is taken"), std::string::npos) << named.text;
+  }
 }
 
 TEST_F(Usage, EveryCommandShowsAnExample) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "generated.hpp"
+#include "verify_circuits/naive_endings.hpp"
 
 namespace tessera::test {
 namespace {
@@ -33,16 +34,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-/// What g++ says about the only subsystem of a specification.
-Ran compile(const std::string& spec) {
+/// What g++ says about the subsystems of a specification's robot. stage: "-S -o /dev/null" finds what is
+/// unused too.
+Ran compile(const std::string& spec, const std::string& stage = "-fsyntax-only",
+            const std::string& sources = "robot.control.cpp") {
   const Folder folder;
   folder.write("spec.yaml", spec);
   folder.write(generate(spec, (folder.path() / "spec.yaml").string()).files);
-  return run(
-      "cd " + folder.path().string() +
-      " && LC_ALL=C " TESSERA_CXX
-      " -std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Werror -I. -I" TESSERA_RUNTIME_HEADERS
-      " robot.control.cpp");
+  return run("cd " + folder.path().string() +
+             " && LC_ALL=C " TESSERA_CXX
+             " -std=c++20 -Wall -Wextra -Wpedantic -Wconversion -Werror -I. -I" TESSERA_RUNTIME_HEADERS " " +
+             stage + " " + sources);
 }
 
 TEST(Conditions, OfAGoodSpecificationCompile) {
@@ -95,6 +97,83 @@ TEST(Conditions, ErrorIsAskedBeforeTerminalAndNamedOnesAreRemembered) {
         if (work_next_2()) return 1;                         // end
         return 2;                                            // work
 )"));
+}
+
+std::string condition_text(const spec::Condition& condition) {
+  if (condition.kind != spec::Condition::Kind::expressions)
+    return condition.kind == spec::Condition::Kind::always ? "true" : "false";
+  std::string text;
+  for (const spec::Expression& one : condition.expressions)
+    text += (text.empty() ? "{ " : ", ") + one.name + ": " + one.text;
+  return text + " }";
+}
+
+std::string when_text(const spec::When& when, const spec::Behaviour& behaviour) {
+  switch (when.kind) {
+    case spec::When::Kind::always:
+      return "";
+    case spec::When::Kind::never:
+      return ", when: false";
+    case spec::When::Kind::error:
+      return ", when: error";
+    case spec::When::Kind::terminal:
+      return ", when: " + behaviour.terminal.expressions[when.expression].name;
+    case spec::When::Kind::named_error:
+      return ", when: " + behaviour.error.expressions[when.expression].name;
+    case spec::When::Kind::expression:
+      return ", when: memory.c";
+  }
+  return "";
+}
+
+/// One that ends and leads on as drawn.
+std::string behaviour_text(std::uint32_t number, std::uint32_t of, std::uint64_t seed) {
+  spec::Behaviour behaviour;
+  draw_endings(behaviour, of, seed);
+  std::string text = "b" + std::to_string(number) + ": { terminal: " + condition_text(behaviour.terminal) +
+                     ", error: " + condition_text(behaviour.error) + ", next: [";
+  for (const spec::Next& next : behaviour.next)
+    text += std::string(&next == &behaviour.next.front() ? "" : ", ") +
+            "{ to: " + (next.behaviour == spec::none ? "end" : "b" + std::to_string(next.behaviour)) +
+            when_text(next.when, behaviour) + " }";
+  return text + "] }\n";
+}
+
+TEST(Conditions, OfAnyKindCompileWithoutWarnings) {
+  constexpr std::uint32_t many = 60, alone = 4;
+  std::string spec =
+      "tessera: 1\nsystem: s\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n"
+      "      memory: { a: bool, b: bool, c: bool }\n      behaviours:\n";
+  for (std::uint32_t number = 0; number < many; ++number)
+    spec += "        " + behaviour_text(number, many, number);
+  spec += "    receptors:\n";
+  for (std::uint32_t number = 0; number < alone; ++number)
+    spec += "      r" + std::to_string(number) +
+            ":\n        rate: 10 Hz\n        memory: { a: bool, b: bool, c: bool }\n        behaviours:\n" +
+            "          " + behaviour_text(0, 1, 1000 + number);
+  const Ran ran = compile(spec, "-S -o unused.s", "robot.control.cpp");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output.substr(0, 4000);
+  for (std::uint32_t number = 0; number < alone; ++number) {
+    const Ran one = compile(spec, "-S -o unused.s", "robot.r" + std::to_string(number) + ".cpp");
+    EXPECT_EQ(one.exit_code, 0) << one.output.substr(0, 4000);
+  }
+}
+
+TEST(Conditions, ThatAreNeverAskedAreNotEmitted) {
+  const std::string spec = R"(tessera: 1
+system: s
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      memory: { m: bool, n: bool }
+      behaviours:
+        a: { terminal: true, next: [b, { to: a, when: memory.m }] }
+        b: { error: true, terminal: { t: memory.n }, next: [{ to: b, when: t }, { to: a, when: error }] }
+)";
+  const Ran ran = compile(spec, "-S -o unused.s");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_THAT(generate(spec)["robot.control.cpp"], testing::Not(HasSubstr("memory.m")));
 }
 
 TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {

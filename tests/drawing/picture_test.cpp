@@ -43,9 +43,11 @@ TEST(Picture, PutsConditionsInSquareBrackets) {
   ASSERT_EQ(names(drawn.bars).back(), "velocity.timeout");
   EXPECT_EQ(drawn.bars.back().details.at(0).plain(), "[200 ms]");
   const Picture drive = picture(built, "robot.motor.drive");
-  EXPECT_FALSE(drive.bars[3].never);
-  EXPECT_TRUE(drive.bars[4].never);
+  EXPECT_EQ(drive.bars[3].fires, Fires::by_condition);
+  EXPECT_EQ(drive.bars[4].fires, Fires::never);
   EXPECT_EQ(drive.bars[4].details.at(0).plain(), "[never]");
+  EXPECT_EQ(drive.bars[5].fires, Fires::after_failure) << "a device may fail";
+  EXPECT_EQ(drive.bars[5].details.at(0).plain(), "[failure]");
 }
 
 TEST(Picture, MarksFusedPlacesAndTokens) {

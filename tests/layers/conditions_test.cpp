@@ -35,9 +35,9 @@ constexpr auto some = Kind::expressions;
 
 // t4, t5, t6: they exclude each other and one always holds.
 const std::vector<EndingCase> ending_cases{
-    {never, never, Truth::always, Truth::never, Truth::never, "", "never", "never"},
-    {always, never, Truth::never, Truth::always, Truth::never, "never", "", "never"},
-    {some, never, Truth::free, Truth::free, Truth::never, "not terminal", "terminal: done", "never"},
+    {never, never, Truth::always, Truth::never, Truth::never, "", "never", "failure"},
+    {always, never, Truth::never, Truth::always, Truth::never, "never", "", "failure"},
+    {some, never, Truth::free, Truth::free, Truth::never, "not terminal", "terminal: done", "failure"},
     {never, some, Truth::free, Truth::never, Truth::free, "no error", "never", "error: in.x.level < 3"},
     {always, some, Truth::never, Truth::free, Truth::free, "never", "no error", "error: in.x.level < 3"},
     {some, some, Truth::free, Truth::free, Truth::free, "no error, not terminal", "terminal: done; no error",
@@ -67,6 +67,9 @@ TEST(Conditions, OfABehavioursEndFollowFromItsConstants) {
     EXPECT_EQ(t4.text, expected.go_on_text);
     EXPECT_EQ(t5.text, expected.ends_text);
     EXPECT_EQ(t6.text, expected.fails_text);
+    EXPECT_NE(t6.known(true).truth, Truth::never) << "any behaviour may end by a failure";
+    EXPECT_EQ(t4.known(true).truth, expected.go_on);
+    EXPECT_EQ(t5.known(true).truth, expected.ends);
   }
 }
 
@@ -78,13 +81,13 @@ spec::Next entry(When kind) {
   return next;
 }
 
-std::string truths(const spec::Behaviour& behaviour) {
+std::string truths(const spec::Behaviour& behaviour, bool failures = false) {
   const net::Page page = page_of(behaviour, "a.c");
   std::string text;
   for (std::size_t at = 1; at < page.transitions.size(); ++at) {
     const net::Condition& condition = page.transitions[at].condition;
     const char* names[] = {"free", "always", "never"};
-    text += (at > 1 ? ", " : "") + condition.text + " " + names[int(condition.truth)];
+    text += (at > 1 ? ", " : "") + condition.text + " " + names[int(condition.known(failures).truth)];
   }
   return text;
 }
@@ -94,11 +97,14 @@ TEST(Conditions, OfNextAreTriedInOrder) {
   work.terminal = given(some, "done");
   work.error = given(some, "lost");
   work.next = {entry(When::terminal), entry(When::named_error), entry(When::expression), entry(When::always)};
-  EXPECT_EQ(truths(work), "done free, lost free, memory.n > 7 free, otherwise free");
+  // One of the two held, so the others are taken after a failure only.
+  EXPECT_EQ(truths(work), "done free, lost free, memory.n > 7 never, otherwise never");
+  EXPECT_EQ(truths(work, true), "done free, lost free, memory.n > 7 free, otherwise free");
   work.next = {entry(When::error), entry(When::always), entry(When::expression)};
   EXPECT_EQ(truths(work), "error free, otherwise free, memory.n > 7 never");
   work.error = given(never);
   EXPECT_EQ(truths(work), "error never, otherwise always, memory.n > 7 never");
+  EXPECT_EQ(truths(work, true), "error free, otherwise free, memory.n > 7 never");
   work.error = given(always);
   EXPECT_EQ(truths(work), "error always, otherwise never, memory.n > 7 never");
 }

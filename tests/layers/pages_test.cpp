@@ -17,7 +17,7 @@ TEST(Pages, OfTheLineFollowerAreDrawnAsInThePaper) {
               ElementsAre("t_in: in -> init", "t_init_1: init -> follow", "t_follow_1: follow -> out"));
   EXPECT_THAT(transitions_of(built.pages, "robot.motor.drive"),
               ElementsAre("t1: in -> snd", "t2: snd -> 2", "t3: 2 -> rcv", "t4: rcv -> in",
-                          "t5: rcv -> out [never]", "t6: rcv -> out [never]"));
+                          "t5: rcv -> out [never]", "t6: rcv -> out [failure]"));
   EXPECT_THAT(places_of(built.pages, "robot.control.follow"), ElementsAre("in", "2", "out"));
 }
 

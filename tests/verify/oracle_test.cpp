@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "layers/exploration.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
 #include "verify/abstraction.hpp"
 #include "verify/verify.hpp"
+#include "verify/waits.hpp"
 #include "verify_circuits/naive_answers.hpp"
+#include "verify_circuits/naive_endings.hpp"
 #include "verify_circuits/random_system.hpp"
 
 namespace tessera::verify {
@@ -54,16 +58,127 @@ net::Net starting_in(const net::Net& net, const std::vector<std::uint32_t>& toke
   return other;
 }
 
-bool every_behaviour_runs(const net::Net& net) {
+/// The places that start a behaviour and are never marked, by the paths of the behaviours.
+std::set<std::string> dead_behaviours(const net::Net& net) {
   const test::Exploration all = test::explore(net, 100000);
   std::vector<bool> marked(net.places().size(), false);
   for (const test::Marking& marking : all.markings)
     for (std::size_t place = 0; place < marking.size(); ++place)
       if (marking[place] > 0) marked[place] = true;
+  std::set<std::string> dead;
   for (std::size_t place = 0; place < marked.size(); ++place)
-    if (net.places()[place].operation.kind == net::Operation::Kind::transition_function && !marked[place])
-      return false;
-  return true;
+    if (const net::Place& one = net.places()[place];
+        one.operation.kind == net::Operation::Kind::transition_function && !marked[place])
+      dead.insert(one.name.substr(0, one.name.rfind('.')));
+  return dead;
+}
+
+/// What an exhaustive search finds, with an abstraction of its own (naive_endings.hpp).
+struct Truth {
+  test::NaiveAnswers conditions;
+  std::optional<test::NaiveAnswers> failures;  ///< if any iteration may fail; nullopt: too large
+  std::set<std::string> dead;
+};
+
+constexpr std::size_t most_markings = 1500;
+
+std::optional<Truth> truth_of(const spec::Model& model, const net::Net& flat) {
+  const net::Net net = test::naively_abstract(model, flat, false);
+  std::optional<test::NaiveAnswers> conditions = test::explore_naively(net, most_markings);
+  if (!conditions) return std::nullopt;
+  return Truth{std::move(*conditions),
+               test::explore_naively(test::naively_abstract(model, flat, true), most_markings),
+               dead_behaviours(possible_part(net))};
+}
+
+// ---------------------------------------------------------------------------------------------- runs
+
+/// The transitions that can be fired at some time from the initial marking; nullopt: it has too many
+/// markings.
+std::optional<std::set<std::uint32_t>> that_can_fire(const net::Net& net) {
+  const test::Exploration all = test::explore(possible_part(net), 3000);
+  if (!all.complete) return std::nullopt;
+  std::set<std::uint32_t> can;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    if (net.transitions()[index].condition.truth == net::Condition::Truth::never) continue;
+    const auto enabled = [&](const test::Marking& marking) {
+      return std::ranges::all_of(net.preset({index}),
+                                 [&](const net::Arc& arc) { return marking[arc.place.value] >= arc.weight; });
+    };
+    if (std::ranges::any_of(all.markings, enabled)) can.insert(index);
+  }
+  return can;
+}
+
+/// Where a run ends, and what is said of it there.
+class RunEnd {
+ public:
+  RunEnd(const net::Net& net, std::set<std::uint32_t> can_fire) : net_(net), can_fire_(std::move(can_fire)) {
+    for (const std::uint32_t transition : can_fire_)
+      if (const std::uint32_t subsystem = net.transitions()[transition].subsystem;
+          subsystem != net::no_subsystem)
+        moving_.insert(subsystem_names(net)[subsystem]);
+  }
+
+  void expect_true(const std::string& wait) const {
+    SCOPED_TRACE(wait);
+    const std::string who = wait.substr(0, wait.find(' '));
+    const std::string does = wait.substr(who.size() + 1);
+    const bool goes_on = does.starts_with("goes on");
+    EXPECT_EQ(moving_.contains(who), goes_on);
+    if (does.starts_with("waits for")) {
+      const std::size_t at = wait.find(" of ") + 4;
+      const std::string channel = wait.substr(at, wait.find_first_of(" ,", at) - at);
+      const char* state = does.starts_with("waits for a value")               ? ".full"
+                          : does.starts_with("waits for the acknowledgement") ? ".ack"
+                                                                              : nullptr;
+      if (state == nullptr) return;
+      for (const net::Place& place : net_.places()) {
+        if (place.name == channel + state) {
+          EXPECT_EQ(place.tokens, 0U);
+        }
+      }
+    }
+  }
+  [[nodiscard]] bool moves(const std::string& subsystem) const { return moving_.contains(subsystem); }
+  [[nodiscard]] bool is_read(const std::string& channel) const {
+    return std::ranges::any_of(can_fire_, [&](std::uint32_t transition) {
+      const auto outputs = net_.postset({transition});
+      return std::ranges::any_of(outputs,
+                                 [&](const net::Arc& arc) {
+                                   return net_[arc.place].operation.kind == net::Operation::Kind::read;
+                                 }) &&
+             std::ranges::any_of(net_.preset({transition}), [&](const net::Arc& arc) {
+               return net_[arc.place].fused() && net_[arc.place].name.starts_with(channel + ".");
+             });
+    });
+  }
+
+ private:
+  const net::Net& net_;
+  std::set<std::uint32_t> can_fire_;
+  std::set<std::string> moving_;
+};
+
+/// Each entry of `next` in the run follows an ending after which the controller can take it.
+void expect_fitting_endings(const spec::Model& model, const net::Net& net,
+                            const std::vector<net::TransitionId>& run, bool failures) {
+  using Kind = net::Condition::Kind;
+  std::map<std::uint32_t, std::pair<const spec::Behaviour*, bool>> ended;  // per subsystem: terminal?
+  for (const net::TransitionId id : run) {
+    const net::Transition& fired = net[id];
+    const Kind kind = fired.condition.kind;
+    if (kind == Kind::terminal || kind == Kind::error)
+      ended[fired.subsystem] = {test::behaviour_of(model, fired), kind == Kind::terminal};
+    if (kind != Kind::next) continue;
+    const auto [behaviour, terminal] = ended.at(fired.subsystem);
+    const int entry = fired.name.ends_with(" none") ? -1 : static_cast<int>(fired.condition.subject);
+    const test::NaiveEndings endings = test::try_endings(*behaviour);
+    const bool fits = terminal ? endings.after(spec::Ending::terminal).contains(entry)
+                               : endings.after(spec::Ending::error).contains(entry) ||
+                                     (failures && endings.after(spec::Ending::failure).contains(entry));
+    EXPECT_TRUE(fits) << fired.name << " after " << (terminal ? "t5" : "t6");
+  }
 }
 
 struct Tally {
@@ -72,10 +187,12 @@ struct Tally {
 
 class Comparison {
  public:
-  Comparison(const test::Built& built, const std::vector<net::Invariant>& invariants, Tally& tally)
-      : built_(built), invariants_(invariants), tally_(tally) {}
+  Comparison(const spec::Model& model, const test::Built& built,
+             const std::vector<net::Invariant>& invariants, Tally& tally)
+      : model_(model), built_(built), invariants_(invariants), tally_(tally) {}
 
-  void with(const std::string& method, const net::Net& abstract, const test::NaiveAnswers& naive, bool live) {
+  void with(const std::string& method, const Truth& found) {
+    const test::NaiveAnswers& naive = found.conditions;
     ProveOptions options;
     options.method = method;
     const Report report = prove({built_.net, &built_.pages, invariants_}, options);
@@ -85,15 +202,18 @@ class Comparison {
         {"sound_pages", true},
         {"deadlock_free", !naive.deadlock},
         {"goes_on", !any(naive.stuck)},
-        {"live_behaviours", live},
+        {"live_behaviours", found.dead.empty()},
     };
+    if (found.failures)
+      truth["survives_exceptions"] = !found.failures->deadlock && !any(found.failures->stuck);
     if (const std::optional<bool> flow = channels_flow(naive)) truth["channels_flow"] = *flow;
     for (const PropertyResult& property : report.properties) {
       ++tally_.verdicts[property.name][static_cast<std::size_t>(property.verdict)];
       if (!truth.contains(property.name) || property.verdict == Verdict::unknown) continue;
       EXPECT_EQ(property.verdict == Verdict::holds, truth.at(property.name))
           << property.name << " by " << property.method << ": " << property.why;
-      if (property.has_trace) shows(property, abstract);
+      if (property.has_trace) shows(property);
+      if (method.empty() && property.name == "live_behaviours") names_all(property, found.dead);
     }
   }
 
@@ -109,21 +229,36 @@ class Comparison {
     return unclear ? std::nullopt : std::optional(true);
   }
 
-  static void shows(const PropertyResult& property, const net::Net& abstract) {
+  static void names_all(const PropertyResult& property, const std::set<std::string>& dead) {
+    std::set<std::string> named;
+    for (const PropertyResult::Behaviour& one : property.behaviours) named.insert(one.path);
+    EXPECT_EQ(named, dead);
+  }
+
+  void shows(const PropertyResult& property) const {
+    const net::Net abstract =
+        abstract_net(built_.net, property.exceptions ? Assume::exceptions : Assume::conditions);
     const net::Net after = starting_in(abstract, replayed(abstract, property.trace));
-    const auto naive = test::explore_naively(after, 5000);
-    if (!naive) return;
+    expect_fitting_endings(model_, abstract, property.trace, property.exceptions);
+    const auto can_fire = that_can_fire(after);
+    if (!can_fire) return;
+    const RunEnd end(after, *can_fire);
+    for (const std::string& wait : property.waits) end.expect_true(wait);
     if (property.name == "deadlock_free") {
-      EXPECT_TRUE(naive->deadlock && naive->markings == 1) << "the run ends in no dead marking";
+      EXPECT_TRUE(can_fire->empty()) << "the run ends in no dead marking";
     }
-    if (property.name == "goes_on") {
-      EXPECT_TRUE(any(naive->stuck));
+    if (property.name == "goes_on" || (property.exceptions && !can_fire->empty())) {
+      ASSERT_FALSE(property.waits.empty());
+      EXPECT_FALSE(end.moves(property.waits.front().substr(0, property.waits.front().find(' '))));
     }
     if (property.name == "channels_flow") {
-      EXPECT_TRUE(any(naive->dry));
+      const std::string channel = property.why.substr(0, property.why.find(' '));
+      EXPECT_FALSE(end.is_read(channel)) << "the run ends where " << channel << " can be read again";
+      EXPECT_FALSE(property.waits.empty());
     }
   }
 
+  const spec::Model& model_;
   const test::Built& built_;
   const std::vector<net::Invariant>& invariants_;
   Tally& tally_;
@@ -137,22 +272,20 @@ Tally compared(spec::Model (*system)(std::uint64_t seed), std::uint64_t systems)
     SCOPED_TRACE("seed " + std::to_string(seed));
     const spec::Model model = system(seed);
     const test::Built built = test::build(model);
-    const net::Net abstract = abstract_net(built.net);
-    const auto naive = test::explore_naively(abstract, 1500);
-    if (!naive) continue;
+    const std::optional<Truth> truth = truth_of(model, built.net);
+    if (!truth) continue;
     ++compared;
     const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
-    const bool live = every_behaviour_runs(possible_part(abstract));
-    Comparison(built, invariants, tally).with("", abstract, *naive, live);
+    Comparison(model, built, invariants, tally).with("", *truth);
     for (const std::string& method : method_names())
-      Comparison(built, invariants, of_methods).with(method, abstract, *naive, live);
+      Comparison(model, built, invariants, of_methods).with(method, *truth);
     if (testing::Test::HasFailure()) break;
   }
   return tally;
 }
 
 void expect_both_verdicts(Tally tally) {
-  for (const char* name : {"deadlock_free", "goes_on", "channels_flow"}) {
+  for (const char* name : {"deadlock_free", "goes_on", "channels_flow", "survives_exceptions"}) {
     const auto& [holds, violated, unknown] = tally.verdicts[name];
     EXPECT_GT(holds, 0) << name;
     EXPECT_GT(violated, 0) << name;
@@ -167,6 +300,16 @@ TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
 TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystemsOfOwnModels) {
   expect_both_verdicts(
       compared(test::random_system_of_own_models, from_environment("TESSERA_RANDOM_SYSTEMS", 100)));
+}
+
+spec::Model random_system_with_endings(std::uint64_t seed) {
+  spec::Model model = seed % 2 == 0 ? test::random_system(seed) : test::random_system_of_own_models(seed);
+  test::draw_endings(model, seed);
+  return model;
+}
+
+TEST(Prove, AgreesWithExhaustiveSearchHoweverBehavioursEnd) {
+  expect_both_verdicts(compared(random_system_with_endings, from_environment("TESSERA_RANDOM_SYSTEMS", 150)));
 }
 
 }  // namespace

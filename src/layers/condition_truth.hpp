@@ -1,0 +1,21 @@
+#pragma once
+
+#include "net/net.hpp"
+#include "spec/endings.hpp"
+
+namespace tessera::layers {
+
+/// What the specification knows of a condition, as the net says it.
+[[nodiscard]] constexpr net::Condition::Truth truth(spec::Truth known) {
+  switch (known) {
+    case spec::Truth::free:
+      return net::Condition::Truth::free;
+    case spec::Truth::always:
+      return net::Condition::Truth::always;
+    case spec::Truth::never:
+      return net::Condition::Truth::never;
+  }
+  return net::Condition::Truth::free;
+}
+
+}  // namespace tessera::layers

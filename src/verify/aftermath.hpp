@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "net/net.hpp"
+
+namespace tessera::verify {
+
+/// All that can happen after a run to some subsystems and those that they exchange with, directly or through
+/// others: every marking that they can reach, and how. Of the other subsystems nothing happens.
+class Aftermath {
+ public:
+  using Run = std::vector<net::TransitionId>;
+  /// A marking, by its number. The run leads to `start`.
+  using Number = std::uint32_t;
+  static constexpr Number start = 0;
+  using Markings = std::vector<bool>;  ///< per marking
+
+  /// nullopt: there are more markings than `most`.
+  /// Precondition: the run is one of the net.
+  [[nodiscard]] static std::optional<Aftermath> of(const net::Net& net, const Run& run,
+                                                   const std::set<std::uint32_t>& subsystems,
+                                                   std::size_t most);
+
+  /// The markings from which one of the transitions can be fired, at once or later.
+  [[nodiscard]] Markings can_fire(const std::vector<net::TransitionId>& any_of) const;
+  /// The markings from which one of the goal can be reached, itself included.
+  [[nodiscard]] Markings can_reach(Markings goal) const;
+  [[nodiscard]] Markings reachable_from(Number from) const;
+
+  struct Way {
+    Run run;
+    Number to = start;
+  };
+  /// A shortest way to a marking of the goal.
+  [[nodiscard]] std::optional<Way> way(Number from, const Markings& goal) const;
+
+  /// Tokens of every place of the net.
+  [[nodiscard]] std::vector<std::uint32_t> tokens(Number marking) const;
+  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+
+ private:
+  struct Edge {
+    net::TransitionId transition;
+    Number to = 0;
+  };
+  explicit Aftermath(const net::Net& net) : net_(&net), local_(net.places().size(), UINT32_MAX) {}
+  void choose(const std::set<std::uint32_t>& subsystems);
+  void begin_after(const Run& run);
+  [[nodiscard]] bool explored(std::size_t most);
+  Number number(const std::string& marking);
+
+  const net::Net* net_;
+  std::vector<net::TransitionId> transitions_;  // that can happen
+  std::vector<std::uint32_t> local_;            // per place: its number in a marking
+  std::vector<std::uint32_t> at_start_;         // tokens per place of the net
+  std::vector<std::string> markings_;
+  std::unordered_map<std::string, Number> numbers_;
+  std::vector<std::vector<Edge>> edges_;
+};
+
+}  // namespace tessera::verify

@@ -1,0 +1,224 @@
+#include "verify/explanation.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "verify/aftermath.hpp"
+#include "verify/causes.hpp"
+#include "verify/claims.hpp"
+#include "verify/goals.hpp"
+#include "verify/waits.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using net::TransitionId;
+using Run = std::vector<TransitionId>;
+using Number = Aftermath::Number;
+
+/// Markings rather than time: the same run on every machine.
+constexpr std::size_t most_markings = 20'000;
+
+Aftermath::Markings opposite(Aftermath::Markings markings) {
+  markings.flip();
+  return markings;
+}
+
+void add_new(std::vector<std::string>& to, std::vector<std::string> lines) {
+  for (std::string& line : lines)
+    if (std::ranges::count(to, line) == 0) to.push_back(std::move(line));
+}
+
+/// Follows the waits, with all that can happen at hand.
+class Explainer {
+ public:
+  Explainer(const net::Net& net, const Aftermath& after, Run run, std::vector<TransitionId> stuck)
+      : net_(net), after_(after), run_(std::move(run)), stuck_(std::move(stuck)) {}
+
+  /// false: the transitions do not get stuck.
+  bool find_end() {
+    const std::uint32_t owner = net_[stuck_.front()].subsystem;
+    if (!go_to(opposite(after_.can_fire(stuck_)))) return false;
+    concern(owner);
+    // Where one has been brought to its end, another may have stopped too.
+    for (Number before = at_ + 1; before != at_;) {
+      before = at_;
+      for (std::size_t next = 0; next < concerned_.size(); ++next) follow(concerned_[next]);
+    }
+    return true;
+  }
+
+  [[nodiscard]] Explanation result() && {
+    const Waits waits = here();
+    Explanation explanation{std::move(run_), {}};
+    std::vector<std::set<std::uint32_t>> lacks;
+    for (const std::uint32_t subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
+    for (const std::uint32_t subsystem : concerned_)
+      add_new(explanation.waits, lines(waits, subsystem, lacks));
+    return explanation;
+  }
+
+ private:
+  [[nodiscard]] Waits here() const { return {net_, after_.tokens(at_)}; }
+
+  bool go_to(const Aftermath::Markings& goal) {
+    const std::optional<Aftermath::Way> way = after_.way(at_, goal);
+    if (!way) return false;
+    run_.insert(run_.end(), way->run.begin(), way->run.end());
+    at_ = way->to;
+    return true;
+  }
+
+  void concern(std::uint32_t subsystem) {
+    if (std::ranges::count(concerned_, subsystem) == 0) concerned_.push_back(subsystem);
+  }
+
+  [[nodiscard]] bool stuck_for_ever(const Waits& waits, std::uint32_t subsystem) const {
+    return !after_.can_fire(waits.transitions(subsystem))[at_];
+  }
+
+  /// Brings a subsystem that cannot go on for ever to where it stops, and concerns those whom it waits for.
+  void follow(std::uint32_t subsystem) {
+    const std::vector<TransitionId> transitions = here().transitions(subsystem);
+    const Aftermath::Markings stops = opposite(after_.can_fire(transitions));
+    if (!stops[at_]) {
+      const Aftermath::Markings goes_on = opposite(after_.can_reach(stops));
+      if (!after_.way(at_, goes_on)) static_cast<void>(go_to(stops));
+    }
+    const Waits waits = here();
+    for (const std::uint32_t place : waits_at(waits, subsystem))
+      for (const std::uint32_t giver : waits.givers(place, subsystem)) concern(giver);
+  }
+
+  /// The places of channels that it lacks, stuck as a whole or, though it goes on, with the transitions asked
+  /// for.
+  [[nodiscard]] std::set<std::uint32_t> waits_at(const Waits& waits, std::uint32_t subsystem) const {
+    if (waits.has_ended(subsystem)) return {};
+    if (stuck_for_ever(waits, subsystem)) return waits.lacking(subsystem);
+    if (subsystem != concerned_.front()) return {};
+    std::set<std::uint32_t> places;
+    const Aftermath::Markings later = after_.reachable_from(at_);
+    for (Number marking = 0; marking < after_.size(); ++marking)
+      if (later[marking]) places.merge(lacking(net_, after_.tokens(marking), stuck_));
+    return places;
+  }
+
+  /// lacks: of each that is concerned.
+  [[nodiscard]] std::vector<std::string> lines(const Waits& waits, std::uint32_t subsystem,
+                                               const std::vector<std::set<std::uint32_t>>& lacks) const {
+    if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
+    if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
+    std::vector<std::string> texts;
+    if (subsystem == concerned_.front()) {
+      if (lacks.front().empty())
+        for (const net::Arc& arc : net_.preset(stuck_.front()))
+          if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
+      return texts;
+    }
+    for (std::size_t other = 0; other < lacks.size(); ++other)
+      for (const std::uint32_t place : lacks[other])
+        if (waits.givers(place, concerned_[other]).contains(subsystem))
+          add_new(texts, {waits.gives_no_more(subsystem, place)});
+    return texts;
+  }
+
+  const net::Net& net_;
+  const Aftermath& after_;
+  Run run_;
+  std::vector<TransitionId> stuck_;
+  Number at_ = Aftermath::start;
+  std::vector<std::uint32_t> concerned_;
+};
+
+// ---------------------------------------------------------------------------------------------- large nets
+
+net::Net starting_after(const net::Net& net, const Run& run) {
+  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+  net::Net other;
+  for (std::uint32_t index = 0; index < tokens.size(); ++index) {
+    net::Place place = net.places()[index];
+    place.tokens = tokens[index];
+    other.add(std::move(place));
+  }
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    other.add(net.transitions()[index], net.preset({index}), net.postset({index}));
+  return other;
+}
+
+/// Gone on with until none of the transitions can be fired any more, by reductions and search.
+Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  if (never_again(net, run, stuck)) return run;
+  std::vector<explore::Formula> enabled;
+  for (const TransitionId id : stuck) {
+    std::vector<explore::Formula> marked;
+    for (const net::Arc& arc : net.preset(id)) marked.push_back(explore::Formula::marked(arc.place));
+    enabled.push_back(explore::Formula::all(std::move(marked)));
+  }
+  explore::Limits limits;
+  limits.markings = 5 * most_markings;
+  const Goal goal{explore::Formula::any(std::move(enabled))};
+  const std::vector<Found> found = ask(starting_after(net, run), Ask::always_reachable, {goal},
+                                       Found::Kind::no, {.safe = true, .rules = {}}, limits);
+  if (found.front().kind == Found::Kind::no)
+    run.insert(run.end(), found.front().trace.begin(), found.front().trace.end());
+  return run;
+}
+
+/// Who can be shown to be stuck, and follows from the first by waiting.
+std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
+                                      std::vector<std::uint32_t> concerned) {
+  const Waits waits(net, tokens_after(net, run));
+  std::vector<std::string> lines;
+  for (std::size_t next = 0; next < concerned.size(); ++next) {
+    const std::uint32_t subsystem = concerned[next];
+    if (waits.has_ended(subsystem)) {
+      add_new(lines, {waits.name(subsystem) + " has ended"});
+      continue;
+    }
+    if (waits.moves(subsystem) || !never_again(net, run, waits.transitions(subsystem))) continue;
+    add_new(lines, waits.lines(subsystem));
+    for (const std::uint32_t place : waits.lacking(subsystem))
+      for (const std::uint32_t giver : waits.givers(place, subsystem))
+        if (std::ranges::count(concerned, giver) == 0) concerned.push_back(giver);
+  }
+  return lines;
+}
+
+Explanation roughly_explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  run = to_the_end(net, std::move(run), stuck);
+  Run further = until_all_concerned_wait(net, run, stuck);
+  if (never_again(net, further, stuck)) run = std::move(further);
+  std::vector<std::string> lines = proved_waits(net, run, {net[stuck.front()].subsystem});
+  return {std::move(run), std::move(lines)};
+}
+
+}  // namespace
+
+Explanation explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  if (stuck.empty()) return {std::move(run), {}};
+  const auto after = Aftermath::of(net, run, {net[stuck.front()].subsystem}, most_markings);
+  if (!after) return roughly_explained(net, std::move(run), stuck);
+  Explainer explainer(net, *after, run, stuck);
+  if (!explainer.find_end()) return {std::move(run), {}};
+  return std::move(explainer).result();
+}
+
+std::vector<std::string> waits_for_ever(const net::Net& net, const Run& run) {
+  const Waits waits(net, tokens_after(net, run));
+  std::set<std::uint32_t> all;
+  for (std::uint32_t subsystem = 0; subsystem < waits.subsystems(); ++subsystem)
+    if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) all.insert(subsystem);
+  const auto after = Aftermath::of(net, run, all, most_markings);
+  std::vector<std::string> lines;
+  for (const std::uint32_t subsystem : all) {
+    const bool for_ever = after ? !after->can_fire(waits.transitions(subsystem))[Aftermath::start]
+                                : never_again(net, run, waits.transitions(subsystem));
+    if (for_ever) add_new(lines, waits.lines(subsystem));
+  }
+  return lines;
+}
+
+}  // namespace tessera::verify

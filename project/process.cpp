@@ -15,6 +15,9 @@
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <vector>
+
+#include "tessera/signals.hpp"
 
 namespace tessera::project {
 
@@ -26,24 +29,26 @@ extern "C" void pass_on(int signal) {
   if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
 }
 
-/// While it lives, SIGINT and SIGTERM go to the child. They are held back until it is known: one that came
-/// just after its start would end us, and the child, which drives a robot, would run on alone.
+/// While it lives, the signals that would end or stop us go to the child, which decides what to do about
+/// them. They are held back until it is known: one that came just after its start would end us, and the
+/// child, which drives a robot, would run on alone. One that somebody handles or ignores already (nohup) is
+/// left to them.
 class SignalsToChild {
  public:
   SignalsToChild() {
-    sigset_t both;
-    sigemptyset(&both);
-    sigaddset(&both, SIGINT);
-    sigaddset(&both, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &both, &mask_);
+    sigset_t all;
+    sigemptyset(&all);
+    for_handled_signals([&](int signal, SignalUse use) {
+      if (use != SignalUse::ignore) sigaddset(&all, signal);
+    });
+    pthread_sigmask(SIG_BLOCK, &all, &mask_);
   }
   ~SignalsToChild() {
     if (child_pid == 0) {
       pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
       return;
     }
-    sigaction(SIGINT, &interrupt_, nullptr);
-    sigaction(SIGTERM, &terminate_, nullptr);
+    for (const Before& before : before_) sigaction(before.signal, &before.action, nullptr);
     child_pid = 0;
   }
   SignalsToChild(const SignalsToChild&) = delete;
@@ -51,17 +56,27 @@ class SignalsToChild {
 
   void are_for(pid_t child) {
     child_pid = static_cast<std::sig_atomic_t>(child);
-    struct sigaction action {};
-    action.sa_handler = pass_on;
-    sigaction(SIGINT, &action, &interrupt_);
-    sigaction(SIGTERM, &action, &terminate_);
+    for_handled_signals([&](int signal, SignalUse use) {
+      Before before{signal, {}};
+      const bool always = signal == SIGINT || signal == SIGTERM;
+      if (sigaction(signal, nullptr, &before.action) != 0) return;
+      const bool usual = (before.action.sa_flags & SA_SIGINFO) == 0 && before.action.sa_handler == SIG_DFL;
+      if (!usual && !always) return;
+      struct sigaction action {};
+      action.sa_handler = use == SignalUse::ignore ? SIG_IGN : pass_on;
+      sigaction(signal, &action, nullptr);
+      before_.push_back(before);
+    });
     pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
   }
 
  private:
+  struct Before {
+    int signal;
+    struct sigaction action;
+  };
   sigset_t mask_{};
-  struct sigaction interrupt_ {
-  }, terminate_{};
+  std::vector<Before> before_;
 };
 
 pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool own_group = false) {
@@ -70,7 +85,7 @@ pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool ow
   arguments.push_back(nullptr);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // Whoever waits for SIGINT and SIGTERM blocks them; a program that was started must hear them all the same.
+  // Whoever waits for signals blocks them; a program that was started must hear them all the same.
   sigset_t none;
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
@@ -141,9 +156,15 @@ class Output {
   std::size_t line_start_ = 0;
 };
 
+/// Where it stops for a while (Ctrl-Z), so do we, and it goes on with us.
 int wait_for(pid_t child) {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  for (;;) {
+    const pid_t changed = waitpid(child, &status, WUNTRACED);
+    if (changed < 0 && errno == EINTR) continue;
+    if (changed < 0 || !WIFSTOPPED(status)) break;
+    raise(SIGSTOP);
+    kill(child, SIGCONT);
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

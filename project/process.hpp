@@ -20,8 +20,9 @@ struct Exit {
   std::string text;  ///< what it printed, where that was captured
 };
 
-/// Runs a program to its end with this process's terminal. SIGINT and SIGTERM are passed on to it, and it
-/// decides what to do about them.
+/// Runs a program to its end with this process's terminal. The signals that would end or stop this process
+/// (tessera/signals.hpp) are passed on to it, and it decides what to do about them. While it is stopped, so
+/// is this process.
 ///
 /// Throws std::runtime_error when it cannot be started.
 [[nodiscard]] Exit run(const Command& command);

@@ -34,6 +34,8 @@ const char* kind_of(const Event& event) {
       return "marking";
     case Event::Kind::end:
       return "end";
+    case Event::Kind::safe:
+      return "safe";
   }
   return "";
 }
@@ -69,6 +71,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::value:
     case Event::Kind::marking:
     case Event::Kind::end:
+    case Event::Kind::safe:
       return "";
     case Event::Kind::stop:
       return "stop: ";

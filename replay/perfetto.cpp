@@ -13,7 +13,10 @@ namespace tessera::replay {
 namespace {
 
 [[nodiscard]] const char* category_of(Event::Kind kind) {
-  return kind == Event::Kind::fault ? "fault" : kind == Event::Kind::stop ? "stop" : "log";
+  return kind == Event::Kind::fault  ? "fault"
+         : kind == Event::Kind::stop ? "stop"
+         : kind == Event::Kind::safe ? "safe"
+                                     : "log";
 }
 
 using nlohmann::json;

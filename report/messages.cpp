@@ -25,10 +25,12 @@ struct Group {
 /// What is no text, such as values and markings, is no message.
 bool is_message(const Event& event) {
   return event.kind() == Event::Kind::log || event.kind() == Event::Kind::stop ||
-         event.kind() == Event::Kind::fault;
+         event.kind() == Event::Kind::fault || event.kind() == Event::Kind::safe;
 }
 
 Weight weight_of(const Event& event) {
+  if (event.kind() == Event::Kind::safe)
+    return event.version == static_cast<std::uint32_t>(SafeEvent::refused) ? Weight::bad : Weight::plain;
   if (event.kind() == Event::Kind::stop) return event.version == 0 ? Weight::plain : Weight::bad;
   if (event.kind() == Event::Kind::fault || event.version >= 2) return Weight::bad;
   return event.version == 1 ? Weight::warning : Weight::plain;

@@ -1,12 +1,13 @@
+#include <cxxabi.h>
 #include <fmt/core.h>
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
 
 #include "command_line.hpp"
+#include "console.hpp"
 #include "redrive.hpp"
 #include "schedules.hpp"
 #include "summary_text.hpp"
@@ -15,7 +16,7 @@
 namespace tessera {
 namespace {
 
-constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_terminated = 143;
+constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;  // and its number
 
 [[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
   if (file == "-") return static_cast<bool>(std::cout << json << std::flush);
@@ -25,15 +26,14 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_termina
 }
 
 [[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
-  if (summary.failed) fmt::print(stderr, "{}", summary_lines(summary));
+  const console::Session session;  // a terminal that takes nothing does not hold up the end
+  if (summary.failed) console::say(summary_lines(summary));
   if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
   }
   if (summary.failed) return exit_failed;
-  if (summary.ended == "SIGINT") return exit_interrupted;
-  if (summary.ended == "SIGTERM") return exit_terminated;
-  return exit_ok;
+  return summary.signal == 0 ? exit_ok : exit_signal + summary.signal;
 }
 
 [[nodiscard]] int run_schedules(const System& system, const CommandLine& line) {
@@ -49,9 +49,7 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_interrupted = 130, exit_termina
     return exit_failed;
   }
   if (report->failed) return exit_failed;
-  return report->interrupted == 0         ? exit_ok
-         : report->interrupted == SIGTERM ? exit_terminated
-                                          : exit_interrupted;
+  return report->interrupted == 0 ? exit_ok : exit_signal + report->interrupted;
 }
 
 [[nodiscard]] int run_again(const System& system, const CommandLine& line) {
@@ -86,6 +84,11 @@ int controller_main(const System& system, int argc, char** argv) try {
   return report(*summary, line);
 } catch (const std::exception& exception) {
   fmt::print(stderr, "error: {}\n", exception.what());
+  return exit_failed;
+} catch (const abi::__forced_unwind&) {
+  throw;
+} catch (...) {
+  fmt::print(stderr, "error: an exception that is no std::exception\n");
   return exit_failed;
 }
 

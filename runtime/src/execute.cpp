@@ -1,7 +1,10 @@
 #include <fmt/core.h>
 
-#include <exception>
+#include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "assembly.hpp"
 #include "console.hpp"
@@ -37,20 +40,31 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   warn(summary, fmt::format("the world: {}", error));
 }
 
+[[nodiscard]] std::vector<std::string> devices_left_unsafe(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const auto& executor : assembly.executors)
+    std::ranges::move(executor->effectors().unsafe(), std::back_inserter(names));
+  return names;
+}
+
 /// Everything but what only the driver of the run knows.
 template <class Run>
-[[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, std::string& error) {
+[[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
+                                              std::string& error) {
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
   RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
   UpperLayers upper(agents_of(assembly.system), lane);
-  const StopSignals signals;
   const std::int64_t start_ns = monotonic_ns();
   Ending ending = run.run(assembly, upper, signals);
+  const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
+  ending.failed = ending.failed || !unsafe.empty();
 
   RunSummary summary;
   summary.simulated = ending.at.time_since_epoch();
   summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
   summary.failed = ending.failed;
+  summary.signal = ending.signal;
+  summary.world_time = ending.world_time;
   summary.firings = upper.firings();
   for (const auto& executor : assembly.executors) {
     const Operations& operations = executor->operations();
@@ -58,6 +72,16 @@ template <class Run>
     summary.subsystems.push_back(
         {executor->path(), operations.iterations(), executor->overruns(), operations.errors()});
   }
+  for (const std::string& device : unsafe) {
+    warn(summary, fmt::format("{} has not taken its safe command", device));
+    if (lane != nullptr)
+      lane->text(Event::Kind::safe, ending.at, static_cast<std::uint32_t>(SafeEvent::refused),
+                 fmt::format("{}: has not taken its safe command", device));
+  }
+  if (ending.world_time)
+    warn(summary, fmt::format("the simulated world ran at {:.2f} of real time: {:.3f} s of {:.3f} s",
+                              seconds(*ending.world_time) / seconds(summary.simulated),
+                              seconds(*ending.world_time), seconds(summary.simulated)));
   if (lane != nullptr) lane->text(Event::Kind::stop, ending.at, ending.failed ? 1 : 0, ending.text);
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
@@ -66,17 +90,28 @@ template <class Run>
   return summary;
 }
 
+[[nodiscard]] std::optional<RunSummary> with_lost_lines(std::optional<RunSummary> summary,
+                                                        console::Session& session) {
+  if (summary) summary->lines_not_printed = session.settle();
+  return summary;
+}
+
 }  // namespace
 
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
   const auto instances = static_cast<std::uint32_t>(system.instances.size());
+  const bool simulated = options.clock == RunOptions::Clock::simulated;
+  // Before the first driver is made, until the last is gone.
+  const StopSignals signals(simulated ? StopSignals::Suspension::usual : StopSignals::Suspension::noted);
+  // No simulated motor runs on because somebody reads slowly what is printed.
+  console::Session session(simulated ? console::Session::Overflow::waits : console::Session::Overflow::loses);
   Assembly assembly(system, options);
-  if (options.clock == RunOptions::Clock::simulated) {
+  if (simulated) {
     SimulatedRun run(instances, options.seed);
-    return drive(run, assembly, error);
+    return with_lost_lines(drive(run, assembly, signals, error), session);
   }
   SteadyRun run(instances);
-  return drive(run, assembly, error);
+  return with_lost_lines(drive(run, assembly, signals, error), session);
 }
 
 }  // namespace tessera

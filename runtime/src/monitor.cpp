@@ -1,5 +1,6 @@
 #include "monitor.hpp"
 
+#include <cxxabi.h>
 #include <fmt/core.h>
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -52,6 +54,19 @@ constexpr std::int64_t rest_per_work = 50;
          (peer.uid == geteuid() || peer.uid == 0);
 }
 
+/// What is no UTF-8 (a path may be anything) is replaced.
+[[nodiscard]] std::string text_of(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// As it is where that cannot be found out: the folder may have gone.
+[[nodiscard]] std::string absolute(const std::string& path) {
+  if (path.empty()) return path;
+  std::error_code problem;
+  const std::filesystem::path whole = std::filesystem::absolute(path, problem);
+  return problem ? path : whole.string();
+}
+
 }  // namespace
 
 std::string monitor_folder() {
@@ -61,7 +76,10 @@ std::string monitor_folder() {
 }
 
 Monitor::Monitor(const Assembly& assembly, const Clock& clock, RemoteControl* remote)
-    : assembly_(assembly), clock_(clock), remote_(remote) {
+    : assembly_(assembly),
+      clock_(clock),
+      recording_path_(absolute(assembly.options.recording)),
+      remote_(remote) {
   if (!listen_in(monitor_folder())) return;
   ending_ = eventfd(0, EFD_CLOEXEC);
   try {
@@ -78,7 +96,10 @@ Monitor::~Monitor() {
     thread_.join();
   }
   for (Client& client : clients_) {
-    say_goodbye(client);
+    try {
+      say_goodbye(client);
+    } catch (const std::exception&) {  // it has seen less than it could have
+    }
     close(client.socket);
   }
   if (ending_ >= 0) close(ending_);
@@ -117,11 +138,31 @@ void Monitor::complain_of_failure(Time now) const {
                    fmt::format("`tessera top` cannot look at this run: {}", failure_));
 }
 
+/// Whatever goes wrong with those who watch ends the watching and not the run.
 void Monitor::serve() {
+  std::string_view what = "an exception that is no std::exception";
+  std::string text;
+  try {
+    return serve_until_ended();
+  } catch (const abi::__forced_unwind&) {
+    throw;
+  } catch (const std::exception& exception) {
+    try {
+      text = fmt::format("`tessera top` cannot look at this run any more: {}", exception.what());
+      what = text;
+    } catch (...) {  // no memory for more
+    }
+  } catch (...) {
+  }
+  console::print(LogLevel::warning, clock_.now(), "tessera", what);
+}
+
+void Monitor::serve_until_ended() {
   std::int64_t due_ns = 0;
   for (;;) {
-    std::vector<pollfd> sources{pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
-                                pollfd{.fd = listening_, .events = POLLIN, .revents = 0}};
+    std::vector<pollfd> sources{
+        pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
+        pollfd{.fd = cannot_accept_ ? -1 : listening_, .events = POLLIN, .revents = 0}};
     for (const Client& client : clients_) {
       const int wanted = POLLIN | (client.waiting.empty() ? 0 : POLLOUT);
       sources.push_back({.fd = client.socket, .events = static_cast<short>(wanted), .revents = 0});
@@ -129,7 +170,7 @@ void Monitor::serve() {
     const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
     // Nobody watches: no work at all.
     poll(sources.data(), sources.size(),
-         clients_.empty() ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
+         clients_.empty() && !cannot_accept_ ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
     if ((sources[0].revents & POLLIN) != 0) return;
     for (std::size_t client = 0; client + 2 < sources.size(); ++client) {
       const int ready = sources[client + 2].revents;
@@ -140,6 +181,7 @@ void Monitor::serve() {
     if ((sources[1].revents & POLLIN) != 0) admit();
     const std::int64_t begin_ns = monotonic_ns();
     if (begin_ns < due_ns) continue;
+    cannot_accept_ = false;
     send_to_all();
     const std::int64_t end_ns = monotonic_ns(),
                        period_ms = remote_ == nullptr ? send_period_ms : controlled_period_ms;
@@ -149,7 +191,10 @@ void Monitor::serve() {
 
 void Monitor::admit() {
   const int client = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (client < 0) return;
+  if (client < 0) {
+    cannot_accept_ = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;  // later, maybe
+    return;
+  }
   if (clients_.size() >= most_clients || !is_owner(client)) {
     close(client);
     return;
@@ -197,7 +242,7 @@ std::string Monitor::answer_to(const nlohmann::json& command) {
     wrong = remote_ == nullptr ? "a controller in real time can only be watched" : remote_->command(command);
   } catch (const nlohmann::json::exception&) {  // members of another type
   }
-  return nlohmann::json{{"answer", id}, {"error", wrong}}.dump() + '\n';
+  return text_of({{"answer", id}, {"error", wrong}}) + '\n';
 }
 
 /// false: there was nothing new.
@@ -208,7 +253,7 @@ bool Monitor::add_piece(Client& client) {
   const GrowingRecording::Piece piece = client.recording->next(longest_piece);
   const nlohmann::json head{
       {"recording_bytes", piece.bytes.size()}, {"begins", piece.begins}, {"more", piece.more}};
-  client.waiting += head.dump() + '\n' + piece.bytes;
+  client.waiting += text_of(head) + '\n' + piece.bytes;
   return !piece.bytes.empty();
 }
 
@@ -296,15 +341,14 @@ std::string Monitor::snapshot() const {
       {"system", assembly_.system.name},       {"pid", getpid()},
       {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
       {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}};
-  if (const std::string& recording = assembly_.options.recording; !recording.empty())
-    all["recording"] = std::filesystem::absolute(recording).string();
-  if (remote_ == nullptr) return all.dump();
+  if (!recording_path_.empty()) all["recording"] = recording_path_;
+  if (remote_ == nullptr) return text_of(all);
   const RemoteControl::Shown shown = remote_->shown();
   all["paused"] = shown.paused;
   all["pauses"] = shown.pauses;
   all["speed"] = shown.speed;
   all["broke_at"] = shown.broke_at;
-  return all.dump();
+  return text_of(all);
 }
 
 }  // namespace tessera

@@ -31,6 +31,7 @@ class Monitor {
  private:
   [[nodiscard]] bool listen_in(const std::string& folder);
   void serve();
+  void serve_until_ended();
   void admit();
   struct Client {
     int socket;
@@ -54,8 +55,9 @@ class Monitor {
 
   const Assembly& assembly_;
   const Clock& clock_;
-  std::string socket_file_, failure_;
+  std::string recording_path_, socket_file_, failure_;
   int listening_ = -1, ending_ = -1;
+  bool cannot_accept_ = false;  // no descriptor is left: it tries again after the next line
   RemoteControl* remote_;
   std::vector<Client> clients_;
   std::thread thread_;

@@ -1,35 +1,20 @@
 #include "operations.hpp"
 
+#include <cxxabi.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <utility>
 
 #include "console.hpp"
+#include "waker.hpp"
 
 namespace tessera {
 namespace {
-
-/// One thread at a time writes to the effectors of a subsystem. Others come only when it stalls, so this
-/// costs no system call as a rule.
-class DeviceLock {
- public:
-  explicit DeviceLock(std::atomic_flag& in_use) : in_use_(in_use) {
-    while (in_use_.test_and_set(std::memory_order_acquire)) in_use_.wait(true, std::memory_order_relaxed);
-  }
-  DeviceLock(const DeviceLock&) = delete;
-  DeviceLock& operator=(const DeviceLock&) = delete;
-  ~DeviceLock() {
-    in_use_.clear(std::memory_order_release);
-    in_use_.notify_one();
-  }
-
- private:
-  std::atomic_flag& in_use_;
-};
 
 /// A value of another thread may be younger than this thread's last look at the clock.
 [[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
@@ -41,6 +26,13 @@ void assign(void* to, const void* from, std::size_t size, const ValueType* type)
     type->assign(to, from);
 }
 
+[[nodiscard]] std::vector<Effectors::Group> devices_of(const SubsystemParts& parts) {
+  std::vector<Effectors::Group> devices;
+  for (std::size_t index = 0; index < parts.effectors.size(); ++index)
+    devices.push_back({fmt::format("{}.{}", parts.path, parts.bindings.real_outputs[index].name), index, 1});
+  return devices;
+}
+
 }  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
@@ -49,7 +41,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       control_(control),
       clock_(clock),
       lane_(lane),
-      inputs_(parts_.bindings.inputs.size()) {
+      inputs_(parts_.bindings.inputs.size()),
+      effectors_(devices_of(parts_), parts_.effectors, parts_.bindings.real_outputs, control, clock) {
   for (std::size_t index = 0; index < inputs_.size(); ++index)
     inputs_[index].arrival = parts_.bindings.inputs[index].arrival;
   for (const PortLink& port : parts_.ports) {
@@ -57,6 +50,7 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
   }
+  if (!effectors_.none()) find_received_inputs();
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
@@ -71,6 +65,8 @@ bool Operations::survives(Fault fault, std::uint16_t behaviour, std::string_view
   try {
     std::forward<Code>(code)();
     return true;
+  } catch (const abi::__forced_unwind&) {  // the thread ends
+    throw;
   } catch (const std::exception& exception) {
     fail_in(fault, behaviour, activity, exception.what());
   } catch (...) {
@@ -87,10 +83,25 @@ void Operations::fail_in(Fault fault, std::uint16_t behaviour, std::string_view 
 }
 
 void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view what) {
+  give_safe_command({SafeReason::Kind::fault});  // before anything is said
   report(fault, place_of_call(behaviour), what);
+  effectors_.record(lane_);
   failed_ = true;
   parts_.subsystem->restore_outputs();
-  give_safe_command();
+}
+
+/// A place that reads is one of the behaviour that its name begins with: "follow.rcv.line.in".
+void Operations::find_received_inputs() {
+  const SubsystemNet& net = *parts_.instance->net;
+  received_.resize(net.behaviours.size());
+  for (const Place& place : net.places) {
+    if (place.does.kind != Does::Kind::read) continue;
+    const std::string_view owner = place.name.substr(0, place.name.find('.'));
+    for (std::size_t behaviour = 0; behaviour < net.behaviours.size(); ++behaviour)
+      for (std::size_t port = 0; port < net.ports.size(); ++port)
+        if (net.behaviours[behaviour].name == owner && net.ports[port].name == place.does.subject)
+          received_[behaviour].push_back(parts_.ports[port].buffer);
+  }
 }
 
 /// Where the token stands while that behaviour's transition function runs.
@@ -111,6 +122,8 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   called_at_ = now;
   failed_ = false;
   ++calls_;
+  if (!received_.empty())
+    for (const std::uint32_t input : received_[behaviour]) inputs_[input].awaited = true;
   parts_.subsystem->keep_outputs();
   context_.now = now;
   context_.iteration = iteration_;
@@ -127,12 +140,9 @@ void Operations::finish_call(Time now) {
   for (const Bindings::Incoming& input : parts_.bindings.inputs) input.arrival->fresh = false;
   check_watchdog(now);
   check_outputs();
-  if (!parts_.effectors.empty() && !failed_) {
-    refused_ = false;
+  if (!effectors_.none() && !failed_)
     static_cast<void>(
         survives(Fault::device, behaviour_, "writing a real effector: ", [&] { write_effectors(now); }));
-    if (refused_) fail(Fault::device, behaviour_, "a real effector refused its command");
-  }
   if (parts_.values != nullptr) parts_.values->outputs(now);
 }
 
@@ -189,18 +199,19 @@ bool Operations::read_receptor(std::size_t index, Time now) {
 void Operations::write_effectors(Time now) {
   for (const Bindings::RealOutgoing& output : parts_.bindings.real_outputs)
     if (output.finite != nullptr && !output.finite(output.value)) return fail_not_finite(output);
-  if (const Hold why = why_hold(now); why.kind != Hold::Kind::none)
+  if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none)
     return hold(why, place_of_call(behaviour_));
-  if (control_.stopping()) return give_safe_command();
-  if (std::exchange(held_safe_, false)) log(LogLevel::info, "commands go to the devices again");
-  const DeviceLock lock(devices_in_use_);
-  for (std::size_t index = 0; index < parts_.effectors.size(); ++index) {
-    const Bindings::RealOutgoing& output = parts_.bindings.real_outputs[index];
-    if (!parts_.effectors[index]->write({static_cast<const std::byte*>(output.value), output.size})) {
-      refused_ = true;
-      return;
-    }
-    output.departure->stamp = now;
+  const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
+  switch (effectors_.command(now)) {
+    case Effectors::Answer::withheld:
+      return give_safe_command(
+          {control_.stopping() ? SafeReason::Kind::leaves : SafeReason::Kind::suspended});
+    case Effectors::Answer::refused:
+      return fail(Fault::device, behaviour_, "a real effector refused its command");
+    case Effectors::Answer::taken:
+      refused_since_ = Time::max();
+      effectors_.record(lane_);
+      if (was_held) log(LogLevel::info, "commands go to the devices again");
   }
 }
 
@@ -230,7 +241,10 @@ void Operations::read(std::uint32_t port, std::uint16_t slot, Time now) {
   input.arrival->fresh = input.arrival->fresh || newer;
   state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
-  if (memory.valid) state.last_valid = memory.stamp;
+  if (memory.valid && memory.stamp >= control_.valid_from()) {
+    state.last_valid = memory.stamp;
+    state.known = true;
+  }
   input.arrival->valid = memory.valid;
   input.arrival->stamp = memory.stamp;
   input.arrival->age = age(memory.stamp, now);
@@ -286,87 +300,103 @@ int Operations::route(std::uint16_t behaviour, Time now) {
 
 // -------------------------------------------------------------------------------------------- safe commands
 
-void Operations::give_safe_command() {
-  if (parts_.effectors.empty()) return;
-  const DeviceLock lock(devices_in_use_);
-  if (!write_safe_command()) log(LogLevel::error, "a real effector refused its safe command");
-}
-
-bool Operations::give_safe_command_from_outside() {
-  if (parts_.effectors.empty()) return true;
-  if (devices_in_use_.test_and_set(std::memory_order_acquire)) return false;
-  const bool taken = write_safe_command();
-  devices_in_use_.clear(std::memory_order_release);
-  devices_in_use_.notify_one();
-  return taken;
-}
-
-bool Operations::write_safe_command() {
-  bool taken = true;
-  for (std::size_t index = 0; index < parts_.effectors.size(); ++index) {
-    const Bindings::RealOutgoing& output = parts_.bindings.real_outputs[index];
-    try {
-      taken =
-          parts_.effectors[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) &&
-          taken;
-    } catch (...) {  // the other devices must get theirs
-      taken = false;
-    }
+void Operations::give_safe_command(SafeReason why) {
+  if (effectors_.none()) return;
+  last_safe_ = why;
+  const bool taken = effectors_.make_safe(why, Effectors::Busy::waits);
+  effectors_.record(lane_);
+  if (taken) {
+    refused_since_ = Time::max();
+  } else if (refused_since_ == Time::max()) {
+    refused_since_ = clock_.now();
+    log(LogLevel::error, "a real effector refuses its safe command");
   }
-  return taken;
 }
 
-Operations::Hold Operations::why_hold(Time now) const {
+void Operations::insist() {
+  const std::int64_t until_ns = monotonic_ns() + Effectors::patience.count();
+  while (effectors_.owing() && monotonic_ns() < until_ns) {
+    const timespec pause{.tv_sec = 0, .tv_nsec = Effectors::between_attempts.count()};
+    nanosleep(&pause, nullptr);
+    static_cast<void>(effectors_.insist(last_safe_, Effectors::Busy::waits));
+  }
+  effectors_.record(lane_);
+}
+
+/// Where the safe command was refused.
+void Operations::try_again(Time now) {
+  if (refused_since_ == Time::max()) return;
+  if (effectors_.insist(last_safe_, Effectors::Busy::waits)) {
+    effectors_.record(lane_);
+    refused_since_ = Time::max();
+  } else if (now - refused_since_ > Effectors::patience) {
+    std::array<char, 512> reason;
+    const auto end = fmt::format_to_n(reason.data(), reason.size(),
+                                      "{}: a real effector refuses its safe command", parts_.path);
+    control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
+  }
+}
+
+SafeReason Operations::why_hold(Time now) const {
+  using Why = SafeReason::Kind;
   const Duration stale = parts_.instance->stale;
   for (std::size_t index = 0; index < inputs_.size(); ++index) {
     const InputState& input = inputs_[index];
     if (!input.used) continue;
+    const std::string_view name = parts_.bindings.inputs[index].name;
     if (input.source != UINT32_MAX) {
-      if (control_.has_ended(input.source)) return {Hold::Kind::ended, index};
-      if (control_.is_stalled(input.source)) return {Hold::Kind::stalled, index};
+      if (control_.has_ended(input.source)) return {Why::source_ended, name};
+      if (control_.is_stalled(input.source)) return {Why::source_stalls, name};
     }
-    if (stale > Duration::zero() && now - input.last_valid > stale) return {Hold::Kind::stale, index};
+    if (stale > Duration::zero() && now - input.last_valid > stale) return {Why::stale, name};
+    if (input.awaited && (!input.known || input.last_valid < control_.valid_from()))
+      return {Why::starting, name};
   }
   return {};
 }
 
 /// The safe command stands until the reason is gone; said once.
-void Operations::hold(const Hold& why, std::string_view place) {
-  if (!std::exchange(held_safe_, true)) {
-    std::array<char, 256> text;
-    const std::string_view input = parts_.bindings.inputs[why.input].name;
-    const auto say = [&](auto format, const auto&... values) {
-      const auto end = fmt::format_to_n(text.data(), text.size(), format, input, values...);
-      return std::string_view(text.data(), std::min(end.size, text.size()));
-    };
-    switch (why.kind) {
-      case Hold::Kind::stale:
-        report(Fault::stale, place,
-               say(FMT_STRING("input '{}' has had no valid value for {:.6g} s"),
-                   seconds(parts_.instance->stale)));
-        break;
-      case Hold::Kind::stalled:
-        report(Fault::stale, place, say(FMT_STRING("the source of input '{}' stalls")));
-        break;
-      case Hold::Kind::ended:
-        log(LogLevel::info,
-            say(FMT_STRING("the source of input '{}' has ended; the devices get the safe command")));
-        break;
-      case Hold::Kind::none:
-        break;
-    }
+void Operations::hold(const SafeReason& why, std::string_view place) {
+  give_safe_command(why);
+  if (held_ == why) return;
+  held_ = why;
+  report_hold(why, place);
+}
+
+void Operations::report_hold(const SafeReason& why, std::string_view place) {
+  std::array<char, 256> text;
+  const auto say = [&](auto format, const auto&... values) {
+    const auto end = fmt::format_to_n(text.data(), text.size(), format, why.input, values...);
+    return std::string_view(text.data(), std::min(end.size, text.size()));
+  };
+  switch (why.kind) {
+    case SafeReason::Kind::stale:
+      return report(
+          Fault::stale, place,
+          say(FMT_STRING("input '{}' has had no valid value for {:.6g} s"), seconds(parts_.instance->stale)));
+    case SafeReason::Kind::source_stalls:
+      return report(Fault::stale, place, say(FMT_STRING("the source of input '{}' stalls")));
+    case SafeReason::Kind::source_ended:
+      return log(LogLevel::info,
+                 say(FMT_STRING("the source of input '{}' has ended; the devices get the safe command")));
+    default:  // starting: as every run begins
+      return;
   }
-  give_safe_command();
 }
 
 void Operations::guard_effectors(Time now, std::string_view place) {
-  if (parts_.effectors.empty() || held_safe_) return;
-  if (const Hold why = why_hold(now); why.kind != Hold::Kind::none) hold(why, place);
+  if (effectors_.none()) return;
+  if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none && why != held_)
+    hold(why, place);
+  try_again(now);
 }
 
-Time Operations::guard_deadline() const {
-  Time deadline = Time::max();
-  if (parts_.effectors.empty() || held_safe_ || parts_.instance->stale == Duration::zero()) return deadline;
+Time Operations::guard_deadline(Time now) const {
+  using Why = SafeReason::Kind;
+  if (effectors_.none()) return Time::max();
+  Time deadline = refused_since_ == Time::max() ? Time::max() : now + Effectors::between_attempts;
+  if (parts_.instance->stale == Duration::zero() || (held_.kind != Why::none && held_.kind != Why::starting))
+    return deadline;
   for (const InputState& input : inputs_)
     if (input.used) deadline = std::min(deadline, input.last_valid + parts_.instance->stale + Duration(1));
   return deadline;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clock.hpp"
+#include "effectors.hpp"
 #include "injection.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
@@ -49,10 +50,13 @@ struct SubsystemParts {
 /// invalid until an iteration succeeds, an effector gets its safe command at once, and the outcome is error
 /// whatever the conditions say.
 ///
-/// *Safe command.* Given instead of the outputs while no valid value has arrived on some input for longer
-/// than `stale` (counted from the start of the run before the first; an invalid value is no news), and for
-/// good once a subsystem that feeds an input has ended, and while one stalls. Given at once on failure, and
-/// by give_safe_command on every way out of the run.
+/// *Safe command.* Given instead of the outputs
+/// - until a valid value has come to every input that the behaviours called so far receive;
+/// - while no valid value has arrived on some input for longer than `stale` (counted from the start of the
+///   run before the first; an invalid value is no news);
+/// - for good once a subsystem that feeds an input has ended, and while one stalls.
+/// Given at once on failure, and by leave on every way out of the run. It comes first, and is reported then.
+/// What a device refuses is tried again; if it refuses for as long as Effectors::patience, the run fails.
 ///
 /// Threads: the subsystem's.
 class Operations final : public ContextServices {
@@ -83,15 +87,18 @@ class Operations final : public ContextServices {
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port);
 
-  void give_safe_command();
+  /// The safe command because the subsystem or the run ends.
+  void leave() { give_safe_command({SafeReason::Kind::leaves}); }
+  /// Tries again, for as long as Effectors::patience, where a device has not taken it.
+  void insist();
   /// Gives the safe command if an input is stale or its source has ended or stalls, and it has not been given
-  /// for that reason. place: where the token is.
+  /// for that reason, and again where a device has refused it. place: where the token is.
   void guard_effectors(Time now, std::string_view place);
-  /// The safe command from another thread, while the subsystem's own is in user code; false: the devices are
-  /// in use. Threads: any, one at a time.
-  [[nodiscard]] bool give_safe_command_from_outside();
   /// When guard_effectors must be called next if nothing else happens; Time::max(): never.
-  [[nodiscard]] Time guard_deadline() const;
+  [[nodiscard]] Time guard_deadline(Time now) const;
+  /// Threads: as its members say.
+  [[nodiscard]] Effectors& effectors() { return effectors_; }
+  [[nodiscard]] const Effectors& effectors() const { return effectors_; }
 
   void log(LogLevel level, std::string_view text) override;
   void stop(std::string_view reason) override;
@@ -128,14 +135,13 @@ class Operations final : public ContextServices {
   void fail_in(Fault fault, std::uint16_t behaviour, std::string_view activity, std::string_view what);
   void fail(Fault fault, std::uint16_t behaviour, std::string_view what);
   [[nodiscard]] std::string_view place_of_call(std::uint16_t behaviour) const;
+  void find_received_inputs();
   /// Why the outputs must not go to the devices.
-  struct Hold {
-    enum class Kind : std::uint8_t { none, stale, stalled, ended } kind = Kind::none;
-    std::size_t input = 0;
-  };
-  [[nodiscard]] Hold why_hold(Time now) const;
-  void hold(const Hold& why, std::string_view place);
-  [[nodiscard]] bool write_safe_command();
+  [[nodiscard]] SafeReason why_hold(Time now) const;
+  void hold(const SafeReason& why, std::string_view place);
+  void report_hold(const SafeReason& why, std::string_view place);
+  void give_safe_command(SafeReason why);
+  void try_again(Time now);
   template <class Code>
   [[nodiscard]] bool survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code);
 
@@ -151,19 +157,23 @@ class Operations final : public ContextServices {
     std::uint64_t newest = 0;    // of all values read
     Time last_valid{};
     std::uint32_t source = UINT32_MAX;
-    bool used = false;  // some behaviour receives it
+    bool known = false;    // a valid value has come
+    bool used = false;     // some behaviour receives it
+    bool awaited = false;  // one that has been called does
   };
-  std::vector<InputState> inputs_;                  // as Bindings::inputs
-  std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
-  std::atomic_flag devices_in_use_{};               // by a thread that writes to effectors
+  std::vector<InputState> inputs_;                    // as Bindings::inputs
+  std::vector<const Bindings::Outgoing*> checked_;    // outputs that must be finite
+  std::vector<std::vector<std::uint32_t>> received_;  // per behaviour: inputs; of effectors only
+  Effectors effectors_;
+  SafeReason last_safe_{};            // why it was given last
+  Time refused_since_ = Time::max();  // the safe command, by some device
   Time called_at_{};
   std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
   std::uint16_t behaviour_ = 0;  // the last called
   bool failed_ = false;          // the last transition function
-  bool refused_ = false;         // a command of the last transition function
   bool erroneous_ = false;       // the last outcome was error
-  bool held_safe_ = false;       // the safe command stands because of an input
+  SafeReason held_{};            // the safe command stands because of an input
 };
 
 }  // namespace tessera

@@ -57,6 +57,37 @@ std::string schedule_this_thread(const RealTime& wanted) {
   return denied;
 }
 
+int supervisor_priority(std::span<const Instance> instances) {
+  int highest = 0;
+  for (const Instance& instance : instances)
+    if (instance.policies.realtime.policy != RealTime::Policy::usual)
+      highest = std::max(highest, instance.policies.realtime.priority);
+  return highest == 0 ? 0 : std::min(highest + 1, sched_get_priority_max(SCHED_FIFO));
+}
+
+RealTimePriority::RealTimePriority(int priority) {
+  if (priority == 0) return;
+  sched_param before{};
+  policy_before_ = sched_getscheduler(0);
+  sched_getparam(0, &before);
+  priority_before_ = before.sched_priority;
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0)
+    priority_ = priority;
+  else
+    denied_ = fmt::format("supervisor, fifo priority {}: {}", priority, std::strerror(errno));
+}
+
+RealTimePriority::~RealTimePriority() {
+  if (priority_ == 0) return;
+  sched_param parameters{};
+  parameters.sched_priority = priority_before_;
+  // Who may not take RESET_ON_FORK back keeps it: the policy is what counts.
+  if (sched_setscheduler(0, policy_before_, &parameters) != 0)
+    sched_setscheduler(0, policy_before_ | SCHED_RESET_ON_FORK, &parameters);
+}
+
 std::string lock_memory() {
   // What is there now is brought in; what comes is kept once it was touched, or the stacks of all threads
   // would be.

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,14 +11,18 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 
+#include "stop_signals.hpp"
 #include "waker.hpp"
 
 namespace tessera {
 namespace {
 
 constexpr std::int64_t drain_period_ns = 5'000'000;
+constexpr std::int64_t patience_ns = 2'000'000'000;  // at the end, with a pipe that nobody reads
+constexpr int look_up_ms = 50;
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
 }  // namespace
@@ -73,6 +79,8 @@ bool RecordingFile::open(const std::string& path, std::string_view header, std::
 bool RecordingFile::open_segment() {
   descriptor_ = ::open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
   if (descriptor_ < 0) return false;
+  if (struct stat status{}; fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode))
+    fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) | O_NONBLOCK);
   std::string header = header_;
   if (track_ != nullptr) {
     header.pop_back();
@@ -166,9 +174,15 @@ void RecordingFile::close() {
 }
 
 void RecordingFile::write_all(const char* bytes, std::size_t count) {
+  std::int64_t stuck_ns = 0;
   while (count > 0 && failure_.empty()) {
     const ssize_t written = write(descriptor_, bytes, count);
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {
+      await_room(stuck_ns);
+      continue;
+    }
+    stuck_ns = 0;
     if (written < 0) {
       failure_ = std::strerror(errno);
     } else {
@@ -176,6 +190,16 @@ void RecordingFile::write_all(const char* bytes, std::size_t count) {
       count -= static_cast<std::size_t>(written);
     }
   }
+}
+
+/// Of a pipe. Its reader may be slow; once the run is at its end it must read on, or lose the rest.
+void RecordingFile::await_room(std::int64_t& stuck_ns) {
+  pollfd room{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+  if (poll(&room, 1, look_up_ms) > 0) return;
+  if (!hurry_.load(std::memory_order_relaxed) && StopSignals::pending() == 0) return;
+  const std::int64_t now_ns = monotonic_ns();
+  if (stuck_ns == 0) stuck_ns = now_ns;
+  if (now_ns - stuck_ns > patience_ns) failure_ = "nobody reads it";
 }
 
 // ------------------------------------------------------------------------------------------------ lane
@@ -326,10 +350,14 @@ Recorder::~Recorder() {
 
 void Recorder::write_until_closed() {
   WakeWord never;  // only its timeout ends the wait: producers must not pay for waking a writer
-  while (closing_.load(std::memory_order_acquire) == 0) {
-    drain();
-    file_.flush();
-    never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
+  try {
+    while (closing_.load(std::memory_order_acquire) == 0) {
+      drain();
+      file_.flush();
+      never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
+    }
+  } catch (const std::exception& exception) {  // no memory: what comes now is lost, and counted
+    file_.fail(exception.what());
   }
 }
 
@@ -366,6 +394,7 @@ bool Recorder::waits_for_what_is_lost() const {
 Recorder::Result Recorder::close() {
   closing_.store(1, std::memory_order_release);
   if (writer_.joinable()) {
+    file_.hurry();
     writer_.join();
     drain();
     for (const auto& lane : lanes_) lane->drain();

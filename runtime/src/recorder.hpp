@@ -45,6 +45,10 @@ class RecordingFile {
   void put_end(std::uint64_t lost);
   void flush();
   void close();
+  /// Nothing is written any more.
+  void fail(std::string_view why) { failure_ = why; }
+  /// The run has ended: a pipe that nobody reads is waited for two seconds more. Threads: any.
+  void hurry() { hurry_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
   [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
   /// nullptr: there is no limit.
@@ -57,6 +61,7 @@ class RecordingFile {
   void put(const Event& event);
   void put_end(std::uint64_t lost, bool goes_on);
   void write_all(const char* bytes, std::size_t count);
+  void await_room(std::int64_t& stuck_ns);
   std::string path_, header_;
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
@@ -68,6 +73,7 @@ class RecordingFile {
   std::size_t filled_ = 0;
   std::uint64_t lost_ = 0;
   std::string failure_;
+  std::atomic<bool> hurry_{false};
 };
 
 /// Events of one thread on their way to the file: appended at once, or through a ring to a thread that

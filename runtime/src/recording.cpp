@@ -81,6 +81,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::overrun:
     case Event::Kind::marking:
     case Event::Kind::end:
+    case Event::Kind::safe:
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&

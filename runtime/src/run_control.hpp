@@ -6,6 +6,8 @@
 #include <memory>
 #include <string_view>
 
+#include "tessera/time.hpp"
+
 namespace tessera {
 
 /// How a run is told to end, and who has ended already. Shared by all threads of a run.
@@ -29,6 +31,18 @@ class RunControl {
     return ended_[instance].load(std::memory_order_acquire);
   }
 
+  /// The process is about to stop for a while: until resume nothing but safe commands goes to devices.
+  void suspend() { suspended_.store(true, std::memory_order_seq_cst); }
+  /// valid_from: values sent before are no news to effectors.
+  void resume(Time valid_from) {
+    valid_from_.store(valid_from, std::memory_order_relaxed);
+    suspended_.store(false, std::memory_order_seq_cst);
+  }
+  [[nodiscard]] bool suspended() const { return suspended_.load(std::memory_order_seq_cst); }
+  [[nodiscard]] Time valid_from() const { return valid_from_.load(std::memory_order_relaxed); }
+  /// Only safe commands may go to devices.
+  [[nodiscard]] bool withholds_commands() const { return stopping() || suspended(); }
+
   /// Its transition function has run longer than its watchdog allows, and has not returned.
   void mark_stalled(std::uint32_t instance, bool stalled) {
     stalled_[instance].store(stalled, std::memory_order_seq_cst);
@@ -39,7 +53,8 @@ class RunControl {
 
  private:
   std::atomic<std::uint32_t> state_{0};
-  std::atomic<bool> failed_{false};
+  std::atomic<bool> failed_{false}, suspended_{false};
+  std::atomic<Time> valid_from_{Time::min()};
   std::array<char, 512> reason_{};
   std::size_t length_ = 0;
   std::unique_ptr<std::atomic<bool>[]> ended_, stalled_;

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "console.hpp"
+#include "stop_signals.hpp"
 #include "waker.hpp"
 
 namespace tessera {
@@ -32,10 +32,6 @@ void show_progress(const ScheduleReport& report) {
                                 static_cast<double>(report.tried) / report.wall_s));
 }
 
-[[nodiscard]] int signal_of(const RunSummary& summary) {
-  return summary.ended == "SIGINT" ? SIGINT : summary.ended == "SIGTERM" ? SIGTERM : 0;
-}
-
 }  // namespace
 
 std::optional<ScheduleReport> try_schedules(const System& system, RunOptions options, std::uint64_t count,
@@ -48,6 +44,7 @@ std::optional<ScheduleReport> try_schedules(const System& system, RunOptions opt
   options.recording.clear();
   if (options.world) options.world->trace.clear();
   const Quiet quiet;
+  const StopSignals signals;
   const std::int64_t start_ns = monotonic_ns();
   for (std::int64_t shown_ns = start_ns; report.tried < count && report.interrupted == 0 && !report.failed;) {
     options.seed = report.first_seed + report.tried;
@@ -56,7 +53,7 @@ std::optional<ScheduleReport> try_schedules(const System& system, RunOptions opt
     if (!summary) return std::nullopt;
     report.simulated += summary->simulated;
     report.firings += summary->firings;
-    report.interrupted = signal_of(*summary);
+    report.interrupted = summary->signal;
     report.wall_s = seconds_since(start_ns);
     if (report.interrupted == 0) ++report.tried;
     if (summary->failed) report.failed = {options.seed, std::move(*summary)};

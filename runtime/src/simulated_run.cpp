@@ -4,11 +4,11 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "boundary.hpp"
 #include "console.hpp"
 #include "stillness.hpp"
 
@@ -100,11 +100,7 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
   clock_.set(time);
   if (assembly.world == nullptr) return;
-  try {
-    assembly.world->advance_to(time);
-  } catch (const std::exception& exception) {
-    assembly.control.request_stop(fmt::format("the world: {}", exception.what()), /*fault=*/true);
-  }
+  survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); });
 }
 
 /// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.
@@ -133,6 +129,7 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
+  for (const auto& executor : assembly.executors) executor->insist();  // nobody waits for who refuses
   return ending;
 }
 
@@ -144,9 +141,9 @@ std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLay
     if (!follow_step(assembly, upper, index))
       return Ending{fmt::format("the scenario cannot be followed: {} cannot fire; {}", steps[index].name,
                                 executor.whereabouts(assembly.system)),
-                    true, clock_.now()};
+                    true, clock_.now(), 0, std::nullopt};
     if (const int signal = StopSignals::pending(); signal != 0)
-      return Ending{StopSignals::name(signal), false, clock_.now()};
+      return Ending{StopSignals::name(signal), false, clock_.now(), signal, std::nullopt};
   }
   for (const auto& executor : assembly.executors) firings_at_scenario_end_.push_back(executor->firings());
   console::print(LogLevel::info, clock_.now(), "tessera", "end of the scenario; everything runs freely");
@@ -185,7 +182,9 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
     stuck += (stuck.empty() ? "" : "; ") + executor.whereabouts(assembly.system);
   }
   if (stuck.empty() || ending.failed) return ending;  // why it failed says more
-  return {fmt::format("{}; stuck since the scenario: {}", ending.text, stuck), true, ending.at};
+  ending.text += "; stuck since the scenario: " + stuck;
+  ending.failed = true;
+  return ending;
 }
 
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
@@ -193,7 +192,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   Pace pace(assembly.options.realtime, remote_.get(), signals);
   ProgressLine progress(assembly.options.progress, duration);
   const auto ending = [&](std::string text, bool failed) {
-    return Ending{std::move(text), failed, clock_.now()};
+    return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt};
   };
 
   move_to(assembly, Time{});
@@ -207,7 +206,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   for (;;) {
     if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());
     if (const int signal = StopSignals::pending(); signal != 0)
-      return ending(StopSignals::name(signal), false);
+      return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
     if (assembly.control.stopping())
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
     if (upper.ended()) return ending("net ended", false);

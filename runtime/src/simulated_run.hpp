@@ -21,6 +21,8 @@ struct Ending {
   std::string text;  ///< as RunSummary::ended
   bool failed = false;
   Time at{};
+  int signal = 0;                        ///< that ended it; 0: none did
+  std::optional<Duration> world_time{};  ///< of a world that was slower than real time: how far it has come
 };
 
 /// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something

@@ -8,10 +8,11 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
+#include <csignal>
 #include <optional>
-#include <system_error>
+#include <utility>
 
+#include "boundary.hpp"
 #include "console.hpp"
 #include "realtime.hpp"
 #include "stillness.hpp"
@@ -21,9 +22,15 @@ namespace tessera {
 namespace {
 
 constexpr Duration world_step = std::chrono::milliseconds(1);
+constexpr Duration longest_world_step = std::chrono::milliseconds(10);  // what a stop may have to wait for
+constexpr Duration most_behind = std::chrono::milliseconds(200);  // that a slow world tries to make up for
 constexpr Duration progress_step = std::chrono::milliseconds(200);
 constexpr Duration security_delay = std::chrono::milliseconds(20);  // then devices get their safe command
 constexpr Duration first_patience = std::chrono::seconds(1);        // then it says whom it waits for
+
+[[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
+  return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
+}
 
 }  // namespace
 
@@ -43,15 +50,31 @@ void SteadyRun::tell_supervisor() const {
 }
 
 void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
-  // Releases are exact to what the timer can do; by default the kernel may add 50 us to spare itself a
-  // wake-up.
-  prctl(PR_SET_TIMERSLACK, 1UL);
-  const Instance& its = *executor.operations().parts().instance;
-  if (const std::string denied = schedule_this_thread(its.policies.realtime); !denied.empty()) deny(denied);
-  step_until_end(executor, wake_words_[instance], control);
-  if (!control.has_ended(instance)) executor.leave();
-  gone_[instance].store(true, std::memory_order_release);
-  tell_supervisor();
+  // However this thread ends (user code may call pthread_exit), its devices are left safe.
+  struct Leaving {
+    SteadyRun& run;
+    SubsystemExecutor& executor;
+    std::uint32_t instance;
+    RunControl& control;
+    bool orderly = false;
+    ~Leaving() {
+      if (!orderly) control.request_stop("user code has ended the thread of its subsystem", /*fault=*/true);
+      if (control.stopping()) run.tell_supervisor();  // now: the devices may take their time
+      if (!control.has_ended(instance)) executor.leave();
+      executor.insist();
+      run.gone_[instance].store(true, std::memory_order_release);
+      run.tell_supervisor();
+    }
+  } leaving{*this, executor, instance, control};
+  survives_in_thread(control, executor.path(), [&] {
+    // Releases are exact to what the timer can do; by default the kernel may add 50 us to spare itself a
+    // wake-up.
+    prctl(PR_SET_TIMERSLACK, 1UL);
+    const Instance& its = *executor.operations().parts().instance;
+    if (const std::string denied = schedule_this_thread(its.policies.realtime); !denied.empty()) deny(denied);
+    step_until_end(executor, wake_words_[instance], control);
+  });
+  leaving.orderly = true;
 }
 
 void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
@@ -73,71 +96,111 @@ void SteadyRun::deny(const std::string& what) {
                              what));
 }
 
+/// A world that is slower than real time falls behind: it is moved in short steps, so that nobody waits long
+/// for it, and what it cannot make up for is left out (Ending::world_time).
 void SteadyRun::run_world(World& world, RunControl& control) {
-  for (Time next{}; !control.stopping(); next += world_step) {
-    const std::uint32_t ticket = world_wakes_.ticket();
-    try {
-      world.advance_to(clock_.now());
-    } catch (const std::exception& exception) {
-      control.request_stop(fmt::format("the world: {}", exception.what()), /*fault=*/true);
-      return tell_supervisor();
+  const bool survived = survives_in_thread(control, "the world", [&] {
+    Duration left_out{};
+    for (Time next{}; !control.stopping();) {
+      const std::uint32_t ticket = world_wakes_.ticket();
+      const Time now = clock_.now();
+      left_out += std::max(now - left_out - world_time_ - most_behind, Duration::zero());
+      if (left_out > Duration::zero()) say_world_is_slow();
+      world_time_ = std::min(now - left_out, world_time_ + longest_world_step);
+      world.advance_to(world_time_);
+      if (world_time_ + longest_world_step < clock_.now() - left_out) continue;  // it catches up
+      next = std::max(next, clock_.now()) + world_step;
+      if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next));
     }
-    next = std::max(next, clock_.now());  // a slow world does not try to catch up
-    if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next + world_step));
-  }
+  });
+  if (!survived) tell_supervisor();
 }
 
-Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+void SteadyRun::say_world_is_slow() {
+  if (std::exchange(world_is_slow_, true)) return;
+  console::print(LogLevel::warning, clock_.now(), "tessera",
+                 "the simulated world is slower than real time: its time falls behind that of the run");
+}
+
+Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& /*signals*/) {
   if (wants_realtime(assembly.system.instances))
     if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
   clock_.restart();
+  if (const int signal = StopSignals::pending(); signal != 0)
+    assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
   upper.enter(clock_.now());
   for (const auto& executor : assembly.executors) executor->enter();
-  std::vector<std::thread> threads;
-  try {
-    if (assembly.world != nullptr)
-      threads.emplace_back([&] { run_world(*assembly.world, assembly.control); });
-    for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
-      threads.emplace_back(
-          [&, instance] { run_subsystem(*assembly.executors[instance], instance, assembly.control); });
-      ++started_;
+  {
+    const RealTimePriority priority(supervisor_priority(assembly.system.instances));
+    if (!priority.denied().empty()) deny(priority.denied());
+    Securing securing(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
+    std::vector<std::thread> threads;
+    survives_in_thread(assembly.control, "no thread for every subsystem",
+                       [&] { start_threads(assembly, threads); });
+    survives_in_thread(assembly.control, "the supervisor", [&] { supervise(assembly, upper, securing); });
+    wake_all(static_cast<std::uint32_t>(assembly.executors.size()));
+    while (
+        !survives_in_thread(assembly.control, "the supervisor", [&] { await_threads(assembly, securing); }))
+      continue;
+    for (std::thread& thread : threads) thread.join();
+    for (std::uint32_t instance = started_; instance < assembly.executors.size(); ++instance) {
+      assembly.executors[instance]->leave();  // there was no thread for it
+      assembly.executors[instance]->insist();
     }
-  } catch (const std::system_error& error) {
-    assembly.control.request_stop(fmt::format("no thread for every subsystem: {}", error.what()),
-                                  /*fault=*/true);
+    securing.collect(lane_of_system(assembly));
   }
-  if (assembly.options.monitor) {
-    monitor_.emplace(assembly, clock_);
-    monitor_->complain_of_failure(clock_.now());
-  }
-  supervise(assembly, upper, signals);
-  await_threads(assembly);
-  for (std::thread& thread : threads) thread.join();
   collect_ended(assembly, upper);
-
-  const Time now = clock_.now();
-  if (upper.ended()) return {"net ended", assembly.control.failed(), now};
-  if (duration_over_) return {"duration", assembly.control.failed(), now};
-  if (const int signal = StopSignals::pending(); signal != 0)
-    return {StopSignals::name(signal), assembly.control.failed(), now};
-  return {fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(), now};
+  return ending(assembly, upper);
 }
 
-void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+Ending SteadyRun::ending(const Assembly& assembly, const UpperLayers& upper) const {
+  const Time now = clock_.now();
+  Ending ending{fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(), now};
+  if (const int signal = StopSignals::pending(); signal != 0) {
+    ending.text = StopSignals::name(signal);
+    ending.signal = signal;
+  }
+  if (duration_over_) ending.text = "duration";
+  if (upper.ended()) ending.text = "net ended";
+  if (duration_over_ || upper.ended()) ending.signal = 0;
+  if (world_is_slow_) ending.world_time = world_time_.time_since_epoch();
+  return ending;
+}
+
+void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& threads) {
+  threads.reserve(assembly.executors.size() + 1);
+  if (assembly.world != nullptr) threads.emplace_back([&] { run_world(*assembly.world, assembly.control); });
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    threads.emplace_back([this, &assembly, instance] {
+      run_subsystem(*assembly.executors[instance], instance, assembly.control);
+    });
+    ++started_;
+  }
+  if (!assembly.options.monitor) return;
+  monitor_.emplace(assembly, clock_);
+  monitor_->complain_of_failure(clock_.now());
+}
+
+void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {
   const Time end = assembly.options.duration ? Time(*assembly.options.duration) : Time::max();
   ProgressLine progress(assembly.options.progress, assembly.options.duration);
   RunControl& control = assembly.control;
-  Watchdogs watchdogs(assembly.executors,
-                      assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+  RecordingLane* const lane = lane_of_system(assembly);
+  Watchdogs watchdogs(
+      assembly.executors,
+      [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
   Stillness stillness(started_);
   const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
     collect_ended(assembly, upper);
+    securing.collect(lane);
     const Time now = clock_.now();
     if (upper.ended()) {
       control.request_stop("net ended", /*fault=*/false);
     } else if (const int signal = StopSignals::pending(); signal != 0) {
       control.request_stop(StopSignals::name(signal), /*fault=*/false);
+    } else if (StopSignals::suspension_asked()) {
+      suspend(assembly, securing);
     } else if (now >= end) {
       duration_over_ = true;
       control.request_stop("duration", /*fault=*/false);
@@ -147,11 +210,49 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, const StopSign
       progress.update(now);
       assembly.signals.raise_due(now);
       const Time next = std::min({end, stillness.next(), watchdogs.check(now), assembly.signals.next()});
-      await_news(signals.descriptor(),
-                 assembly.options.progress ? std::min(next, now + progress_step) : next);
+      await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
     }
   }
-  wake_all(static_cast<std::uint32_t>(assembly.executors.size()));
+}
+
+/// Safe commands first; then the process stops until somebody continues it, and the clock of the run with it.
+void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
+  RunControl& control = assembly.control;
+  RecordingLane* const lane = lane_of_system(assembly);
+  control.suspend();
+  const Time since = clock_.now();
+  for (std::uint32_t instance = 0; instance < started_; ++instance)
+    securing.secure(instance, {SafeReason::Kind::suspended});
+  while (!securing.done() && StopSignals::pending() == 0) await_news(clock_.now() + progress_step);
+  securing.collect(lane);
+  if (any_owing(assembly))
+    return control.request_stop("a real effector refuses its safe command: the run is not suspended",
+                                /*fault=*/true);
+  if (const int signal = StopSignals::pending(); signal != 0)
+    return control.request_stop(StopSignals::name(signal), /*fault=*/false);
+  stop_process(since, lane);
+  StopSignals::resume();
+  control.resume(clock_.now() + Duration(1));
+}
+
+bool SteadyRun::any_owing(const Assembly& assembly) {
+  return std::any_of(assembly.executors.begin(), assembly.executors.end(),
+                     [](const auto& executor) { return executor->operations().effectors().owing(); });
+}
+
+void SteadyRun::stop_process(Time since, RecordingLane* lane) {
+  const auto say = [&](std::string_view text) {
+    console::print(LogLevel::info, clock_.now(), "tessera", text);
+    if (lane != nullptr) lane->text(Event::Kind::log, clock_.now(), 0, text);
+  };
+  say(fmt::format("suspended by SIGTSTP; the devices have their safe commands ({:.1f} ms)",
+                  seconds(clock_.now() - since) * 1e3));
+  clock_.freeze();
+  const std::int64_t stopped_ns = monotonic_ns();
+  kill(getpid(), SIGSTOP);
+  const double away_s = static_cast<double>(monotonic_ns() - stopped_ns) * 1e-9;
+  clock_.thaw();
+  say(fmt::format("goes on after {:.1f} s; each effector waits for new values", away_s));
 }
 
 void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
@@ -162,41 +263,44 @@ void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
   }
 }
 
-void SteadyRun::await_threads(const Assembly& assembly) {
+void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
   const Time since = clock_.now();
   Duration patience = first_patience;
   bool secured = false;
   const auto all_gone = [&] {
     for (std::uint32_t instance = 0; instance < started_; ++instance)
       if (!gone_[instance].load(std::memory_order_acquire)) return false;
-    return true;
+    return securing.done();
   };
   while (!all_gone()) {
-    await_news(-1, since + (secured ? patience : security_delay));
+    await_news(since + (secured ? patience : security_delay));
+    securing.collect(lane_of_system(assembly));
     const Duration waited = clock_.now() - since;
     if (!secured && waited >= security_delay) {
-      secure_devices(assembly);
+      secure_devices(securing);
       secured = true;
     }
     if (waited < patience) continue;
-    say_waiting(assembly, waited);
+    say_waiting(assembly, securing, waited);
     patience = 2 * waited;
   }
 }
 
-void SteadyRun::secure_devices(const Assembly& assembly) const {
-  for (std::uint32_t instance = 0; instance < started_; ++instance) {
-    if (gone_[instance].load(std::memory_order_acquire)) continue;
-    SubsystemExecutor& executor = *assembly.executors[instance];
-    if (!executor.leave_from_outside())
-      console::print(LogLevel::error, clock_.now(), executor.path(),
-                     "its devices are in use, or refuse the safe command");
-  }
+void SteadyRun::secure_devices(Securing& securing) const {
+  for (std::uint32_t instance = 0; instance < started_; ++instance)
+    if (!gone_[instance].load(std::memory_order_acquire))
+      securing.secure(instance, {SafeReason::Kind::leaves});
 }
 
-void SteadyRun::say_waiting(const Assembly& assembly, Duration since) const {
+void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const {
   for (std::uint32_t instance = 0; instance < started_; ++instance) {
-    if (gone_[instance].load(std::memory_order_acquire)) continue;
+    if (gone_[instance].load(std::memory_order_acquire)) {
+      if (securing.is_under_way(instance))
+        console::print(LogLevel::warning, clock_.now(), "tessera",
+                       fmt::format("waits for the devices of {} ({:.1f} s)",
+                                   assembly.executors[instance]->path(), seconds(since)));
+      continue;
+    }
     const SubsystemExecutor& executor = *assembly.executors[instance];
     const std::uint16_t behaviour = executor.gauges().behaviour.load(std::memory_order_relaxed);
     const SubsystemNet& net = *executor.operations().parts().instance->net;
@@ -206,15 +310,16 @@ void SteadyRun::say_waiting(const Assembly& assembly, Duration since) const {
   }
 }
 
-/// signals: a descriptor, or -1.
-void SteadyRun::await_news(int signals, Time until) const {
+/// Of a subsystem, of a thread that secures devices, or a signal.
+void SteadyRun::await_news(Time until) const {
   std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
-                                pollfd{.fd = signals, .events = POLLIN, .revents = 0}};
+                                pollfd{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0}};
   const Duration left = std::max(until - clock_.now(), Duration::zero());
   const timespec limit{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
   ppoll(sources.data(), sources.size(), until == Time::max() ? nullptr : &limit, nullptr);
   std::uint64_t count = 0;
   [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
+  StopSignals::take_news();
 }
 
 void SteadyRun::wake_all(std::uint32_t instances) {

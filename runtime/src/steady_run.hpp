@@ -9,6 +9,7 @@
 
 #include "assembly.hpp"
 #include "monitor.hpp"
+#include "securing.hpp"
 #include "simulated_run.hpp"
 #include "stop_signals.hpp"
 #include "upper_layers.hpp"
@@ -32,15 +33,21 @@ class SteadyRun final : public Waker {
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(World& world, RunControl& control);
+  void say_world_is_slow();
+  void start_threads(Assembly& assembly, std::vector<std::thread>& threads);
   void tell_supervisor() const;
   void deny(const std::string& what);
-  void supervise(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  void supervise(Assembly& assembly, UpperLayers& upper, Securing& securing);
+  void suspend(Assembly& assembly, Securing& securing);
+  [[nodiscard]] static bool any_owing(const Assembly& assembly);
+  void stop_process(Time since, RecordingLane* lane);
+  [[nodiscard]] Ending ending(const Assembly& assembly, const UpperLayers& upper) const;
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
-  void await_news(int signals, Time until) const;
+  void await_news(Time until) const;
   /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.
-  void await_threads(const Assembly& assembly);
-  void say_waiting(const Assembly& assembly, Duration since) const;
-  void secure_devices(const Assembly& assembly) const;
+  void await_threads(const Assembly& assembly, Securing& securing);
+  void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
+  void secure_devices(Securing& securing) const;
   void wake_all(std::uint32_t instances);
 
   SteadyClock clock_;
@@ -51,6 +58,8 @@ class SteadyRun final : public Waker {
   int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
   std::uint32_t started_ = 0;  // threads of the first so many instances
   bool duration_over_ = false;
+  Time world_time_{};                // the world's thread's, while that runs
+  bool world_is_slow_ = false;       // the same
   std::atomic<bool> denied_{false};  // that real time was not permitted has been said
   std::optional<Monitor> monitor_;   // the last: it looks at the others
 };

@@ -1,32 +1,51 @@
 #pragma once
 
 #include <csignal>
+#include <string>
+#include <vector>
+
+#include "tessera/signals.hpp"
 
 namespace tessera {
 
-/// Catches SIGINT and SIGTERM while it lives. One that comes more than a second after the first kills as
-/// usual, for runs whose user code hangs; earlier ones count as the same (a terminal and a parent may both
-/// send it), so that the safe commands are given.
+/// Handles every signal of tessera/signals.hpp while it lives: notes those that stop or suspend a run, and
+/// lets writing fail where a signal would end the process. SIGINT and SIGTERM are always handled; another one
+/// that somebody handles or ignores already (nohup, a driver with a handler of its own) is left to them.
 ///
-/// Threads: one object at a time per process; members from any thread.
+/// SIGINT, SIGQUIT or SIGTERM more than a second after the first signal kills as usual, for runs whose user
+/// code hangs; earlier ones count as the same (a terminal and a parent may both send it), so that the safe
+/// commands are given.
+///
+/// Threads: one object at a time per process, or several within each other, of which the outermost counts;
+/// members from any thread.
 class StopSignals {
  public:
-  StopSignals();
+  /// suspension: whether SIGTSTP is noted; otherwise it stops the process as usual.
+  enum class Suspension : bool { usual, noted };
+  explicit StopSignals(Suspension suspension = Suspension::usual);
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
   ~StopSignals();
 
-  /// The signal that came first; 0: none.
+  /// The signal that came first of those that stop a run; 0: none.
   [[nodiscard]] static int pending();
-  /// "SIGINT" or "SIGTERM".
-  [[nodiscard]] static const char* name(int signal);
+  [[nodiscard]] static std::string name(int signal) { return signal_name(signal); }
+  /// SIGTSTP has come, and resume has not been called since.
+  [[nodiscard]] static bool suspension_asked();
+  /// Forgets the SIGTSTP.
+  static void resume();
   /// Readable once a signal has come; -1 when the process has no descriptor left.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] static int descriptor();
+  /// Makes the descriptor unreadable until the next signal.
+  static void take_news();
 
  private:
-  int descriptor_ = -1;
-  struct sigaction before_interrupt_ {};
-  struct sigaction before_terminate_ {};
+  struct Before {
+    int signal;
+    struct sigaction action;
+  };
+  std::vector<Before> before_;
+  bool outermost_ = false;
 };
 
 }  // namespace tessera

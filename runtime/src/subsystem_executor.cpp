@@ -7,8 +7,6 @@
 #include <atomic>
 #include <utility>
 
-#include "console.hpp"
-
 namespace tessera {
 
 SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
@@ -371,7 +369,11 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
   }
   if (returns_ != Time{}) {
     token.due = std::exchange(returns_, Time{});
-    raise_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed), lane_);
+    if (mark_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed))) {
+      effectors().make_safe({SafeReason::Kind::stalls}, Effectors::Busy::leaves_out);
+      tell_alarm(lane_);
+      effectors().record(lane_);
+    }
     return true;
   }
   if (watched_ || operations_.commands_devices()) renew_time();
@@ -383,18 +385,21 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
   return true;
 }
 
-void SubsystemExecutor::raise_alarm(std::int64_t since_ns, RecordingLane* lane) {
+bool SubsystemExecutor::mark_alarm(std::int64_t since_ns) {
   control_.mark_stalled(index_, true);
   // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
   // the call and both looks are sequentially consistent.
   if (!gauges_.calling.load(std::memory_order_seq_cst) ||
-      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns)
-    return control_.mark_stalled(index_, false);
-  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
-  if (!operations_.give_safe_command_from_outside())
-    console::print(LogLevel::error, clock_.now(), path(),
-                   "its devices are in use, or refuse the safe command");
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns) {
+    control_.mark_stalled(index_, false);
+    return false;
+  }
   wake_receivers();
+  return true;
+}
+
+void SubsystemExecutor::tell_alarm(RecordingLane* lane) const {
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
 }
 
 void SubsystemExecutor::end_alarm() {

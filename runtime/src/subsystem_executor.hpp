@@ -70,15 +70,17 @@ class SubsystemExecutor {
   /// A line on the console and in the recording.
   void note(std::string_view text) { operations_.log(LogLevel::info, text); }
 
-  /// The transition function of call `since` has run longer than the watchdog allows: to `lane`, the devices
-  /// get their safe command, and those who receive from here look at theirs. Threads: any, with a lane of its
-  /// own.
-  void raise_alarm(std::int64_t since_ns, RecordingLane* lane);
-  /// The safe command from another thread; false: the devices are in use.
-  [[nodiscard]] bool leave_from_outside() { return operations_.give_safe_command_from_outside(); }
+  /// The transition function of call `since` has run longer than the watchdog allows: marks that, and those
+  /// who receive from here look at their devices; false: it has returned meanwhile. Threads: any.
+  [[nodiscard]] bool mark_alarm(std::int64_t since_ns);
+  /// Says so. Threads: any, with a lane of its own.
+  void tell_alarm(RecordingLane* lane) const;
 
-  /// The safe command, on every way out of the run.
-  void leave() { operations_.give_safe_command(); }
+  /// The safe command, on every way out of the run; insist tries again where a device has refused it.
+  void leave() { operations_.leave(); }
+  void insist() { operations_.insist(); }
+  /// Threads: as its members say.
+  [[nodiscard]] Effectors& effectors() { return operations_.effectors(); }
 
   /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread does not
   /// run.

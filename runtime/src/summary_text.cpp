@@ -16,10 +16,13 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
       {"firings", summary.firings},
       {"ended", summary.ended},
       {"failed", summary.failed},
+      {"signal", summary.signal},
       {"recording", options.recording},
       {"lost_events", summary.lost_events},
+      {"lines_not_printed", summary.lines_not_printed},
       {"warnings", summary.warnings},
   };
+  if (summary.world_time) json["world_s"] = seconds(*summary.world_time);
   if (options.world && !options.world->track.empty()) json["track"] = options.world->track;
   json["subsystems"] = nlohmann::ordered_json::array();
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)

@@ -1,15 +1,17 @@
 #include "watchdogs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera {
 
-Watchdogs::Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors, RecordingLane* lane)
-    : lane_(lane) {
-  for (const auto& executor : executors)
-    if (const Duration limit = executor->operations().parts().instance->policies.watchdog;
+Watchdogs::Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors,
+                     std::function<void(std::uint32_t)> secure, RecordingLane* lane)
+    : secure_(std::move(secure)), lane_(lane) {
+  for (std::uint32_t instance = 0; instance < executors.size(); ++instance)
+    if (const Duration limit = executors[instance]->operations().parts().instance->policies.watchdog;
         limit > Duration::zero())
-      watched_.push_back({executor.get(), limit});
+      watched_.push_back({executors[instance].get(), instance, limit});
 }
 
 Time Watchdogs::check(Time now) {
@@ -22,7 +24,10 @@ Time Watchdogs::check(Time now) {
       due = Time(Duration(since_ns)) + one.limit + Duration(1);
       if (due <= now) {
         one.alarmed_ns = since_ns;
-        one.executor->raise_alarm(since_ns, lane_);
+        if (one.executor->mark_alarm(since_ns)) {
+          secure_(one.instance);
+          one.executor->tell_alarm(lane_);
+        }
         due = now + one.limit;
       }
     }

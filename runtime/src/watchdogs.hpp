@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,8 +14,10 @@ namespace tessera {
 /// Threads: one, not that of a subsystem.
 class Watchdogs {
  public:
+  /// secure: gives the devices of that subsystem their safe command, without waiting for them.
   /// lane: the calling thread's; nullptr: nothing is recorded.
-  Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors, RecordingLane* lane);
+  Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors,
+            std::function<void(std::uint32_t)> secure, RecordingLane* lane);
   /// Raises the alarm, once a call, where one has run too long. Returns when to look again; Time::max():
   /// never.
   [[nodiscard]] Time check(Time now);
@@ -22,10 +25,12 @@ class Watchdogs {
  private:
   struct Watched {
     SubsystemExecutor* executor;
+    std::uint32_t instance;
     Duration limit;
     std::int64_t alarmed_ns = -1;  // beginning of the last call that was too long
   };
   std::vector<Watched> watched_;
+  std::function<void(std::uint32_t)> secure_;
   RecordingLane* lane_;
 };
 

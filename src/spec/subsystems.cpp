@@ -83,6 +83,21 @@ void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parame
   }
 }
 
+/// An author who wants a device to keep its last command says so.
+void read_stale(const Entry* stale, Subsystem& subsystem, Diagnostics& out) {
+  if (stale != nullptr && stale->value->is_scalar() && stale->value->text == "never") return;
+  if (stale != nullptr) {
+    subsystem.stale = read_duration(*stale->value, stale->span, "stale", out);
+  } else if (subsystem.kind == SubsystemKind::effector && !subsystem.real.empty() &&
+             !subsystem.inputs.empty()) {
+    out.warning(
+        "W324", subsystem.span,
+        "effector " + quoted(subsystem.name) + " goes on with its last command when no values come any more",
+        "'stale: 500 ms' gives the safe command when an input has had no valid value for so long; "
+        "'stale: never' says that it shall go on");
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(SubsystemKind kind) {
@@ -121,8 +136,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
   check_shadowing(subsystem.parameters, around.parameters, out);
   subsystem.safe = read_safe(section.find("safe"), subsystem.real, around.types, out);
-  if (const Entry* stale = section.find("stale"))
-    subsystem.stale = read_duration(*stale->value, stale->span, "stale", out);
+  read_stale(section.find("stale"), subsystem, out);
   read_policies(section, subsystem, out);
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
     subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);

@@ -222,9 +222,9 @@ TEST(SafeCommand, IsGivenWhenInputsAreStaleAndEndsWhenTheyAreFreshAgain) {
   control.call = [](ScriptState& state) { state.out_x = 10 + static_cast<double>(state.context.iteration); };
   std::vector<double> commands;
   for (const auto& [at, command] : run_stale(100ms, control, 205ms).commands) commands.push_back(command);
-  // At 0 the motor is called once without a value (0), then with 10; stale at 30; 11 at 100; stale at 130; 12
-  // at 200.
-  EXPECT_EQ(commands, (std::vector<double>{0, 10, -1, 11, -1, 12, -1}));
+  // At 0 the motor is called once without a value (safe), then with 10; stale at 30; 11 at 100; stale at 130;
+  // 12 at 200.
+  EXPECT_EQ(commands, (std::vector<double>{-1, 10, -1, 11, -1, 12, -1}));
 }
 
 TEST(SafeCommand, InvalidValuesAreNoNews) {
@@ -245,10 +245,10 @@ TEST(SafeCommand, IsGivenWhenNoFirstValueComes) {
   const auto b = system.add("robot.motor", nets::b_receiver, driver(), 0ms, 30ms, Kind::effector);
   system.connect(a, "", b, "x", buffered);  // no behaviour of it sends
   EXPECT_FALSE(run(system, simulated(25ms)).failed);
-  EXPECT_EQ(system.devices.commands, (std::vector<double>{5, -1})) << "the second because the run ends";
+  EXPECT_EQ(system.devices.commands, (std::vector<double>{-1, -1})) << "the second because the run ends";
   system.devices.commands.clear();
   EXPECT_FALSE(run(system, simulated(35ms)).failed);
-  EXPECT_EQ(system.devices.commands, (std::vector<double>{5, -1, -1}));
+  EXPECT_EQ(system.devices.commands, (std::vector<double>{-1, -1, -1}));
 }
 
 TEST(SafeCommand, IsGivenForGoodWhenTheSourceHasEnded) {
@@ -267,7 +267,8 @@ TEST(SafeCommand, IsGivenForGoodWhenTheSourceHasEnded) {
   EXPECT_EQ(summary.ended, "duration");
   const std::vector<double>& commands = system.devices.commands;
   EXPECT_EQ(std::count(commands.begin(), commands.end(), 10.0) > 0, true);
-  const auto first_safe = std::find(commands.begin(), commands.end(), -1.0);
+  EXPECT_EQ(commands.front(), -1) << "no value has come yet";
+  const auto first_safe = std::find(std::find(commands.begin(), commands.end(), 10.0), commands.end(), -1.0);
   EXPECT_TRUE(std::all_of(first_safe, commands.end(), [](double command) { return command == -1; }));
   EXPECT_GE(commands.end() - first_safe, 4);
 }

@@ -2,12 +2,13 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "tessera/device.hpp"
 
 /// A world in which a wheel's speed adds up to a position. WorldOptions::track names the thing that must not
-/// exist; its trace has a line per call.
+/// exist; its trace has a line per call. "slow.xml" takes four times as long as the time that passes in it.
 namespace {
 
 struct State {
@@ -56,6 +57,7 @@ class FakeWorld final : public tessera::World {
     return std::make_unique<Wheel>(state_);
   }
   void advance_to(tessera::Time time) override {
+    if (options_.world == "slow.xml") std::this_thread::sleep_for(4 * (time - now_));
     const std::lock_guard lock(state_->mutex);
     state_->position += state_->speed * tessera::seconds(time - now_);
     now_ = time;

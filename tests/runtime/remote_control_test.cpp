@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include "../eventually.hpp"
 #include "nets.hpp"
@@ -325,6 +326,61 @@ TEST_F(Controlled, EndsWithItsOwner) {
   socket_ = -1;
   running_.join();
   EXPECT_EQ(summary_.ended, "stopped: who started it has gone");
+}
+
+/// A socket connected to the run.
+[[nodiscard]] int another_client(const std::string& file) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
+  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0);
+  if (connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return client;
+  close(client);
+  return -1;
+}
+
+TEST_F(Controlled, HostileClientsDoNoHarm) {
+  start();
+  rest(1);
+  const std::string file =
+      monitor_folder() + "/" + std::string(made_->name) + "." + std::to_string(getpid()) + ".sock";
+  const std::vector<std::string> talks{
+      std::string(3'000'000, 'x'),                                  // no end of line
+      std::string(500'000, '[') + "\n",                             // nested
+      "{\"command\":\"breakpoints\",\"places\":[\"\xff\xfe\"]}\n",  // no UTF-8, which is in the answer
+      "{\"id\":1e400,\"command\":\"speed\",\"value\":1e400}\n",
+      "{\"id\":\"\xc3\",\"command\":{}}\n" + std::string(100, '\n'),
+      std::string(1000, '\0'),
+      "{\"command\":\"recording\"}"};  // half a line
+  for (int round = 0; round < 300; ++round) {
+    const int client = another_client(file);
+    if (client < 0) continue;
+    const std::string& talk = talks[static_cast<std::size_t>(round) % talks.size()];
+    send(client, talk.data(), talk.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    close(client);
+  }
+  std::vector<int> clients;
+  for (int count = 0; count < 64; ++count) clients.push_back(another_client(file));
+  EXPECT_EQ(command({{"command", "pause"}}), "") << "it is still served";
+  for (const int client : clients)
+    if (client >= 0) close(client);
+  finish();
+  EXPECT_EQ(summary_.ended, "duration");
+}
+
+TEST_F(Controlled, APathThatIsNoTextAndAFolderThatHasGoneEndNothing) {
+  const std::filesystem::path before = std::filesystem::current_path(),
+                              gone = std::filesystem::path(folder_) / "gone";
+  std::filesystem::create_directories(gone);
+  std::filesystem::current_path(gone);
+  options_.recording = "r\xff\xfe.tsr";
+  start();
+  std::filesystem::remove_all(gone);
+  EXPECT_TRUE(rest(1).contains("recording"));
+  EXPECT_NE(command({{"command", "breakpoints"}, {"places", {"nowhere"}}}), "");
+  finish();
+  std::filesystem::current_path(before);
+  EXPECT_EQ(summary_.ended, "duration");
 }
 
 }  // namespace

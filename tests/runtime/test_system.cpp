@@ -73,9 +73,17 @@ class FakeReceptor final : public Receptor<double> {
   }
 };
 class FakeEffector final : public Effector<double> {
+ public:
+  FakeEffector() {
+    if (devices_in_use->made) devices_in_use->made();
+  }
+
+ private:
   bool write(const double& value) override {
-    const std::lock_guard lock(devices_mutex);
-    devices_in_use->commands.push_back(value);
+    {
+      const std::lock_guard lock(devices_mutex);
+      devices_in_use->commands.push_back(value);
+    }
     return !devices_in_use->accept || devices_in_use->accept(value);
   }
 };

@@ -38,7 +38,8 @@ struct Script {
 struct Devices {
   std::vector<double> commands;        ///< of effectors, in order
   std::function<bool(double&)> sense;  ///< of receptors
-  std::function<bool(double)> accept;  ///< of effectors; unset: yes
+  std::function<bool(double)> accept;  ///< of effectors, from any thread; unset: yes
+  std::function<void()> made;          ///< while an effector is made
 };
 
 /// A system written by hand. Owns what the tables point to; one at a time.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "nets.hpp"
 #include "test_system.hpp"
 
@@ -50,6 +52,28 @@ TEST_F(InAWorld, IsDrivenInRealTimeUnderTheSteadyClock) {
   options.duration = 60s;
   EXPECT_EQ(run(system, options).ended, "stopped: enough");
   EXPECT_GT(positions.back(), 0);
+}
+
+TEST_F(InAWorld, ThatIsSlowerThanRealTimeFallsBehindAndSaysSo) {
+  options.clock = RunOptions::Clock::steady;
+  options.world->world = "slow.xml";
+  options.world->trace = scratch_file("trace");
+  options.duration = 1s;
+  TestSystem another;  // without the stop of the fixture's
+  Script script;
+  script.senses = true;
+  another.add("robot.body", nets::alone, script, 10ms);
+  options.drivers.pop_back();
+  const RunSummary summary = run(another, options);
+  EXPECT_EQ(summary.ended, "duration");
+  ASSERT_TRUE(summary.world_time);
+  EXPECT_LT(*summary.world_time, summary.simulated / 2);
+  ASSERT_EQ(summary.warnings.size(), 1U);
+  EXPECT_TRUE(summary.warnings[0].starts_with("the simulated world ran at 0.")) << summary.warnings[0];
+  double last = 0;
+  std::istringstream trace(bytes_of(options.world->trace));
+  for (double time = 0; trace >> time; last = time)
+    EXPECT_LE(time - last, 0.0101) << "nobody waits longer than for one step";
 }
 
 TEST_F(InAWorld, ThatCannotBeOpenedIsSaid) {

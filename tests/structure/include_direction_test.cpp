@@ -28,7 +28,7 @@ const std::map<std::string, Rooms> allowed{
     {"sim", {"tessera"}},
     {"replay", {"net", "tessera"}},
     {"report", {"sim", "replay", "tessera"}},
-    {"project", {"diagnostics", "spec", "net", "layers", "explore", "verify", "codegen", "sim"}},
+    {"project", {"diagnostics", "spec", "net", "layers", "explore", "verify", "codegen", "sim", "tessera"}},
     {"server",
      {"diagnostics", "spec", "net", "layers", "explore", "verify", "drawing", "replay", "sim", "project",
       "tessera"}},
@@ -40,6 +40,7 @@ const std::map<std::string, Rooms> allowed{
 // "tessera/..." are the runtime's public headers. Those that the checker shares with the runtime:
 bool only_shared_definition(const std::string& room, const std::string& include) {
   if (room == "verify") return include == "tessera/net_hash.hpp";
+  if (room == "project") return include == "tessera/signals.hpp";
   return room != "explore" || include == "tessera/firing.hpp";
 }
 

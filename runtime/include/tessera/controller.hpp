@@ -59,14 +59,18 @@ struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
   double wall_s = 0;
   std::uint64_t firings = 0;
-  std::string ended;    ///< "duration", "net ended", "stopped: WHY", "SIGINT", "SIGTERM"
-  bool failed = false;  ///< a fault ended it
+  std::string ended;    ///< "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT"
+  bool failed = false;  ///< a fault ended it, or a device has not taken its safe command
+  int signal = 0;       ///< that ended it; 0: none did
+  /// Of a world that was slower than real time: how far it has come while `simulated` passed.
+  std::optional<Duration> world_time;
   struct PerSubsystem {
     std::string path;
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
   };
   std::vector<PerSubsystem> subsystems;
-  std::uint64_t lost_events = 0;      ///< of the recording
+  std::uint64_t lost_events = 0;        ///< of the recording
+  std::uint64_t lines_not_printed = 0;  ///< the terminal did not take them
   std::vector<std::string> warnings;  ///< e.g. the recording could not be written
 };
 

@@ -21,6 +21,12 @@ enum class Fault : std::uint8_t {
   stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
   stall = 7        ///< a transition function takes longer than its watchdog
 };
+/// What has happened to the safe command of a device.
+enum class SafeEvent : std::uint8_t {
+  given = 1,   ///< the device has taken it, for a reason that it did not stand for before
+  ended = 2,   ///< commands of the subsystem go to the device again
+  refused = 3  ///< the device has not taken it; it is tried again
+};
 /// "not finite"; empty: no fault of this version.
 [[nodiscard]] std::string_view name_of(Fault fault);
 
@@ -47,6 +53,7 @@ struct Event {
     /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
     /// Not counted in `sequence`.
     marking = 8,
+    safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: the SafeEvent
     /// The last of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
@@ -96,7 +103,7 @@ struct Recording {
   };
   struct Entry {
     Event event;
-    std::string text;  ///< of log, stop and fault; the bytes of a value
+    std::string text;  ///< of log, stop, fault and safe; the bytes of a value
   };
   enum class Direction : std::uint8_t { input, output, real_input, real_output };
   struct Buffer {

@@ -1,0 +1,100 @@
+#include "project/process.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace tessera::project {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A process like `tessera run`: it starts a shell with this script and ends with its exit code.
+class Starter : public testing::Test {
+ protected:
+  Starter() : folder_(fs::temp_directory_path() / ("tessera.process." + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Starter() override {
+    if (starter_ > 0) {
+      kill(starter_, SIGKILL);
+      waitpid(starter_, nullptr, 0);
+    }
+    fs::remove_all(folder_);
+  }
+
+  /// Returns when the shell has touched `ready`.
+  void start(
+      const std::string& script, const std::function<void()>& first = [] {}) {
+    fs::remove(ready());
+    starter_ = fork();
+    if (starter_ == 0) {
+      first();
+      _exit(run({"sh", "-c", script}).code);
+    }
+    const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!fs::exists(ready()) && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(fs::exists(ready()));
+  }
+  [[nodiscard]] std::string ready() const { return folder_ / "ready"; }
+  /// Exit code; 1000 + signal: killed by it; 2000 + signal: stopped.
+  [[nodiscard]] int wait() {
+    int status = 0;
+    waitpid(starter_, &status, WUNTRACED);
+    if (WIFSTOPPED(status)) return 2000 + WSTOPSIG(status);
+    starter_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  void tell(int signal) const { kill(starter_, signal); }
+
+ private:
+  fs::path folder_;
+  pid_t starter_ = -1;
+};
+
+TEST_F(Starter, PassesOnEverySignalThatWouldEndIt) {
+  for (const auto& [signal, name] :
+       {std::pair{SIGHUP, "HUP"}, std::pair{SIGINT, "INT"}, std::pair{SIGQUIT, "QUIT"},
+        std::pair{SIGTERM, "TERM"}, std::pair{SIGUSR1, "USR1"}, std::pair{SIGUSR2, "USR2"},
+        std::pair{SIGALRM, "ALRM"}, std::pair{SIGXCPU, "XCPU"}, std::pair{SIGPWR, "PWR"}}) {
+    SCOPED_TRACE(name);
+    start("trap 'exit 42' " + std::string(name) + "; touch " + ready() + "; while :; do sleep 0.02; done");
+    tell(signal);
+    EXPECT_EQ(wait(), 42);
+  }
+}
+
+TEST_F(Starter, OutlivesWhatOnlyTellsOfFailedWriting) {
+  start("trap 'exit 42' TERM; touch " + ready() + "; while :; do sleep 0.02; done");
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGTTOU}) tell(signal);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+TEST_F(Starter, LeavesAloneWhatItWasToldToIgnore) {
+  start("trap 'exit 42' TERM; touch " + ready() + "; while :; do sleep 0.02; done",
+        [] { signal(SIGHUP, SIG_IGN); });
+  tell(SIGHUP);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+TEST_F(Starter, StopsWithItsChildAndGoesOnWithIt) {
+  start("trap 'exit 42' TERM; touch " + ready() + "; while :; do sleep 0.02; done");
+  tell(SIGTSTP);
+  ASSERT_EQ(wait(), 2000 + SIGSTOP);
+  tell(SIGCONT);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+}  // namespace
+}  // namespace tessera::project

@@ -1,0 +1,269 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "effectors.hpp"
+#include "nets.hpp"
+#include "tessera/recording.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+[[nodiscard]] Script driver(double safe = -1) {
+  Script script;
+  script.acts = true;
+  script.safe = safe;
+  script.call = [](ScriptState& state) { state.command = 5; };
+  return script;
+}
+
+[[nodiscard]] std::vector<std::string> safe_events(const std::string& file) {
+  std::string error;
+  const auto recording = read_recording(file, error);
+  EXPECT_TRUE(recording) << error;
+  std::vector<std::string> texts;
+  if (recording)
+    for (const auto& [event, text] : recording->entries)
+      if (event.kind() == Event::Kind::safe) texts.push_back(text);
+  return texts;
+}
+
+constexpr std::array clocks{RunOptions::Clock::simulated, RunOptions::Clock::steady};
+
+TEST(SafeCommand, IsTriedAgainUntilTheDeviceTakesIt) {
+  for (const RunOptions::Clock clock : clocks) {
+    TestSystem system;
+    int refusals = 5;
+    system.devices.accept = [&](double value) { return value != -1 || --refusals < 0; };
+    system.add("robot.motor", nets::alone, driver(), 1ms, 0ms, Kind::effector);
+    RunOptions options = simulated(5ms);
+    options.clock = clock;
+    options.recording = scratch_file("run");
+    const RunSummary summary = run(system, options);
+    EXPECT_FALSE(summary.failed);
+    EXPECT_EQ(refusals, -1) << "six times in all";
+    EXPECT_EQ(system.devices.commands.back(), -1);
+    EXPECT_EQ(safe_events(options.recording),
+              (std::vector<std::string>{"robot.motor.command: refuses its safe command",
+                                        "robot.motor.command: safe command: the end"}));
+  }
+}
+
+TEST(SafeCommand, ThatIsNeverTakenFailsTheRunAndHoldsUpNobody) {
+  for (const RunOptions::Clock clock : clocks) {
+    TestSystem system;
+    std::int64_t first_refusal = -1, other_safe = -1;
+    std::int64_t calls = 0;
+    system.devices.accept = [&](double value) {
+      ++calls;
+      if (value == -1 && first_refusal < 0) first_refusal = calls;
+      if (value == -2) other_safe = calls;
+      return value != -1;
+    };
+    system.add("robot.bad", nets::alone, driver(-1), 1ms, 0ms, Kind::effector);
+    system.add("robot.good", nets::alone, driver(-2), 1ms, 0ms, Kind::effector);
+    RunOptions options = simulated(5ms);
+    options.clock = clock;
+    const RunSummary summary = run(system, options);
+    EXPECT_TRUE(summary.failed);
+    EXPECT_EQ(summary.ended, "duration");
+    ASSERT_EQ(summary.warnings.size(), 1U);
+    EXPECT_EQ(summary.warnings[0], "robot.bad.command has not taken its safe command");
+    EXPECT_LT(other_safe, first_refusal + 10) << "of about 200 attempts";
+  }
+}
+
+TEST(SafeCommand, ThatIsRefusedWhileTheRunGoesOnStopsIt) {
+  TestSystem system;
+  Script script = driver();
+  script.call = [](ScriptState& state) {
+    state.command = 5;
+    if (state.context.iteration == 2) throw std::runtime_error("oops");
+  };
+  script.route = [](const ScriptState&, bool) { return 0; };
+  system.devices.accept = [](double value) { return value != -1; };
+  system.add("robot.motor", nets::two_behaviours, script, 10s, 0ms, Kind::effector);
+  const RunSummary summary = run(system, simulated(1h));
+  EXPECT_TRUE(summary.failed);
+  EXPECT_EQ(summary.ended, "stopped: robot.motor: a real effector refuses its safe command");
+  EXPECT_LT(summary.simulated, 30s) << "a second after the first that it refused";
+}
+
+TEST(SafeCommand, ReachesTheOtherDevicesWhenADriverDoesNotReturn) {
+  struct Stuck final : RealEffector {
+    std::atomic<bool> entered{false}, go_on{false};
+    bool write(std::span<const std::byte>) override {
+      entered = true;
+      while (!go_on) std::this_thread::yield();
+      return true;
+    }
+  };
+  struct Fine final : RealEffector {
+    std::atomic<int> writes{0};
+    bool write(std::span<const std::byte>) override {
+      ++writes;
+      return true;
+    }
+  };
+  Bindings bindings;
+  Output<double> out_first, out_second;
+  bindings.real_output("first", out_first, -1.0);
+  bindings.real_output("second", out_second, -1.0);
+  std::vector<std::unique_ptr<RealEffector>> drivers;
+  auto stuck = std::make_unique<Stuck>();
+  auto fine = std::make_unique<Fine>();
+  Stuck& its_stuck = *stuck;
+  Fine& its_fine = *fine;
+  drivers.push_back(std::move(stuck));
+  drivers.push_back(std::move(fine));
+  RunControl control(1);
+  SteadyClock clock;
+  Effectors effectors({{"robot.motor.first", 0, 1}, {"robot.motor.second", 1, 1}}, drivers,
+                      bindings.real_outputs, control, clock);
+  std::thread own([&] { static_cast<void>(effectors.command(clock.now())); });
+  while (!its_stuck.entered) std::this_thread::yield();
+  EXPECT_FALSE(effectors.make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out));
+  EXPECT_EQ(its_fine.writes, 1);
+  EXPECT_TRUE(effectors.owing());
+  EXPECT_EQ(effectors.unsafe(), (std::vector<std::string>{"robot.motor.first"}));
+  control.request_stop("enough", false);
+  its_stuck.go_on = true;
+  own.join();
+  EXPECT_EQ(its_fine.writes, 1) << "no command after the safe one, since the run stops";
+  EXPECT_TRUE(effectors.insist({SafeReason::Kind::leaves}, Effectors::Busy::waits));
+  EXPECT_TRUE(effectors.unsafe().empty());
+}
+
+TEST(SafeCommand, StandsUntilEveryInputHasBeenValidOnce) {
+  for (const RunOptions::Clock clock : clocks) {
+    TestSystem system;
+    Script control, motor = driver();
+    control.call = [](ScriptState& state) {
+      state.out_x = 7;
+      if (state.context.iteration < 3) throw std::runtime_error("not yet");
+      if (state.context.iteration == 6) state.context.stop("enough");
+    };
+    std::vector<double> seen;
+    motor.call = [&](ScriptState& state) {
+      seen.push_back(state.x.value());
+      state.command = state.x.value() + 100;
+    };
+    const auto a = system.add("robot.control", nets::nb_sender_persistent, control, 2ms);
+    const auto b = system.add("robot.motor", nets::nb_receiver, motor, 1ms, 0ms, Kind::effector);
+    system.connect(a, "x", b, "x", buffered);
+    RunOptions options = simulated(1min);
+    options.clock = clock;
+    options.recording = scratch_file("run");
+    EXPECT_EQ(run(system, options).ended, "stopped: enough");
+    ASSERT_GE(seen.size(), 4U);
+    EXPECT_EQ(seen.front(), 0) << "the function runs";
+    bool drove = false;
+    for (const double command : system.devices.commands) {
+      EXPECT_TRUE(command == -1 || command == 107) << command;
+      drove = drove || command == 107;
+    }
+    EXPECT_TRUE(drove);
+    EXPECT_EQ(system.devices.commands.front(), -1);
+    const std::vector<std::string> events = safe_events(options.recording);
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0], "robot.motor.command: safe command: no valid value has come to input 'x' yet");
+    EXPECT_EQ(events[1], "robot.motor.command: commands go to it again");
+    EXPECT_EQ(events[2], "robot.motor.command: safe command: the end");
+  }
+}
+
+TEST(SafeCommand, OfAFaultIsRecordedWithItsEnd) {
+  TestSystem system;
+  Script script = driver();
+  script.call = [](ScriptState& state) {
+    state.command = 5;
+    if (state.context.iteration == 1) throw std::runtime_error("oops");
+  };
+  script.route = [](const ScriptState&, bool) { return 0; };
+  system.add("robot.motor", nets::two_behaviours, script, 10ms, 0ms, Kind::effector);
+  RunOptions options = simulated(25ms);
+  options.recording = scratch_file("run");
+  EXPECT_FALSE(run(system, options).failed);
+  EXPECT_EQ(safe_events(options.recording),
+            (std::vector<std::string>{"robot.motor.command: safe command: a fault",
+                                      "robot.motor.command: commands go to it again",
+                                      "robot.motor.command: safe command: the end"}));
+}
+
+/// Standard error is a pipe that is full, and nobody reads it.
+class FullPipe {
+ public:
+  FullPipe() {
+    EXPECT_EQ(pipe(ends_.data()), 0);
+    fcntl(ends_[1], F_SETFL, O_NONBLOCK);
+    const std::array<char, 4096> bytes{};
+    while (write(ends_[1], bytes.data(), bytes.size()) > 0) continue;
+    while (write(ends_[1], bytes.data(), 1) > 0) continue;
+    fcntl(ends_[1], F_SETFL, 0);
+    before_ = dup(STDERR_FILENO);
+    dup2(ends_[1], STDERR_FILENO);
+  }
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+  ~FullPipe() {
+    dup2(before_, STDERR_FILENO);
+    for (const int descriptor : {before_, ends_[0], ends_[1]}) close(descriptor);
+  }
+
+ private:
+  std::array<int, 2> ends_{};
+  int before_ = -1;
+};
+
+TEST(BlockedTerminal, HoldsUpNeitherWatchdogNorStaleNorTheEnd) {
+  TestSystem system;
+  std::atomic<bool> safe_by_watchdog{false}, safe_by_stale{false};
+  Script motor = driver(-1), control, arm = driver(-2);
+  motor.call = [&](ScriptState& state) {
+    state.command = 5;
+    for (int line = 0; line < 100; ++line) state.context.log("line {}", line);
+    if (state.context.iteration == 3)
+      while (!safe_by_watchdog || !safe_by_stale) std::this_thread::yield();
+    if (state.context.iteration == 4) state.context.stop("enough");
+  };
+  motor.route = [](const ScriptState&, bool) { return 0; };
+  control.call = [&](ScriptState& state) {
+    if (state.context.iteration > 3) throw std::runtime_error("blind");
+  };
+  arm.call = [](ScriptState& state) { state.command = 6; };
+  bool commanded = false;
+  system.devices.accept = [&](double value) {
+    if (value == -1) safe_by_watchdog = true;
+    if (value == 6) commanded = true;
+    if (value == -2 && commanded) safe_by_stale = true;
+    return true;
+  };
+  Policies policies;
+  policies.watchdog = 20ms;
+  system.add("robot.motor", nets::two_behaviours, motor, 1ms, 0ms, Kind::effector, policies);
+  const auto a = system.add("robot.control", nets::nb_sender_persistent, control, 2ms);
+  const auto b = system.add("robot.arm", nets::b_receiver, arm, 0ms, 20ms, Kind::effector);
+  system.connect(a, "x", b, "x", buffered);
+  RunSummary summary;
+  {
+    const FullPipe nobody_reads;
+    RunOptions options = steady(1min);
+    options.progress = true;
+    summary = run(system, options);
+  }
+  EXPECT_EQ(summary.ended, "stopped: enough");
+  EXPECT_GT(summary.lines_not_printed, 100U);
+}
+
+}  // namespace
+}  // namespace tessera::testing

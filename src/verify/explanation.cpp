@@ -41,7 +41,10 @@ class Explainer {
   /// false: the transitions do not get stuck.
   bool find_end() {
     const std::uint32_t owner = net_[stuck_.front()].subsystem;
-    if (!go_to(opposite(after_.can_fire(stuck_)))) return false;
+    // Who can still end is not stuck, and a channel whose reader can still end is not dry.
+    std::vector<TransitionId> any_of = stuck_;
+    std::ranges::copy(last_of(owner), std::back_inserter(any_of));
+    if (!go_to(opposite(after_.can_fire(any_of)))) return false;
     concern(owner);
     // Where one has been brought to its end, another may have stopped too.
     for (Number before = at_ + 1; before != at_;) {
@@ -62,6 +65,17 @@ class Explainer {
   }
 
  private:
+  /// The transitions by which a subsystem ends.
+  [[nodiscard]] std::vector<TransitionId> last_of(std::uint32_t subsystem) const {
+    const Waits waits = here();
+    const std::string end = waits.name(subsystem) + ".out";
+    std::vector<TransitionId> last;
+    for (const TransitionId id : waits.transitions(subsystem))
+      for (const net::Arc& arc : net_.postset(id))
+        if (net_[arc.place].name == end) last.push_back(id);
+    return last;
+  }
+
   [[nodiscard]] Waits here() const { return {net_, after_.tokens(at_)}; }
 
   bool go_to(const Aftermath::Markings& goal) {

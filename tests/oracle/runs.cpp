@@ -128,7 +128,7 @@ class Checker {
   }
 
   /// "S waits for a value of CHANNEL from P", "... for the acknowledgement of ...", "S left a behaviour, and
-  /// none ...".
+  /// none ...", "S has ended", "S goes on and sends CHANNEL no more".
   void check_wait(const std::string& text) {
     const int subsystem = subsystem_at(text);
     if (subsystem < 0) return complain("waits: unknown subsystem in: " + text);
@@ -136,6 +136,14 @@ class Checker {
         text.substr(net_.subsystems[static_cast<std::size_t>(subsystem)].path.size() + 1);
     if (rest == "left a behaviour, and none of its initial conditions held") {
       if (!left_with_none(subsystem)) complain("waits: not so: " + text);
+      return;
+    }
+    if (rest == "has ended") {
+      if (!judge_.has_ended(end(), subsystem)) complain("waits: not so: " + text);
+      return;
+    }
+    if (rest.starts_with("goes on and ") && rest.ends_with(" no more")) {
+      if (stuck(subsystem) || judge_.has_ended(end(), subsystem)) complain("waits: not so: " + text);
       return;
     }
     for (const auto& channel : net_.channels) {

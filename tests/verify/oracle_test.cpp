@@ -309,7 +309,7 @@ spec::Model random_system_with_endings(std::uint64_t seed) {
 }
 
 TEST(Prove, AgreesWithExhaustiveSearchHoweverBehavioursEnd) {
-  expect_both_verdicts(compared(random_system_with_endings, from_environment("TESSERA_RANDOM_SYSTEMS", 150)));
+  expect_both_verdicts(compared(random_system_with_endings, from_environment("TESSERA_RANDOM_SYSTEMS", 100)));
 }
 
 }  // namespace

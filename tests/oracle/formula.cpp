@@ -73,6 +73,8 @@ class Compiler {
     bool found = false;
     for (std::size_t p = 0; p < net_.places.size(); ++p) {
       const auto& place = net_.places[p];
+      if (place.name.ends_with(".none"))
+        continue;  // it has left the behaviour, says docs/verification.md, and does nothing any more
       if (place.name != path && (place.fused || !place.name.starts_with(path + "."))) continue;
       places.set(static_cast<int>(p));
       found = true;

@@ -145,8 +145,6 @@ class Formulas {
     for (const auto& place : net_.places) {
       if (place.fused)
         channel_states.push_back(place.name);
-      else if (place.name.find('#') != std::string::npos)
-        continue;
       else if (place.name.ends_with(".2") || place.name.ends_with(".wait") || place.name.ends_with(".work"))
         inner.push_back(place.name);
     }

@@ -143,7 +143,7 @@ class Checker {
       return;
     }
     if (rest.starts_with("goes on and ") && rest.ends_with(" no more")) {
-      if (stuck(subsystem) || judge_.has_ended(end(), subsystem)) complain("waits: not so: " + text);
+      if (!goes_on_without(subsystem, rest)) complain("waits: not so: " + text);
       return;
     }
     for (const auto& channel : net_.channels) {
@@ -157,8 +157,10 @@ class Checker {
       if ((sends ? channel.sender : channel.receiver) != subsystem)
         return complain("waits: not at that end of the channel: " + text);
       if (!blocked(channel, sends)) return complain("waits: it does not wait there for ever: " + text);
-      const std::string& peer =
-          net_.subsystems[static_cast<std::size_t>(sends ? channel.receiver : channel.sender)].path;
+      const int other = sends ? channel.receiver : channel.sender;
+      const std::string& peer = net_.subsystems[static_cast<std::size_t>(other)].path;
+      if (!settled(other))
+        complain("waits: the run stops before " + peer + " is stuck or has ended: " + text);
       if (tail.starts_with(" from ") && !(tail.substr(6) == peer || tail.substr(6).starts_with(peer + ",") ||
                                           tail.substr(6).starts_with(peer + " ")))
         complain("waits: the wrong peer: " + text);
@@ -173,10 +175,26 @@ class Checker {
 
   /// Who is waited for is stuck too, has ended, or may go on for ever.
   bool settled(int subsystem) const {
-    if (stuck(subsystem) || judge_.has_ended(end(), subsystem)) return true;
+    return stuck(subsystem) || judge_.has_ended(end(), subsystem) || for_ever(subsystem);
+  }
+  bool for_ever(int subsystem) const {
     std::vector<char> own(net_.transitions.size());
     for (std::size_t t = 0; t < own.size(); ++t) own[t] = net_.transitions[t].subsystem == subsystem ? 1 : 0;
     return judge_.graph().can_fire_for_ever(own)[static_cast<std::size_t>(end_state_)] != 0;
+  }
+
+  /// "goes on and sends CHANNEL no more": it may fire for ever, and uses its side of the channel never again.
+  bool goes_on_without(int subsystem, const std::string& text) const {
+    if (!for_ever(subsystem)) return false;
+    for (const auto& channel : net_.channels) {
+      if (text.find(" " + channel.name + " ") == std::string::npos) continue;
+      std::vector<char> uses(net_.transitions.size());
+      for (const int t : users(channel, text.find(" sends ") != std::string::npos))
+        uses[static_cast<std::size_t>(t)] = 1;
+      const auto& graph = judge_.graph();
+      return graph.can_reach(graph.where_enabled(uses))[static_cast<std::size_t>(end_state_)] == 0;
+    }
+    return false;
   }
 
   bool left_with_none(int subsystem) const {
@@ -209,8 +227,8 @@ class Checker {
     return !users(channel, !sends).empty();
   }
 
-  /// A token of this side stands before a transition of the channel and waits: now, or for ever where the
-  /// property is about that.
+  /// A token of this side stands before a transition of the channel, and no continuation takes it from
+  /// there.
   bool blocked(const FlatNet::ChannelInfo& channel, bool sends) const {
     for (const int t : users(channel, sends)) {
       for (const int place : net_.transitions[static_cast<std::size_t>(t)].pre) {
@@ -220,11 +238,7 @@ class Checker {
           leaving[u] =
               std::count(net_.transitions[u].pre.begin(), net_.transitions[u].pre.end(), place) > 0 ? 1 : 0;
         const auto& graph = judge_.graph();
-        const StateGraph::Set now = graph.where_enabled(leaving);
-        // Of a property of the author's the run ends where it is violated, which need not be where anybody is
-        // stuck.
-        if ((shown_.property != nullptr ? now : graph.can_reach(now))[static_cast<std::size_t>(end_state_)] ==
-            0)
+        if (graph.can_reach(graph.where_enabled(leaving))[static_cast<std::size_t>(end_state_)] == 0)
           return true;
       }
     }

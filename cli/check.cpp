@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
+#include "project/assets.hpp"
 #include "project/walk.hpp"
 #include "spec/parser.hpp"
 
@@ -27,8 +28,10 @@ std::string count_of(const Things& things, const char* name) {
 int check_json(const Options& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
-    if (const std::optional<spec::Model> model = spec::parse(found))
+    if (const std::optional<spec::Model> model = spec::parse(found)) {
+      check_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
+    }
   write_output(options.json, diagnostics::render_json(found) + "\n");
   if (!found.has_errors()) return ok;
   return is_unreadable(found) ? usage : failed;
@@ -37,7 +40,9 @@ int check_json(const Options& options) {
 int check_command(const Options& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification || !models_are_sound(*specification, terminal())) return refused();
+  if (!specification) return refused();
+  const bool sound = models_are_sound(*specification, terminal());
+  if (!files_are_there(*specification, terminal()) || !sound) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;

@@ -219,6 +219,19 @@ bool known_subsystem(const Recording& recording, const std::string& path) {
   return false;
 }
 
+bool known_values(const Recording& recording, const std::string& wanted) {
+  if (wanted.empty() || wanted == all_values) return true;
+  std::vector<std::string> names;
+  for (const Recording::Buffer& buffer : recording.buffers) {
+    if (buffer.path.find(wanted) != std::string::npos) return true;
+    names.push_back(buffer.path);
+    names.push_back(buffer.path.substr(buffer.path.rfind('.') + 1));
+  }
+  const std::string hint = diagnostics::did_you_mean(wanted, names);
+  complain("no buffer of the recording has '" + wanted + "' in its path" + (hint.empty() ? "" : "; " + hint));
+  return false;
+}
+
 int replay_command(const Options& options) {
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
@@ -232,6 +245,7 @@ int replay_command(const Options& options) {
   const bool other = options.check || show || !options.csv.empty() || !options.perfetto.empty();
   if (!options.values.empty() && recording->buffers.empty())
     return complain("the recording holds no values of buffers; record with --record-values small or all");
+  if (!known_values(*recording, options.values)) return usage;
   if (!options.csv.empty()) write_csv(*recording, options);
   if (!options.perfetto.empty()) write_perfetto_file(*recording, options.perfetto);
   if (show) replay::print_events(*recording, selection_of(options), std::cout);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/commands.hpp"
+#include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
 #include "cli/play_net.hpp"
@@ -109,6 +110,7 @@ int run_again(const Controller& controller, const SimulateOptions& options) {
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
+  if (!can_run(options, true)) return failed;
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =
@@ -153,6 +155,7 @@ int complain_of_drivers(const std::vector<std::string>& missing) {
 }
 
 int run_command(const RunCommandOptions& options) {
+  if (!can_run(options, options.world)) return failed;
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();

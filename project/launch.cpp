@@ -134,6 +134,12 @@ std::optional<Floor> floor_of(const Specification& specification, const LaunchOp
   return floor;
 }
 
+std::vector<std::string> parameter_values(const Specification& specification, const LaunchOptions& options) {
+  std::vector<std::string> values = parameters_of(specification, options);
+  values.insert(values.end(), options.set.begin(), options.set.end());
+  return values;
+}
+
 Command controller_command(const Controller& controller, const LaunchOptions& options,
                            const std::string& mode, bool with_world) {
   const Specification& specification = controller.specification;
@@ -150,9 +156,10 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   std::to_string(options.seed)};
   if (options.progress) command.push_back("--progress");
   if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
+  if (options.gate.accept_violations) command.push_back("--accept-stuck");
   if (!options.duration.empty()) append(command, {"--for", options.duration});
-  for (const std::string& value : parameters_of(specification, options)) append(command, {"--set", value});
-  for (const std::string& value : options.set) append(command, {"--set", value});
+  for (const std::string& value : parameter_values(specification, options))
+    append(command, {"--set", value});
   for (const std::string& fault : options.inject) append(command, {"--inject", fault});
   if (with_world) add_world(command, specification, options);
   return command;

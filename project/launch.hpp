@@ -43,6 +43,11 @@ struct Floor {
 /// nullopt: no track. Throws std::runtime_error when it names a file that is nowhere.
 [[nodiscard]] std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options);
 
+/// PATH=VALUE of every parameter that a run changes: those of the file, then those of the command line.
+/// Throws std::runtime_error when the file cannot be read.
+[[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
+                                                        const LaunchOptions& options);
+
 /// The controller's command line. mode: "simulate" or "run"; with_world: in the simulated world.
 [[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
                                          const std::string& mode, bool with_world);

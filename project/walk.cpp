@@ -9,6 +9,7 @@
 #include "layers/layers.hpp"
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
+#include "project/assets.hpp"
 #include "project/listener.hpp"
 #include "project/verdicts.hpp"
 #include "project/violation.hpp"
@@ -84,6 +85,13 @@ bool models_are_sound(const Specification& specification, Listener& listener) {
   const bool sound = judge_models(specification.model, found);
   listener.say(found);
   return sound;
+}
+
+bool files_are_there(const Specification& specification, Listener& listener) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  const bool there = check_files(specification.model, specification.project, found);
+  listener.say(found);
+  return there;
 }
 
 const char* name_of(verify::Verdict verdict) {

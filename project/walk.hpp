@@ -35,6 +35,9 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
 /// The same, told.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
+/// check_files, told (project/assets.hpp).
+[[nodiscard]] bool files_are_there(const Specification& specification, Listener& listener);
+
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;

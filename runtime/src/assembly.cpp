@@ -80,6 +80,10 @@ class Assembler {
   }
 
   void plant_faults(SubsystemParts& parts) {
+    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
+      if (fault->instance == parts.index &&
+          (fault->kind == Injection::Kind::device || fault->kind == Injection::Kind::silence))
+        fault->context = &parts.subsystem->context();
     Injections faults = faults_of(parts.index, "", [](const Injection& fault) {
       return fault.kind == Injection::Kind::exception || fault.kind == Injection::Kind::stall ||
              fault.kind == Injection::Kind::number;

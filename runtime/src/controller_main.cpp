@@ -27,7 +27,8 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;  // and its numbe
 
 [[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
   const console::Session session;  // a terminal that takes nothing does not hold up the end
-  if (summary.failed) console::say(summary_lines(summary));
+  // Whoever asks for a file shows what is in it.
+  if (summary.failed && line.summary.empty()) console::say(summary_lines(summary));
   if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;

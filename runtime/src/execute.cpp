@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly.hpp"
@@ -11,6 +12,7 @@
 #include "simulated_run.hpp"
 #include "steady_run.hpp"
 #include "stop_signals.hpp"
+#include "stuck.hpp"
 #include "tessera/controller.hpp"
 #include "upper_layers.hpp"
 
@@ -59,6 +61,13 @@ template <class Run>
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
   ending.failed = ending.failed || !unsafe.empty();
 
+  std::string stuck;
+  if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));
+  if (!stuck.empty() && !assembly.options.accept_stuck) {
+    ending.text += "; " + std::exchange(stuck, {});
+    ending.failed = true;
+  }
+
   RunSummary summary;
   summary.simulated = ending.at.time_since_epoch();
   summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
@@ -85,6 +94,7 @@ template <class Run>
   if (lane != nullptr) lane->text(Event::Kind::stop, ending.at, ending.failed ? 1 : 0, ending.text);
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
+  if (!stuck.empty()) warn(summary, stuck);
   close_recording(assembly, summary);
   close_world(assembly, summary);
   return summary;

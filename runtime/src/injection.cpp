@@ -21,6 +21,10 @@ bool Injection::happens(Time now) {
   return true;
 }
 
+void Injection::announce() {
+  if (context != nullptr && !std::exchange(announced_, true)) context->warn("injected: {}", text);
+}
+
 // ------------------------------------------------------------------------------------------------ reading
 
 namespace {
@@ -221,8 +225,9 @@ class FaultyReceptor final : public RealReceptor {
   FaultyReceptor(std::unique_ptr<RealReceptor> inner, Injections faults, const Clock& clock)
       : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock) {}
   bool read(std::span<std::byte> value) override {
-    const Injection* fault = happening(faults_, clock_.now());
+    Injection* const fault = happening(faults_, clock_.now());
     if (fault == nullptr) return inner_->read(value);
+    fault->announce();
     if (fault->kind == Injection::Kind::silence) return false;
     throw std::runtime_error("injected: " + fault->text);
   }
@@ -240,8 +245,10 @@ class FaultyEffector final : public RealEffector {
       : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock), safe_(safe) {}
   bool write(std::span<const std::byte> value) override {
     const bool is_safe = value.data() == safe_;
-    if (!is_safe && happening(faults_, clock_.now()) != nullptr) return false;
-    return inner_->write(value);
+    Injection* const fault = is_safe ? nullptr : happening(faults_, clock_.now());
+    if (fault == nullptr) return inner_->write(value);
+    fault->announce();
+    return false;
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clock.hpp"
+#include "tessera/context.hpp"
 #include "tessera/device.hpp"
 #include "tessera/tables.hpp"
 
@@ -34,11 +35,15 @@ struct Injection {
   Time until = Time::max();
   bool once = true;  ///< only the first that happens from `from` on
 
+  Context* context = nullptr;  ///< of the subsystem whose device it strikes
+
   /// Whether it happens now; counts that.
   [[nodiscard]] bool happens(Time now);
+  /// Says so, of a device: where it begins. Threads: the subsystem's.
+  void announce();
 
  private:
-  bool done_ = false;
+  bool done_ = false, announced_ = false;
 };
 
 /// One that strikes a subsystem with several devices strikes the first that comes.

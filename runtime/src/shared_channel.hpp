@@ -71,6 +71,15 @@ class alignas(64) SharedChannel {
   /// its turn. false: one of them may be taken now; nothing changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
 
+  /// Whether a side has registered, and whether it may take one of the needs that it registered for. Threads:
+  /// any.
+  enum class Waiting : std::uint8_t { no, in_vain, may_take };
+  [[nodiscard]] Waiting waiting(Side side) const {
+    const Word word{word_.load(std::memory_order_acquire)};
+    if (word.wants(side) == 0) return Waiting::no;
+    return waits_for_met_need(word, side) ? Waiting::may_take : Waiting::in_vain;
+  }
+
   /// Nothing can be taken before somebody gives: with the usual blocks, the other side is at the memory,
   /// which runs no user code and is soon over.
   [[nodiscard]] bool held() const { return marking() == 0; }

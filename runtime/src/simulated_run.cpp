@@ -56,7 +56,7 @@ class Pace {
 }  // namespace
 
 SimulatedRun::SimulatedRun(std::uint32_t instances, std::uint64_t seed)
-    : random_(seed), is_ready_(instances), has_ended_(instances), deadlines_(instances) {
+    : random_(seed), is_ready_(instances), has_ended_(instances), deadlines_(instances), stuck_(instances) {
   ready_.reserve(instances);
 }
 
@@ -213,6 +213,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
+    stuck_.look(assembly, clock_.now());
     if (remote_ != nullptr) remote_->keep_recording_live();
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {

@@ -12,6 +12,7 @@
 #include "monitor.hpp"
 #include "remote_control.hpp"
 #include "stop_signals.hpp"
+#include "stuck.hpp"
 #include "upper_layers.hpp"
 
 namespace tessera {
@@ -57,7 +58,8 @@ class SimulatedRun final : public Waker {
   std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
   DeadlineQueue deadlines_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
-  std::optional<Monitor> monitor_;                      // the last: it looks at the others
+  StuckWatch stuck_;
+  std::optional<Monitor> monitor_;  // the last: it looks at the others
 };
 
 }  // namespace tessera

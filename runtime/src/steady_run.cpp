@@ -38,6 +38,7 @@ SteadyRun::SteadyRun(std::uint32_t instances)
     : wake_words_(std::make_unique<WakeWord[]>(instances)),
       gone_(std::make_unique<std::atomic<bool>[]>(instances)),
       collected_(instances),
+      stuck_(instances),
       news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
 SteadyRun::~SteadyRun() {
@@ -207,6 +208,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     } else if (stillness.look(now, wake_words_.get(), gone)) {
       control.request_stop(why_nothing_happens(assembly), /*fault=*/true);
     } else {
+      if (stillness.changed()) look_for_stuck(assembly, stillness, now);
       progress.update(now);
       assembly.signals.raise_due(now);
       const Time next = std::min({end, stillness.next(), watchdogs.check(now), assembly.signals.next()});
@@ -253,6 +255,11 @@ void SteadyRun::stop_process(Time since, RecordingLane* lane) {
   const double away_s = static_cast<double>(monotonic_ns() - stopped_ns) * 1e-9;
   clock_.thaw();
   say(fmt::format("goes on after {:.1f} s; each effector waits for new values", away_s));
+}
+
+void SteadyRun::look_for_stuck(Assembly& assembly, const Stillness& stillness, Time now) {
+  const std::vector<std::uint32_t> stuck = stuck_among_resting(assembly, stillness.resting());
+  if (!stuck.empty() && stillness.rest_still(wake_words_.get(), stuck)) stuck_.found(assembly, stuck, now);
 }
 
 void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {

@@ -11,7 +11,9 @@
 #include "monitor.hpp"
 #include "securing.hpp"
 #include "simulated_run.hpp"
+#include "stillness.hpp"
 #include "stop_signals.hpp"
+#include "stuck.hpp"
 #include "upper_layers.hpp"
 
 namespace tessera {
@@ -42,6 +44,7 @@ class SteadyRun final : public Waker {
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);
   [[nodiscard]] Ending ending(const Assembly& assembly, const UpperLayers& upper) const;
+  void look_for_stuck(Assembly& assembly, const Stillness& stillness, Time now);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
   void await_news(Time until) const;
   /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.
@@ -55,6 +58,7 @@ class SteadyRun final : public Waker {
   std::unique_ptr<std::atomic<bool>[]> gone_;  // per instance: its thread has ended
   WakeWord world_wakes_;
   std::vector<bool> collected_;
+  StuckWatch stuck_;
   int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
   std::uint32_t started_ = 0;  // threads of the first so many instances
   bool duration_over_ = false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace tessera {
@@ -30,13 +31,20 @@ bool Stillness::look(Time now, const WakeWord* words, const std::function<bool(s
   next_ = now + between_looks;
   bool still = true, any = false;
   for (std::uint32_t thread = 0; thread < rests_.size(); ++thread) {
+    const std::uint64_t rest = gone(thread) ? 0 : words[thread].rest();
+    const std::uint64_t before = std::exchange(rests_[thread], rest);
+    const bool rests = rest != 0 && rest == before;
+    changed_ = changed_ || rests != resting_[thread];
+    resting_[thread] = rests;
     if (gone(thread)) continue;
     any = true;
-    const std::uint64_t rest = words[thread].rest();
-    still = still && rest != 0 && rest == rests_[thread];
-    rests_[thread] = rest;
+    still = still && rests;
   }
   return still && any;
+}
+
+bool Stillness::rest_still(const WakeWord* words, const std::vector<std::uint32_t>& threads) const {
+  return std::ranges::all_of(threads, [&](std::uint32_t one) { return words[one].rest() == rests_[one]; });
 }
 
 }  // namespace tessera

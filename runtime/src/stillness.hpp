@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly.hpp"
@@ -23,14 +24,22 @@ namespace tessera {
 /// Threads: one that looks.
 class Stillness {
  public:
-  explicit Stillness(std::uint32_t threads) : rests_(threads) {}
+  explicit Stillness(std::uint32_t threads) : rests_(threads), resting_(threads) {}
   /// Looks if it is time (next). words: what the threads sleep on; gone: whether that one has ended. false
   /// also when all have.
   [[nodiscard]] bool look(Time now, const WakeWord* words, const std::function<bool(std::uint32_t)>& gone);
+  /// Who was at rest, in the same sleep, in the last two looks.
+  [[nodiscard]] const std::vector<bool>& resting() const { return resting_; }
+  /// Whether these, who were at rest in the last look, are in the same sleep now.
+  [[nodiscard]] bool rest_still(const WakeWord* words, const std::vector<std::uint32_t>& threads) const;
+  /// Whether somebody rests now who did not at the look before, or the other way round. Once a look.
+  [[nodiscard]] bool changed() { return std::exchange(changed_, false); }
   [[nodiscard]] Time next() const { return next_; }
 
  private:
   std::vector<std::uint64_t> rests_;  // per thread: its sleep at the last look; 0: it was not at rest
+  std::vector<bool> resting_;
+  bool changed_ = false;
   Time next_{};
 };
 

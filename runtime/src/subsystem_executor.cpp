@@ -68,6 +68,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
     operations_.guard_effectors(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
     if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
+    if (std::exchange(waits_after_, firings_) != firings_) waits_since_ = now();
     return {State::waiting, next_deadline()};
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,6 +82,20 @@ class SubsystemExecutor {
   void insist() { operations_.insist(); }
   /// Threads: as its members say.
   [[nodiscard]] Effectors& effectors() { return operations_.effectors(); }
+
+  /// Tokens of one channel that a transition lacks, which has everything else or needs only time.
+  struct Lack {
+    std::uint32_t port;
+    std::uint16_t tokens;  ///< fused places, as bits
+  };
+  /// Everything that it can ever fire from here lacks: per transition. nullopt: it can go on by itself, it
+  /// has something to do or waits for a time. Threads: when it does not run.
+  [[nodiscard]] std::optional<std::vector<Lack>> lacks() const;
+  /// Per port, the fused places that it may give tokens to from here on, whatever its conditions say.
+  /// helped: per port, whether the other end may give tokens too. Threads: when it does not run.
+  [[nodiscard]] std::vector<std::uint16_t> may_give(const std::vector<bool>& helped) const;
+  /// When it fired last before it began to wait; Time::max(): it has not waited yet.
+  [[nodiscard]] Time waits_since() const { return waits_since_; }
 
   /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread does not
   /// run.
@@ -194,6 +209,8 @@ class SubsystemExecutor {
   Time returns_{};                  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
+  Time waits_since_ = Time::max();
+  std::uint64_t waits_after_ = UINT64_MAX;  // firings_ at waits_since_
   std::uint64_t firings_ = 0, overruns_ = 0;
   std::uint32_t last_fired_ = Plan::none;
   Gauges gauges_;

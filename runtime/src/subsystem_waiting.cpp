@@ -61,6 +61,53 @@ bool SubsystemExecutor::time_stands_still() {
   return ++fired_at_instant_ > firings_per_instant;
 }
 
+std::optional<std::vector<SubsystemExecutor::Lack>> SubsystemExecutor::lacks() const {
+  std::vector<Lack> all;
+  for (const std::uint32_t place : marked_) {
+    if (tokens_[place].phase != Phase::finished) return std::nullopt;
+    for (const std::uint32_t index : plan_->leaving_of(place)) {
+      const Plan::TransitionEntry& transition = plan_->transitions[index];
+      if (!locally_enabled(transition)) continue;
+      const bool needs_time = transition.guard.kind == Guard::Kind::elapsed;
+      if (!needs_time && !condition_holds(transition)) continue;
+      if (transition.need == Plan::no_need) return std::nullopt;
+      const auto tokens =
+          static_cast<std::uint16_t>(transition.taken & ~ports_[transition.port].channel->marking());
+      if (tokens == 0) return std::nullopt;
+      all.push_back({transition.port, tokens});
+    }
+  }
+  if (marked_.empty()) return std::nullopt;  // it has not begun
+  return all;
+}
+
+std::vector<std::uint16_t> SubsystemExecutor::may_give(const std::vector<bool>& helped) const {
+  std::vector<std::uint16_t> gives(plan_->ports.size()), there(gives.size());
+  for (std::size_t port = 0; port < there.size(); ++port)
+    there[port] = helped[port] ? UINT16_MAX : ports_[port].channel->marking();
+  std::vector<bool> reached(plan_->places.size());
+  for (const std::uint32_t place : marked_) reached[place] = true;
+  for (bool more = true; more;) {
+    more = false;
+    for (const Plan::TransitionEntry& transition : plan_->transitions) {
+      const auto inputs = plan_->inputs(transition);
+      if (!std::all_of(inputs.begin(), inputs.end(), [&](std::uint32_t place) { return reached[place]; }))
+        continue;
+      if (transition.port != Plan::none) {
+        if ((transition.taken & ~there[transition.port]) != 0) continue;
+        gives[transition.port] = static_cast<std::uint16_t>(gives[transition.port] | transition.produced);
+        more = more || (transition.produced & ~there[transition.port]) != 0;
+        there[transition.port] = static_cast<std::uint16_t>(there[transition.port] | transition.produced);
+      }
+      for (const std::uint32_t place : plan_->outputs(transition)) {
+        more = more || !reached[place];
+        reached[place] = true;
+      }
+    }
+  }
+  return gives;
+}
+
 std::string SubsystemExecutor::whereabouts(const System& system) const {
   const Instance& instance = *operations_.parts().instance;
   std::string text = path();

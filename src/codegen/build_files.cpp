@@ -8,7 +8,7 @@ File cmake_lists(const Project& project) {
   std::string sources;
   for (const Unit& unit : project.units) sources += fmt::format("\n  {}", source_name(unit));
   return {"CMakeLists.txt", fmt::format(R"({}cmake_minimum_required(VERSION 3.25)
-project({} LANGUAGES CXX)
+project(tessera_controller LANGUAGES CXX)
 
 set(TESSERA_PROJECT_DIR ${{CMAKE_CURRENT_SOURCE_DIR}}/../.. CACHE PATH "The folder of spec.yaml, src and test")
 if(NOT CMAKE_BUILD_TYPE)
@@ -48,7 +48,7 @@ if(test_sources AND GTest_FOUND)
   target_link_libraries(tests PRIVATE system GTest::gtest_main)
 endif()
 )",
-                                        project.banner("#"), project.model.system, sources)};
+                                        project.banner("#"), sources)};
 }
 
 File format_style() {

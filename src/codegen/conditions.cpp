@@ -39,7 +39,7 @@ std::string at_column(const spec::Expression& expression) {
 }  // namespace
 
 Conditions::Conditions(const Project& project, const Unit& unit)
-    : project_(project), subsystem_(*unit.subsystem) {
+    : project_(project), unit_(unit), subsystem_(*unit.subsystem) {
   for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
     Asked asked;
     asked.error = add_all(behaviour, behaviour.error, "error");
@@ -76,8 +76,9 @@ std::vector<std::size_t> Conditions::add_all(const spec::Behaviour& behaviour,
 }
 
 std::size_t Conditions::add(const std::string& name, const spec::Expression& expression, std::string says) {
-  std::string unique = name;
-  for (int number = 2; !names_.insert(unique).second; ++number) unique = fmt::format("{}_{}", name, number);
+  std::string unique = "tessera_" + name;
+  for (int number = 2; !names_.insert(unique).second; ++number)
+    unique = fmt::format("tessera_{}_{}", name, number);
   functions_.push_back({std::move(unique), &expression, std::move(says)});
   return functions_.size() - 1;
 }
@@ -120,11 +121,11 @@ std::string Conditions::ask(const std::vector<std::size_t>& functions, std::stri
   std::string out;
   for (const std::size_t function : functions)
     if (const std::string& name = functions_[function].name; functions_[function].remembered)
-      out += fmt::format("        held_.{0} = {0}();\n", name);
+      out += fmt::format("        held_.{0} = conditions_.{0}();\n", name);
   for (const std::size_t function : functions)
     out += fmt::format("        if ({}) return tessera::Outcome::{};\n",
                        functions_[function].remembered ? "held_." + functions_[function].name
-                                                       : functions_[function].name + "()",
+                                                       : "conditions_." + functions_[function].name + "()",
                        outcome);
   return out;
 }
@@ -175,36 +176,65 @@ std::string Conditions::asks(std::size_t behaviour, std::size_t entry) const {
     case spec::When::Kind::named_error:
       return fmt::format("if (held_.{}) ", functions_[asked.error[when.expression]].name);
     case spec::When::Kind::expression:
-      return fmt::format("if ({}()) ", functions_[asked.next[entry]].name);
+      return fmt::format("if (conditions_.{}()) ", functions_[asked.next[entry]].name);
   }
   return {};
 }
 
 std::string Conditions::members() const {
-  std::string functions, held;
-  for (const Function& function : functions_) {
-    functions += fmt::format("  [[nodiscard]] bool {}() const;\n", function.name);
+  if (functions_.empty()) return {};
+  std::string held;
+  for (const Function& function : functions_)
     if (function.remembered) held += fmt::format("    bool {} = false;\n", function.name);
-  }
-  if (held.empty()) return functions;
+  const std::string conditions = "  yours::tessera_Conditions conditions_{in, out, memory, parameters};\n";
+  if (held.empty()) return conditions;
   return fmt::format(R"({}
   /// The named conditions that held when the iteration was decided; `route` asks for them.
   struct Held {{
 {}  }} held_;
 )",
-                     functions, held);
+                     conditions, held);
+}
+
+std::string Conditions::declaration() const {
+  if (functions_.empty()) return {};
+  std::string functions;
+  for (const Function& function : functions_)
+    functions += fmt::format("  [[nodiscard]] bool {}() const;\n", function.name);
+  return fmt::format(R"(namespace {0} {{
+namespace {{
+
+using namespace std::chrono_literals;
+
+/// The conditions of the specification, with what they may name.
+struct tessera_Conditions {{
+  const Inputs& in;
+  const Outputs& out;
+  const Memory& memory;
+  const Parameters& parameters;
+
+{1}}};
+
+}}  // namespace
+}}  // namespace {0}
+
+)",
+                     unit_namespace(project_.model, unit_), functions);
 }
 
 std::string Conditions::definitions() const {
   if (functions_.empty()) return {};
   std::string out = R"(
 // The conditions, as the specification states them: lines and columns from here on are its own.
+namespace )" + unit_namespace(project_.model, unit_) +
+                    R"( {
 namespace {
 // clang-format off
 )";
   for (const Function& function : functions_) {
-    const std::string head = fmt::format("bool Subsystem::{}() const {{ return static_cast<bool>(  // {}\n",
-                                         function.name, comment_text(function.says));
+    const std::string head =
+        fmt::format("bool tessera_Conditions::{}() const {{ return static_cast<bool>(  // {}\n",
+                    function.name, comment_text(function.says));
     const std::uint32_t line = std::max(function.expression->span.line, 1U);
     const auto marker = [&](std::uint32_t number) {
       return fmt::format("#line {} {}\n", number, quoted(project_.spec_path));
@@ -213,7 +243,8 @@ namespace {
     out += line > 1 ? marker(line - 1) + head : head + marker(line);
     out += at_column(*function.expression) + "); }\n";
   }
-  return out += "// clang-format on\n}  // namespace\n";
+  return out += "// clang-format on\n}  // namespace\n}  // namespace " +
+                unit_namespace(project_.model, unit_) + "\n";
 }
 
 }  // namespace tessera::codegen

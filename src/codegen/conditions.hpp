@@ -8,8 +8,8 @@
 
 namespace tessera::codegen {
 
-/// The conditions of one unit as member functions of its class: the expressions, each compiled under the line
-/// and column it has in the specification, and the two functions that ask them.
+/// The conditions of one unit: the expressions, each compiled under the line and column it has in the
+/// specification, in the scope of the user's transition functions, and the two functions that ask them.
 class Conditions {
  public:
   Conditions(const Project& project, const Unit& unit);
@@ -17,15 +17,18 @@ class Conditions {
   /// tessera::Subsystem::decide and ::route.
   [[nodiscard]] std::string decide() const;
   [[nodiscard]] std::string route() const;
-  /// Private members: declarations of the functions, and what `decide` remembers for `route`. Empty: none.
+  /// Private members of the class that asks them: the conditions, and what `decide` remembers for `route`.
+  /// Empty: none.
   [[nodiscard]] std::string members() const;
+  /// `tessera_Conditions`, in the namespace of the unit: the functions. Empty: there are none.
+  [[nodiscard]] std::string declaration() const;
   /// The functions. Their lines count as lines of the specification, so nothing else may follow them in the
   /// file.
   [[nodiscard]] std::string definitions() const;
 
  private:
   struct Function {
-    std::string name;  ///< "follow_terminal_lost"
+    std::string name;  ///< "tessera_follow_terminal_lost"
     const spec::Expression* expression;
     std::string says;  ///< for the reader: "follow ends when lost"
     bool remembered = false;
@@ -45,6 +48,7 @@ class Conditions {
   [[nodiscard]] std::string asks(std::size_t behaviour, std::size_t entry) const;
 
   const Project& project_;
+  const Unit& unit_;
   const spec::Subsystem& subsystem_;
   std::vector<Function> functions_;
   std::vector<Asked> asked_;  ///< per behaviour

@@ -32,6 +32,10 @@ std::string unit_namespace(const spec::Model& model, const Unit& unit) {
   return fmt::format("{}::{}::{}", model.system, unit.definition->name, unit.subsystem->name);
 }
 
+std::string generated_namespace(const Unit& unit) {
+  return fmt::format("tessera_generated::units::{}::{}", unit.definition->name, unit.subsystem->name);
+}
+
 std::string unit_header(const Unit& unit) {
   return unit.definition->name + '/' + unit.subsystem->name + ".hpp";
 }

@@ -25,8 +25,12 @@ struct Unit {
 
 /// "robot.control"
 [[nodiscard]] std::string unit_path(const Unit& unit);
-/// "line_follower::robot::control"
+/// "line_follower::robot::control": the user's.
 [[nodiscard]] std::string unit_namespace(const spec::Model& model, const Unit& unit);
+/// "tessera_generated::units::robot::control": what Tessera adds to a unit. Names of specifications and
+/// generated names meet in no scope: ours stand in `tessera_generated`, or begin with `tessera_` where they
+/// have to stand beside the user's, and `check` keeps both for us.
+[[nodiscard]] std::string generated_namespace(const Unit& unit);
 /// "robot/control.hpp"
 [[nodiscard]] std::string unit_header(const Unit& unit);
 /// The parameters a unit sees: those of the system that it does not shadow, then its own.

@@ -31,7 +31,7 @@ class Header {
   std::string text() {
     return fmt::format(R"({}#pragma once
 
-{}#include "types.hpp"
+{}#include "../types.hpp"
 
 /// {}
 namespace {} {{

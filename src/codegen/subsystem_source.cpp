@@ -29,7 +29,7 @@ std::string bind_real(const Project& project, const spec::Subsystem& subsystem, 
   const spec::Field& field = subsystem.real[at];
   if (subsystem.kind == SubsystemKind::receptor)
     return fmt::format("bindings.real_input(\"{0}\", in.{0});", field.name);
-  // Qualified, since the class around it has types of its own.
+  // Qualified, since it stands in our namespace.
   std::set<std::string_view> hidden;
   if (field.type.kind == spec::Type::Kind::structure)
     hidden.insert(project.model.structures[field.type.structure].name);
@@ -59,11 +59,12 @@ std::string bind(const Project& project, const Unit& unit) {
                          lines);
 }
 
-std::string call(const Unit& unit) {
+std::string call(const spec::Subsystem& subsystem) {
   std::string cases;
-  for (const spec::Behaviour& behaviour : unit.subsystem->behaviours)
-    cases += fmt::format("      case Behaviour::{1}:\n        return {0}::{1}(context_, in, memory, out);\n",
-                         unit.subsystem->name, behaviour.name);
+  for (const spec::Behaviour& behaviour : subsystem.behaviours)
+    cases +=
+        fmt::format("      case Behaviour::{0}:\n        return yours::{0}(context_, in, memory, out);\n",
+                    behaviour.name);
   return fmt::format(R"(  void call(std::uint16_t behaviour) override {{
     switch (static_cast<Behaviour>(behaviour)) {{
 {}    }}
@@ -82,7 +83,8 @@ std::string subsystem_class(const Project& project, const Unit& unit, const Cond
   const std::string members = conditions.members();
   return fmt::format(R"({}
 /// The user's functions and the conditions of {}, by number.
-class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Parameters, Context> {{
+class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory, yours::Outputs,
+                                                    yours::Parameters, yours::Context> {{
  public:
 {}
 {}
@@ -90,14 +92,13 @@ class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Par
 {}{}}};
 )",
                      behaviours_enumeration(*unit.subsystem), unit_path(unit), bind(project, unit),
-                     call(unit), conditions.decide(), conditions.route(),
+                     call(*unit.subsystem), conditions.decide(), conditions.route(),
                      members.empty() ? "" : "\n private:\n" + members);
 }
 
-/// Durations stand in the table of behaviours and in conditions.
-bool needs_literals(const spec::Subsystem& subsystem, const Conditions& conditions) {
-  return !conditions.members().empty() ||
-         std::ranges::any_of(subsystem.behaviours,
+/// Durations stand in the table of behaviours.
+bool needs_literals(const spec::Subsystem& subsystem) {
+  return std::ranges::any_of(subsystem.behaviours,
                              [](const auto& behaviour) { return behaviour.takes.count() > 0; });
 }
 
@@ -110,25 +111,28 @@ File subsystem_source(const Project& project, const Unit& unit, const NetVariant
   std::set<std::string> headers{"<cstdint>", "<memory>", "<tessera/tables.hpp>"};
   const std::string body = subsystem_class(project, unit, conditions);
   if (body.find("numeric_limits") != std::string::npos) headers.insert("<limits>");
-  const bool times = needs_literals(*unit.subsystem, conditions);
-  if (times) headers.insert("<chrono>");
-  const std::string space = unit_namespace(project.model, unit);
-  return {source_name(unit), fmt::format(R"({}{}{}namespace {} {{
+  const bool times = needs_literals(*unit.subsystem);
+  if (times || !conditions.declaration().empty()) headers.insert("<chrono>");
+  const std::string space = generated_namespace(unit);
+  return {source_name(unit), fmt::format(R"({0}{1}{2}{3}namespace {4} {{
 namespace {{
 
-{}{}
-{}
+namespace yours = ::{5};
+{6}
+{7}
+{8}
 }}  // namespace
 
-{}std::unique_ptr<tessera::Subsystem> Part::make() {{ return std::make_unique<Subsystem>(); }}
-{}
-}}  // namespace {}
-)",
+{9}std::unique_ptr<tessera::Subsystem> Part::make() {{ return std::make_unique<Subsystem>(); }}
+
+}}  // namespace {4}
+{10})",
                                          project.banner(), include_block(headers),
                                          include_block({quoted("subsystems.hpp"), quoted(unit_header(unit))}),
-                                         space, times ? "using namespace std::chrono_literals;\n\n" : "",
-                                         body, net_tables(project, unit, variants), net_definitions(variants),
-                                         conditions.definitions(), space)};
+                                         conditions.declaration(), space, unit_namespace(project.model, unit),
+                                         times ? "using namespace std::chrono_literals;\n" : "", body,
+                                         net_tables(project, unit, variants), net_definitions(variants),
+                                         conditions.definitions())};
 }
 
 }  // namespace tessera::codegen

@@ -41,7 +41,7 @@ std::string policies(const spec::Subsystem& subsystem) {
 std::string instance_row(const Project& project, const Unit& unit, spec::Index instance,
                          std::uint32_t variant) {
   const spec::Subsystem& subsystem = *unit.subsystem;
-  const std::string part = fmt::format("{}::{}::Part", unit.definition->name, subsystem.name);
+  const std::string part = fmt::format("units::{}::{}::Part", unit.definition->name, subsystem.name);
   const std::string last = policies(subsystem);
   std::string times;
   if (subsystem.period || subsystem.stale || !last.empty())
@@ -132,13 +132,33 @@ std::vector<std::pair<std::string, const spec::Driver*>> cpp_drivers(const spec:
   return drivers;
 }
 
+/// How the generated code names a driver's class: by its place among the drivers.
+std::string alias_of(std::size_t driver) { return fmt::format("tessera_driver_{}", driver + 1); }
+
+/// The classes of the drivers as the specification names them: in the namespace of the system.
+std::string driver_classes(const spec::Model& model) {
+  std::string aliases;
+  for (std::size_t at = 0; const auto& [path, driver] : cpp_drivers(model))
+    aliases += fmt::format("using {} = {};  // {}\n", alias_of(at++), driver->target, path);
+  if (aliases.empty()) return aliases;
+  return fmt::format(R"(// The classes of the drivers, by the names that the specification gives them.
+namespace {0} {{
+namespace {{
+{1}}}  // namespace
+}}  // namespace {0}
+
+)",
+                     model.system, aliases);
+}
+
 std::string driver_rows(const spec::Model& model) {
   std::string rows;
-  for (const auto& [path, driver] : cpp_drivers(model)) {
+  for (std::size_t at = 0; const auto& [path, driver] : cpp_drivers(model)) {
     const bool reads = model.subsystem(driver->instance).kind == spec::SubsystemKind::receptor;
-    rows += fmt::format("    {{\"{}\", {}}},\n", path,
-                        reads ? fmt::format("device<tessera::RealReceptor, {}>, nullptr", driver->target)
-                              : fmt::format("nullptr, device<tessera::RealEffector, {}>", driver->target));
+    const std::string maker =
+        fmt::format("device<tessera::{}, ::{}::{}>", reads ? "RealReceptor" : "RealEffector", model.system,
+                    alias_of(at++));
+    rows += fmt::format("    {{\"{}\", {}}},\n", path, reads ? maker + ", nullptr" : "nullptr, " + maker);
   }
   return rows;
 }
@@ -150,6 +170,14 @@ std::unique_ptr<Base> device() {
 }
 )";
 
+/// What stands in the namespace of the system.
+std::set<std::string> names_in_system(const spec::Model& model) {
+  std::set<std::string> names;
+  for (const spec::Structure& structure : model.structures) names.insert(structure.name);
+  for (const spec::Definition& definition : model.definitions) names.insert(definition.name);
+  return names;
+}
+
 }  // namespace
 
 File subsystems_header(const Project& project) {
@@ -158,7 +186,7 @@ File subsystems_header(const Project& project) {
     std::string nets;
     for (std::size_t variant = 0; variant < project.nets[at].nets.size(); ++variant)
       nets += fmt::format("  static const tessera::SubsystemNet net{};\n", variant_suffix(variant));
-    const std::string space = unit_namespace(project.model, project.units[at]);
+    const std::string space = generated_namespace(project.units[at]);
     parts += fmt::format(R"(
 namespace {0} {{
 struct Part {{
@@ -180,18 +208,23 @@ struct Part {{
 
 File system_header(const Project& project) {
   const std::string& system = project.model.system;
+  const std::string shorter =
+      names_in_system(project.model).contains("system")
+          ? ""
+          : fmt::format("\nnamespace {0} {{\nusing tessera_generated::system;\n}}  // namespace {0}\n",
+                        system);
   return {"system.hpp", fmt::format(R"({0}#pragma once
 
 #include <tessera/tables.hpp>
 
-namespace {1} {{
+namespace tessera_generated {{
 
 /// The whole controller, for tessera::execute and tests.
 [[nodiscard]] const tessera::System& system();
 
-}}  // namespace {1}
-)",
-                                    project.banner(), system)};
+}}  // namespace tessera_generated
+{1})",
+                                    project.banner(), shorter)};
 }
 
 File system_source(const Project& project, const std::vector<ChannelPorts>& ports) {
@@ -200,7 +233,9 @@ File system_source(const Project& project, const std::vector<ChannelPorts>& port
   const std::string drivers = driver_rows(model);
   std::set<std::string> project_headers{quoted("subsystems.hpp")};
   if (!drivers.empty()) project_headers.insert(quoted("drivers.hpp"));
-  return {"system.cpp", fmt::format(R"({0}#include "system.hpp"
+  return {
+      "system.cpp",
+      fmt::format(R"({0}#include "system.hpp"
 
 #include <chrono>
 #include <memory>
@@ -208,7 +243,7 @@ File system_source(const Project& project, const std::vector<ChannelPorts>& port
 
 {1}static_assert(tessera::tables_version == {2}, "made for another version of Tessera: generate it again");
 
-namespace {3} {{
+{12}namespace tessera_generated {{
 namespace {{
 
 using namespace std::chrono_literals;
@@ -228,15 +263,14 @@ constexpr tessera::System whole{{
 
 const tessera::System& system() {{ return whole; }}
 
-}}  // namespace {3}
+}}  // namespace tessera_generated
 )",
-                                    project.banner(), include_block(project_headers), tables_version_made,
-                                    model.system, drivers.empty() ? "" : device_maker,
-                                    table("Instance", "instances", instance_rows(project)),
-                                    table("Channel", "channels", channel_rows(model, ports)),
-                                    table("CppDriver", "drivers", drivers),
-                                    table("VerifiedProperty", "verdicts", verdict_rows(report)),
-                                    report.net_hash, report.verification_hash, models_table(model))};
+                  project.banner(), include_block(project_headers), tables_version_made, model.system,
+                  drivers.empty() ? "" : device_maker, table("Instance", "instances", instance_rows(project)),
+                  table("Channel", "channels", channel_rows(model, ports)),
+                  table("CppDriver", "drivers", drivers),
+                  table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
+                  report.verification_hash, models_table(model), driver_classes(model))};
 }
 
 File main_source(const Project& project) {
@@ -244,9 +278,11 @@ File main_source(const Project& project) {
 
 #include "system.hpp"
 
-int main(int argc, char** argv) {{ return tessera::controller_main({}::system(), argc, argv); }}
+int main(int argc, char** argv) {{
+  return tessera::controller_main(tessera_generated::system(), argc, argv);
+}}
 )",
-                                  project.banner(), project.model.system)};
+                                  project.banner())};
 }
 
 }  // namespace tessera::codegen

@@ -7,7 +7,7 @@ namespace tessera::codegen {
 namespace {
 
 /// The runtime looks through the fields: for numbers that are not finite, and to record them one by one.
-std::string fields_of(const spec::Structure& structure_) {
+std::string fields_macro(const spec::Structure& structure_) {
   std::string text = "  TESSERA_FIELDS(" + structure_.name;
   for (const spec::Field& field : structure_.fields) text += ", " + field.name;
   return text + ")\n";
@@ -21,7 +21,7 @@ std::string definition(const Project& project, const spec::Structure& structure_
     fields.push_back({fmt::format("{} {}{{}};", type_name(project.model, field.type, hidden), field.name),
                       comment_text(field.type.unit)});
   std::string tail = fmt::format("\n  bool operator==(const {}&) const = default;\n", structure_.name);
-  tail += fields_of(structure_);
+  tail += fields_macro(structure_);
   return fmt::format("\n/// {}\n{}", project.at(structure_.span), structure(structure_.name, fields, tail));
 }
 

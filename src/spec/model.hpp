@@ -261,6 +261,7 @@ struct Driver {
 
 struct Track {
   std::string image;
+  Span image_span;
   double metres_per_pixel = 0.005;
   std::optional<double> start_x_m, start_y_m, start_heading_rad;
   double footprint_m = 0.008;
@@ -268,6 +269,7 @@ struct Track {
 
 struct Simulation {
   std::string world;
+  Span world_span;
   std::optional<Track> track;
   std::vector<Driver> drivers;
   Span span;

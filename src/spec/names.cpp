@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/words_of_cpp.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -27,10 +28,9 @@ constexpr std::array keywords = std::to_array<std::string_view>(
      "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
      "xor_eq"});
 
-/// Namespaces, functions and macros that generated code cannot do without.
-constexpr std::array taken =
-    std::to_array<std::string_view>({"std", "tessera", "main", "NULL", "EOF", "NAN", "INFINITY", "errno",
-                                     "assert", "stdin", "stdout", "stderr"});
+/// What generated code and every transition function cannot do without.
+constexpr std::array taken = std::to_array<std::string_view>({"std", "tessera", "main"});
+constexpr std::array our_prefixes = std::to_array<std::string_view>({"tessera_", "TESSERA_"});
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -54,6 +54,8 @@ std::string repaired(std::string_view name) {
   while (result.ends_with('_')) result.pop_back();
   return is_identifier(result) && result.size() <= longest_name ? result : std::string();
 }
+
+std::string with_number(std::string_view name) { return "for example '" + std::string(name) + "_1'"; }
 
 std::string write_it(std::string_view name) {
   const std::string better = repaired(name);
@@ -81,13 +83,25 @@ bool check_name(std::string_view name, diagnostics::Span span, std::string_view 
     out.error("E105", span, subject + ": leading and double underscores belong to the compiler",
               write_it(name));
   } else if (contains(keywords, name)) {
-    out.error("E106", span, subject + " is a keyword of C++", "for example '" + std::string(name) + "_1'");
+    out.error("E106", span, subject + " is a keyword of C++", with_number(name));
   } else if (contains(taken, name)) {
-    out.error("E106", span, subject + " is taken by the generated code",
-              "for example '" + std::string(name) + "_1'");
+    out.error("E106", span, subject + " is taken by the generated code", with_number(name));
+  } else if (std::ranges::any_of(our_prefixes, [&](auto prefix) { return name.starts_with(prefix); })) {
+    out.error("E106", span, subject + ": names that begin with 'tessera_' belong to the generated code",
+              "choose another beginning");
+  } else if (is_macro(name)) {
+    out.error("E106", span, subject + " is a macro of the C or C++ library", with_number(name));
   } else {
     return true;
   }
+  return false;
+}
+
+bool check_system_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out) {
+  if (!check_name(name, span, "system", out)) return false;
+  if (!is_global_name(name)) return true;
+  out.error("E106", span, "system name " + diagnostics::quoted(name) + " is taken by the C or C++ library",
+            with_number(name));
   return false;
 }
 

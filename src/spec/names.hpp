@@ -9,9 +9,13 @@ namespace tessera::spec {
 /// Whether `name` may name a thing in a specification. Names become names of C++.
 ///
 /// what: the thing, e.g. "buffer".
-/// Errors: E105 no C++ identifier, too long, leading or double underscore; E106 a word of C++.
+/// Errors: E105 no C++ identifier, too long, leading or double underscore; E106 a keyword of C++, a macro of
+/// its library, or a name of the generated code.
 bool check_name(std::string_view name, diagnostics::Span span, std::string_view what,
                 diagnostics::Diagnostics& out);
+
+/// The same for the name of the system, which becomes a namespace beside the functions of the C library.
+bool check_system_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out);
 
 /// A letter or underscore, then letters, digits and underscores.
 [[nodiscard]] bool is_identifier(std::string_view text);

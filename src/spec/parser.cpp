@@ -33,7 +33,7 @@ std::string read_system(const Section& file, Diagnostics& out) {
   if (system == nullptr) return {};
   const Node* text = text_of(*system->value, system->span, "the name of the system", out);
   if (text == nullptr) return {};
-  check_name(text->text, text->span, "system", out);
+  check_system_name(text->text, text->span, out);
   return text->text;
 }
 

@@ -7,10 +7,13 @@
 namespace tessera::spec {
 namespace {
 
-std::string read_file_name(const Entry* entry, std::string_view what, Diagnostics& out) {
+/// at: gets where the name stands.
+std::string read_file_name(const Entry* entry, std::string_view what, Span& at, Diagnostics& out) {
   if (entry == nullptr) return {};
   const Node* text = text_of(*entry->value, entry->span, what, out, "name a file");
-  return text == nullptr ? std::string() : text->text;
+  if (text == nullptr) return {};
+  at = text->span;
+  return text->text;
 }
 
 std::optional<double> positive(std::optional<double> value, const Entry& entry, std::string_view what,
@@ -37,7 +40,8 @@ Track read_track(const Entry& entry, Diagnostics& out) {
   const Section section(*entry.value, entry.span, "a track",
                         {"image", "metres_per_pixel", "start", "footprint"}, out);
   Track track;
-  track.image = read_file_name(section.require("image", "for example image: oval.png"), "the image", out);
+  track.image = read_file_name(section.require("image", "for example image: oval.png"), "the image",
+                               track.image_span, out);
   if (const Entry* scale = section.find("metres_per_pixel")) {
     const auto value = read_number(*scale->value, scale->span, "metres_per_pixel", out);
     track.metres_per_pixel =
@@ -59,8 +63,8 @@ std::optional<Simulation> read_simulation(const Entry* entry, const Model& model
   const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "drivers"}, out);
   Simulation simulation;
   simulation.span = entry->span;
-  simulation.world =
-      read_file_name(section.require("world", "for example world: line_world.xml"), "the world", out);
+  simulation.world = read_file_name(section.require("world", "for example world: line_world.xml"),
+                                    "the world", simulation.world_span, out);
   if (const Entry* track = section.find("track")) simulation.track = read_track(*track, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
   return simulation;

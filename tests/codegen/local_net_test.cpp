@@ -33,7 +33,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(LocalNet, AgentsOfARingShareOneNet) {
   const Generated generated = generate(fleet(7, true));
   EXPECT_EQ(count(generated["walker.control.cpp"], "tessera::SubsystemNet Part::net"), 1U);
-  EXPECT_EQ(count(generated["system.cpp"], "&walker::control::Part::net, "), 7U);
+  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::Part::net, "), 7U);
 }
 
 TEST(LocalNet, TheEndsOfARowDiffer) {
@@ -43,7 +43,7 @@ TEST(LocalNet, TheEndsOfARowDiffer) {
   EXPECT_THAT(source, HasSubstr("// The net of robot[0].control.\n"));
   EXPECT_THAT(source, HasSubstr("// The net of robot[1].control and 4 more.\n"));
   EXPECT_THAT(source, HasSubstr("// The net of robot[6].control.\n"));
-  EXPECT_EQ(count(generated["system.cpp"], "&walker::control::Part::net_2, "), 5U);
+  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::Part::net_2, "), 5U);
 }
 
 TEST(LocalNet, AnInputAndAnOutputOfOneNameAreDifferentPorts) {

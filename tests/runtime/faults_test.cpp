@@ -357,13 +357,13 @@ TEST(FaultClasses, OfTheLineFollowerAreRecordedAndEndInTheSafeCommand) {
 struct Inner {
   float ratio;
   int count;
-  friend auto fields_of(const Inner&) { return std::tuple(&Inner::ratio, &Inner::count); }
+  friend auto tessera_fields_of(const Inner&) { return std::tuple(&Inner::ratio, &Inner::count); }
 };
 struct Outer {
   std::array<Inner, 2> inner;
   BoundedString<4> name;
   bool flag;
-  friend auto fields_of(const Outer&) { return std::tuple(&Outer::inner, &Outer::name, &Outer::flag); }
+  friend auto tessera_fields_of(const Outer&) { return std::tuple(&Outer::inner, &Outer::name, &Outer::flag); }
 };
 
 TEST(Finite, LooksIntoStructuresAndArrays) {

@@ -51,6 +51,8 @@ struct RunOptions {
   /// `duration` begins. Simulated clock only.
   std::string scenario;
   std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
+  /// A subsystem that is stuck for good when the run ends is a warning, no failure.
+  bool accept_stuck = false;
   bool progress = false;            ///< a line on standard error that is rewritten
 };
 
@@ -59,7 +61,9 @@ struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
   double wall_s = 0;
   std::uint64_t firings = 0;
-  std::string ended;    ///< "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT"
+  /// "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT". Followed by "; stuck for good:
+  /// ..." where subsystems can never fire again while others can, which is a failure.
+  std::string ended;
   bool failed = false;  ///< a fault ended it, or a device has not taken its safe command
   int signal = 0;       ///< that ended it; 0: none did
   /// Of a world that was slower than real time: how far it has come while `simulated` passed.

@@ -29,7 +29,7 @@ template <class T>
   } else if constexpr (WithFields<T>) {
     return []<class... Members>(std::type_identity<std::tuple<Members T::*...>>) {
       return (has_floats<Members>() || ...);
-    }(std::type_identity<decltype(fields_of(std::declval<const T&>()))>{});
+    }(std::type_identity<decltype(tessera_fields_of(std::declval<const T&>()))>{});
   } else {
     return false;
   }
@@ -45,7 +45,7 @@ template <class T>
   } else if constexpr (Sequence<T>) {
     return std::all_of(value.begin(), value.end(), [](const auto& element) { return all_finite(element); });
   } else {
-    return std::apply([&](auto... member) { return (all_finite(value.*member) && ...); }, fields_of(value));
+    return std::apply([&](auto... member) { return (all_finite(value.*member) && ...); }, tessera_fields_of(value));
   }
 }
 
@@ -59,7 +59,7 @@ void fill_floats(T& value, double number) {
   } else if constexpr (Sequence<T>) {
     for (auto& element : value) fill_floats(element, number);
   } else {
-    std::apply([&](auto... member) { (fill_floats(value.*member, number), ...); }, fields_of(value));
+    std::apply([&](auto... member) { (fill_floats(value.*member, number), ...); }, tessera_fields_of(value));
   }
 }
 

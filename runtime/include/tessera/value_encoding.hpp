@@ -28,12 +28,12 @@ concept Sequence = requires(T& value) {
   value.begin();
   value.end();
 };
-/// A structure that says what it is made of: a function `fields_of(const T&)` beside it gives a std::tuple of
-/// pointers to members (tessera/fields.hpp makes one). Their names are numbers unless `field_names_of(const
+/// A structure that says what it is made of: a function `tessera_fields_of(const T&)` beside it gives a std::tuple of
+/// pointers to members (tessera/fields.hpp makes one). Their names are numbers unless `tessera_field_names_of(const
 /// T&)` says otherwise.
 template <class T>
 concept WithFields = std::is_class_v<T> && requires(T& value) {
-  fields_of(value);
+  tessera_fields_of(value);
 };
 /// BoundedString and what is like it.
 template <class T>
@@ -109,7 +109,7 @@ template <class T, class Visit>
 constexpr auto with_field_types(Visit visit) {
   return [&]<class... Members>(std::type_identity<std::tuple<Members T::*...>>) {
     return visit(std::type_identity<Members>{}...);
-  }(std::type_identity<decltype(fields_of(std::declval<const T&>()))>{});
+  }(std::type_identity<decltype(tessera_fields_of(std::declval<const T&>()))>{});
 }
 
 template <class T>
@@ -154,7 +154,7 @@ template <class T>
     return type_text<Element<T>>() + "[" + std::to_string(extent<T>()) + "]";
   } else if constexpr (WithFields<T>) {
     std::string_view names;
-    if constexpr (requires(const T& value) { field_names_of(value); }) names = field_names_of(T{});
+    if constexpr (requires(const T& value) { tessera_field_names_of(value); }) names = tessera_field_names_of(T{});
     std::string text;
     std::size_t number = 0;
     const auto add = [&](const std::string& type) {
@@ -183,7 +183,7 @@ void put(const T& value, ValueSink& to) {
     else
       for (const auto& element : value) put(element, to);
   } else if constexpr (WithFields<T>) {
-    std::apply([&](auto... member) { (put(value.*member, to), ...); }, fields_of(value));
+    std::apply([&](auto... member) { (put(value.*member, to), ...); }, tessera_fields_of(value));
   } else {
     to.put(&value, sizeof value);
   }
@@ -204,7 +204,7 @@ void take(T& value, ValueSource& from) {
     else
       for (auto& element : value) take(element, from);
   } else if constexpr (WithFields<T>) {
-    std::apply([&](auto... member) { (take(value.*member, from), ...); }, fields_of(value));
+    std::apply([&](auto... member) { (take(value.*member, from), ...); }, tessera_fields_of(value));
   } else {
     from.take(&value, sizeof value);
   }

@@ -5,6 +5,7 @@
 
 #include "drivers.hpp"
 #include "system.hpp"
+#include "walks.hpp"
 
 namespace features {
 namespace {
@@ -49,6 +50,17 @@ TEST(System, EndsWithTheSafeCommands) {
   EXPECT_EQ(devices::Grip::commands.back(), 0.1F) << "the safe command of the specification";
   EXPECT_EQ(devices::PoseSink::commands.back(), Pose{})
       << "zero, where the specification gives no safe command";
+}
+
+// `rest` ends by memory.count, which stands behind a cell of type Part: conditions and functions have to agree
+// on where that is.
+TEST(System, ConditionsSeeTheMemoryThatFunctionsWrite) {
+  tessera::RunOptions options;
+  options.duration = 1s;
+  std::string error;
+  walks_after_a_rest = 0;
+  ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
+  EXPECT_GT(walks_after_a_rest, 10);
 }
 
 TEST(System, RefusesTablesOfAnotherNet) {

@@ -1,0 +1,130 @@
+#include "cli/early_checks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
+#include "project/walk.hpp"
+#include "runtime/src/command_line.hpp"
+#include "runtime/src/parameters.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+/// The specification without a word about it: whoever builds says what there is to say.
+std::optional<Specification> read_quietly(const std::filesystem::path& given) {
+  const std::filesystem::path file = spec_file(given);
+  diagnostics::Diagnostics found = diagnostics::load(file);
+  std::optional<spec::Model> model;
+  if (!found.has_errors()) model = spec::parse(found);
+  if (!model) return std::nullopt;
+  const std::filesystem::path absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  return Specification{absolute, absolute.parent_path(), std::move(found), std::move(*model)};
+}
+
+/// The parameters of a model where the controller's code would read them, for values to be tried.
+class Parameters {
+ public:
+  explicit Parameters(const spec::Model& model) {
+    std::size_t largest = 0;
+    for (const spec::Instance& instance : model.instances) {
+      const spec::Subsystem& subsystem =
+          model.definitions[model.agents[instance.agent].definition].subsystems[instance.subsystem];
+      for (const auto* parameters : {&model.parameters, &subsystem.parameters})
+        for (const spec::Parameter& parameter : *parameters)
+          largest = std::max(largest, bytes_of(parameter.type));
+    }
+    storage_.resize(largest);
+    for (spec::Index index = 0; index < model.instances.size(); ++index) {
+      std::vector<Bindings::Parameter>& own = of_instance_.emplace_back();
+      for (const auto* parameters : {&model.parameters, &model.subsystem(index).parameters})
+        for (const spec::Parameter& parameter : *parameters) own.push_back(bound(parameter));
+    }
+    for (spec::Index index = 0; index < model.instances.size(); ++index)
+      owners_.push_back({model.instance_path(index), of_instance_[index]});
+  }
+
+  [[nodiscard]] bool take(const std::vector<std::pair<std::string, std::string>>& values,
+                          std::string& error) {
+    return set_parameters(owners_, values, error);
+  }
+
+ private:
+  [[nodiscard]] static std::size_t bytes_of(const spec::Type& type) {
+    return type.kind == spec::Type::Kind::string ? std::size_t{type.capacity} + sizeof(std::uint32_t)
+                                                 : sizeof(double);
+  }
+
+  /// All share their place: what is there is not looked at.
+  [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool text = parameter.type.kind == spec::Type::Kind::string;
+    const ValueKind kind = text ? ValueKind::string : static_cast<ValueKind>(parameter.type.scalar);
+    return {parameter.name,
+            kind,
+            storage_.data(),
+            bytes_of(parameter.type),
+            parameter.minimum.value_or(-infinity),
+            parameter.maximum.value_or(infinity),
+            text ? parameter.type.capacity : 0};
+  }
+
+  std::vector<std::byte> storage_;
+  std::vector<std::vector<Bindings::Parameter>> of_instance_;
+  std::vector<ParameterOwner> owners_;
+};
+static_assert(static_cast<int>(spec::Scalar::boolean) == static_cast<int>(ValueKind::boolean) &&
+              static_cast<int>(spec::Scalar::uint64) == static_cast<int>(ValueKind::uint64) &&
+              static_cast<int>(spec::Scalar::float64) == static_cast<int>(ValueKind::float64));
+
+bool parameters_fit(const Specification& specification, const LaunchOptions& options) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const std::string& assignment : parameter_values(specification, options)) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return complain(fmt::format("--set {}: expected PATH=VALUE", assignment)), false;
+    values.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  std::string error;
+  if (Parameters(specification.model).take(values, error)) return true;
+  return complain(error), false;
+}
+
+bool times_are_times(const LaunchOptions& options) {
+  if (!options.duration.empty() && !parse_duration(options.duration))
+    return complain(fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", options.duration)),
+           false;
+  if (!options.record_limit.empty() && !parse_record_limit(options.record_limit))
+    return complain(fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5",
+                                options.record_limit)),
+           false;
+  return true;
+}
+
+}  // namespace
+
+bool can_run(const LaunchOptions& options, bool with_world) {
+  if (!times_are_times(options)) return false;
+  const std::optional<Specification> specification = read_quietly(options.spec);
+  if (!specification) return true;
+  if (!parameters_fit(*specification, options)) return false;
+  if (!with_world || !specification->model.simulation) return true;
+  if (!files_are_there(*specification, terminal())) return false;
+  static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
+  return true;
+}
+
+}  // namespace tessera::cli

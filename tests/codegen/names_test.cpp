@@ -1,0 +1,257 @@
+#include "spec/names.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+#include "generated.hpp"
+#include "spec/parser.hpp"
+
+/// Every identifier that generated files contain, and words that libraries take, may be a name of the user's,
+/// or `check` refuses it.
+namespace tessera::test {
+namespace {
+
+using Words = std::set<std::string>;
+
+/// Text without comments, literals and lines of the preprocessor.
+std::string code_of(const std::string& text) {
+  std::string code;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool line_begins = at == 0 || text[at - 1] == '\n';
+    if (text.compare(at, 2, "//") == 0 || (line_begins && text[at] == '#')) {
+      at = std::min(text.find('\n', at), text.size());
+    } else if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"'; ++at)
+        if (text[at] == '\\') ++at;
+    } else {
+      code += text[at];
+      continue;
+    }
+    code += '\n';
+  }
+  return code;
+}
+
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+void add_words(const std::string& code, Words& words) {
+  for (std::size_t at = 0; at < code.size();) {
+    std::size_t end = at;
+    while (end < code.size() && in_word(code[end])) ++end;
+    if (end > at && std::isdigit(static_cast<unsigned char>(code[at])) == 0)
+      words.insert(code.substr(at, end - at));
+    at = std::max(end, at + 1);
+  }
+}
+
+/// What generated files say, and what C, C++ and their libraries do.
+const Words& words() {
+  static const Words all = [] {
+    Words words{"main",    "errno",   "while",     "NULL",   "EOF",       "assert", "INT_MAX", "linux",
+                "unix",    "time",    "read",      "write",  "log",       "index",  "exit",    "abs",
+                "signal",  "remove",  "import",    "final",  "module",    "system", "types",   "all",
+                "test",    "tests",   "functions", "T",      "Type",      "Status", "Buffer",  "string",
+                "payload", "y0",      "gamma",     "printf", "value",     "it",     "sin",     "stdin",
+                "fmt",     "testing", "Part",      "robot",  "controller"};
+    for (const auto& spec : {features_spec, line_follower_spec})
+      for (const codegen::File& file : generate_file(spec).files)
+        if (file.path.ends_with("pp")) add_words(code_of(file.text), words);
+    return words;
+  }();
+  return all;
+}
+
+/// What a word can name in a specification.
+enum class Role : std::uint8_t {
+  type,
+  field,
+  agent,
+  subsystem,
+  buffer,
+  memory,
+  parameter,
+  behaviour,
+  condition,
+  model
+};
+constexpr std::array roles{Role::type,   Role::field,     Role::agent,     Role::subsystem, Role::buffer,
+                           Role::memory, Role::parameter, Role::behaviour, Role::condition, Role::model};
+
+/// A specification in which `words` name things of one role, as many as there are.
+std::string specification(Role role, const Words& words) {
+  const auto each = [&](const std::function<std::string(const std::string&)>& text) {
+    std::string out;
+    for (const std::string& word : words) out += text("'" + word + "'");
+    return out;
+  };
+  const std::string head = "tessera: 1\nsystem: zsystem\n";
+  const std::string control = "control: { rate: 9 Hz, behaviours: { zrun: {} } }";
+  const std::string alone = "agents: { zagent: { " + control + " } }\n";
+  const auto with_control = [&](const std::string& rest) {
+    return head + "agents:\n  zagent:\n    control:\n      rate: 9 Hz\n" + rest;
+  };
+  switch (role) {
+    case Role::type:
+      return head + "types:\n" + each([](auto& word) { return "  " + word + ": { zvalue: float64 }\n"; }) +
+             "agents:\n  zagent:\n    control:\n      rate: 9 Hz\n      behaviours: { zrun: {} }\n" +
+             "      outputs:\n" + each([](auto& word) { return "        " + word + ": " + word + "\n"; }) +
+             "      memory:\n" + each([](auto& word) { return "        " + word + ": " + word + "\n"; }) +
+             "    effectors:\n      zeffector:\n        rate: 9 Hz\n        behaviours: { zrun: {} }\n" +
+             "        inputs:\n" + each([](auto& word) { return "          " + word + ": " + word + "\n"; }) +
+             "        real:\n" + each([](auto& word) {
+               return "          z" + word.substr(1, word.size() - 2) + ": " + word + "\n";
+             }) +
+             "channels:\n" + each([](auto& quoted) {
+               const std::string word = quoted.substr(1, quoted.size() - 2);
+               return "  - zagent.control." + word + " -> zagent.zeffector." + word + "\n";
+             });
+    case Role::field:
+      return head + "types:\n  Zmany:\n" + each([](auto& word) { return "    " + word + ": int8\n"; }) +
+             "agents: { zagent: { control: { rate: 9 Hz, memory: { zmany: Zmany }, behaviours: { zrun: {} } "
+             "} } }\n";
+    case Role::agent:
+      return head + "agents:\n" + each([&](auto& word) { return "  " + word + ": { " + control + " }\n"; });
+    case Role::subsystem:
+      return head + "agents:\n  zagent:\n    " + control + "\n    receptors:\n" + each([](auto& word) {
+               return "      " + word + ": { rate: 9 Hz, behaviours: { zrun: {} } }\n";
+             });
+    case Role::buffer:
+      return head + "agents:\n  zagent:\n    " + control +
+             "\n    receptors:\n      zreceptor:\n        rate: 9 Hz\n        behaviours: { zrun: {} }\n" +
+             "        real:\n" + each([](auto& word) { return "          " + word + ": float64\n"; }) +
+             "    effectors:\n      zeffector:\n        rate: 9 Hz\n        behaviours: { zrun: {} }\n" +
+             "        real:\n" + each([](auto& word) { return "          " + word + ": bool\n"; });
+    case Role::memory:
+      return with_control("      behaviours: { zrun: {} }\n      memory:\n" + each([](auto& word) {
+                            return "        " + word + ": { type: float64, initial: 1 }\n";
+                          }));
+    case Role::parameter:
+      return head + "parameters:\n" +
+             each([](auto& word) { return "  " + word + ": { type: float64, default: 1, min: 0 }\n"; }) +
+             alone;
+    case Role::behaviour:
+      return with_control("      memory: { zcount: int8 }\n      behaviours:\n" + each([](auto& word) {
+                            return "        " + word + ": { terminal: memory.zcount > 3, next: [" + word +
+                                   "] }\n";
+                          }));
+    case Role::condition:
+      return with_control(
+          "      memory: { zcount: int8 }\n      behaviours:\n        zrun:\n          next: zrun\n" +
+          std::string("          terminal:\n") +
+          each([](auto& word) { return "            " + word + ": memory.zcount > 3\n"; }));
+    case Role::model:
+      return head + "models:\n" + each([](auto& word) {
+               return "  " + word +
+                      ":\n    shared: { zslot: 1 }\n    send: { places: [zw], transitions: { za: { from: "
+                      "[in, zslot], to: "
+                      "[zw, zslot] }, zb: { from: [zw], to: [out] } }, writes: zw }\n"
+                      "    receive: { places: [zr], transitions: { za: { from: [in], to: [zr] }, zb: { from: "
+                      "[zr], to: "
+                      "[out] } }, reads: zr }\n";
+             }) +
+             alone;
+  }
+  return {};
+}
+
+/// One word is everything at once.
+std::string everything(const std::string& word) {
+  std::string text = R"(tessera: 1
+system: @
+types: { Z@: { @: float64 } }
+parameters: { @: 1.5 }
+agents:
+  @:
+    control:
+      rate: 9 Hz
+      outputs: { @: Z@ }
+      memory: { @: Z@ }
+      behaviours: { @: { terminal: { @: "memory.@.@ > parameters.@" }, next: ['@'] } }
+    effectors:
+      @: { rate: 9 Hz, inputs: { @: Z@ }, real: { z@: Z@ }, memory: { @: Z@ }, behaviours: { @: {} } }
+channels: [ @.control.@ -> @.@.@ ]
+)";
+  for (std::size_t at = 0; (at = text.find('@', at)) != std::string::npos;) text.replace(at, 1, word);
+  return text;
+}
+
+/// Whether `check` accepts it; what it refuses a name for has one of the codes of names.
+bool accepted(const std::string& text, const std::string& word) {
+  diagnostics::Diagnostics out("spec.yaml", text);
+  if (spec::parse(out)) return true;
+  bool about_names = false;
+  for (const diagnostics::Diagnostic& one : out.sorted())
+    about_names = about_names || one.code == "E105" || one.code == "E106" || one.code == "E107";
+  EXPECT_TRUE(about_names) << word << '\n' << diagnostics::render(out) << text;
+  return false;
+}
+
+/// Generated controllers of many systems, compiled as one.
+class Batch {
+ public:
+  void add(const std::string& text) {
+    const std::string number = std::to_string(systems_++);
+    const Generated generated = generate(text, "spec.yaml");
+    for (codegen::File file : generated.files) {
+      if (!file.path.ends_with("pp")) continue;
+      // Several controllers cannot be in one program otherwise.
+      for (const char* name : {"tessera_generated", "int main"})
+        for (std::size_t at = 0; (at = file.text.find(name, at)) != std::string::npos;)
+          file.text.insert(at += std::string_view(name).size(), number);
+      folder_.write("s" + number + "/" + file.path, file.text);
+      if (file.path.ends_with(".cpp")) all_ += "#include \"s" + number + "/" + file.path + "\"\n";
+    }
+  }
+  [[nodiscard]] Ran compile() const {
+    folder_.write("all.cpp", all_);
+    return run(
+        "cd " + folder_.path().string() +
+        " && LC_ALL=C " TESSERA_CXX
+        " -std=c++20 -fsyntax-only -fmax-errors=5 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror "
+        "-I" TESSERA_RUNTIME_HEADERS " all.cpp");
+  }
+  [[nodiscard]] std::size_t systems() const { return systems_; }
+
+ private:
+  Folder folder_;
+  std::string all_;
+  std::size_t systems_ = 0;
+};
+
+TEST(Names, WhatWeEmitMayBeANameOfTheUserOrIsRefused) {
+  Batch batch;
+  for (const Role role : roles) {
+    Words good;
+    for (const std::string& word : words())
+      if (accepted(specification(role, {word}), word)) good.insert(word);
+    EXPECT_GT(good.size(), words().size() / 2) << "role " << static_cast<int>(role);
+    batch.add(specification(role, good));
+  }
+  const Ran ran = batch.compile();
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+}
+
+/// TESSERA_ALL_NAMES=1: all words, in place of each eighth.
+TEST(Names, OneWordMayBeEverythingAtOnceOrIsRefused) {
+  const bool all = std::getenv("TESSERA_ALL_NAMES") != nullptr;
+  Batch batch;
+  for (std::size_t at = 0; const std::string& word : words()) {
+    if (!all && at++ % 8 != 0) continue;
+    if (accepted(everything(word), word)) batch.add(everything(word));
+  }
+  EXPECT_GT(batch.systems(), 10U);
+  const Ran ran = batch.compile();
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+}
+
+}  // namespace
+}  // namespace tessera::test

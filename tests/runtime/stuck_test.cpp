@@ -1,0 +1,283 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <deque>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "blocks.hpp"
+#include "flat_net.hpp"
+#include "nets.hpp"
+#include "schedules.hpp"
+#include "tessera/recording.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+constexpr Behaviour run_only[] = {{"run"}};
+constexpr Behaviour first_second[] = {{"first"}, {"second"}};
+constexpr Port sends_x[] = {{"x", Side::send, "x"}};
+constexpr Port relays[] = {{"x", Side::receive, "x"}, {"y", Side::send, "y"}};
+
+// Sends x in `first`, and nothing more in `second`, from which there is no way back.
+constexpr Place leaver_places[] = {
+    {"in"}, {"out"}, BEHAVIOUR_PLACES("first"), BEHAVIOUR_PLACES("second"), SEND_PLACES("first", "x")};
+const Transition leaver_transitions[] = {ENTER("first"),
+                                         BEHAVIOUR_TRANSITIONS("first"),
+                                         NB_SEND("first", "x", "first.snd.in", "first.snd.out"),
+                                         NO_RECEIVE("first"),
+                                         BEHAVIOUR_TRANSITIONS("second"),
+                                         NO_SEND("second"),
+                                         NO_RECEIVE("second"),
+                                         NEXT("first", 0, "second"),
+                                         NEXT("second", 0, "second")};
+const SubsystemNet leaver{first_second, sends_x, leaver_places, leaver_transitions};
+
+// Sends y, blocking, then receives x, blocking.
+constexpr Place relay_places[] = {{"in"},
+                                  {"out"},
+                                  BEHAVIOUR_PLACES("run"),
+                                  SEND_PLACES("run", "y"),
+                                  WAIT_PLACE("run", "y"),
+                                  RECEIVE_PLACES("run", "x")};
+const Transition relay_transitions[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NEXT_END("run", 0),
+                                        B_SEND("run", "y", "run.snd.in", "run.snd.out"),
+                                        B_RECEIVE_ACK("run", "x", "run.rcv.in", "run.rcv.out")};
+const SubsystemNet relay{run_only, relays, relay_places, relay_transitions};
+
+/// Ends, or goes on to its other behaviour, after so many iterations; 0: never.
+[[nodiscard]] Script for_iterations(std::uint64_t count) {
+  Script script;
+  script.decide = [count](const ScriptState& state) {
+    return count != 0 && state.context.iteration + 1 >= count ? Outcome::terminal : Outcome::go_on;
+  };
+  return script;
+}
+
+TEST(Stuck, WhoWaitsForOneThatHasEndedIsNamedThoughOthersRun) {
+  for (const bool real_time : {false, true}) {
+    TestSystem system;
+    const auto a = system.add("robot.a", nets::nb_sender, for_iterations(3), 10ms);
+    const auto b = system.add("robot.b", nets::b_receiver, Script{});
+    system.add("robot.c", nets::alone, Script{}, 10ms);
+    system.connect(a, "x", b, "x", buffered);
+    const RunSummary summary = run(system, real_time ? steady(200ms) : simulated(200ms));
+    EXPECT_TRUE(summary.failed);
+    EXPECT_TRUE(
+        summary.ended.starts_with("duration; stuck for good: robot.b at run.rcv.in waits for robot.a over "
+                                  "'x', which has ended (since 0.0"))
+        << summary.ended;
+  }
+}
+
+TEST(Stuck, IsAWarningWhereItIsAccepted) {
+  TestSystem system;
+  const auto a = system.add("robot.a", nets::nb_sender, for_iterations(3), 10ms);
+  const auto b = system.add("robot.b", nets::b_receiver, Script{});
+  system.add("robot.c", nets::alone, Script{}, 10ms);
+  system.connect(a, "x", b, "x", buffered);
+  RunOptions options = simulated(200ms);
+  options.accept_stuck = true;
+  const RunSummary summary = run(system, options);
+  EXPECT_FALSE(summary.failed);
+  EXPECT_EQ(summary.ended, "duration");
+  ASSERT_EQ(summary.warnings.size(), 1U);
+  EXPECT_TRUE(summary.warnings[0].starts_with("stuck for good: robot.b")) << summary.warnings[0];
+}
+
+TEST(Stuck, WhoWaitsForOneThatNeverSendsAgainIsNamed) {
+  TestSystem system;
+  const auto a = system.add("robot.a", leaver, for_iterations(3), 10ms);
+  const auto b = system.add("robot.b", nets::b_receiver, Script{});
+  system.connect(a, "x", b, "x", buffered);
+  const RunSummary summary = run(system, simulated(200ms));
+  EXPECT_TRUE(summary.failed);
+  EXPECT_NE(summary.ended.find("stuck for good: robot.b at run.rcv.in waits for robot.a"), std::string::npos)
+      << summary.ended;
+}
+
+TEST(Stuck, ACircleOfThreeIsNamedThoughAnotherRuns) {
+  for (const bool real_time : {false, true}) {
+    TestSystem system;
+    std::vector<std::uint32_t> ring;
+    for (const char* path : {"robot.a", "robot.b", "robot.c"})
+      ring.push_back(system.add(path, relay, Script{}));
+    system.add("robot.d", nets::alone, Script{}, 10ms);
+    for (std::size_t at = 0; at < ring.size(); ++at)
+      system.connect(ring[at], "y", ring[(at + 1) % ring.size()], "x", acknowledged);
+    const RunSummary summary = run(system, real_time ? steady(100ms) : simulated(100ms));
+    EXPECT_TRUE(summary.failed);
+    for (const char* path : {"robot.a at", "robot.b at", "robot.c at"})
+      EXPECT_NE(summary.ended.find(path), std::string::npos) << summary.ended;
+    EXPECT_EQ(summary.ended.find("robot.d at"), std::string::npos) << summary.ended;
+  }
+}
+
+TEST(Stuck, WhoHasATimeoutOrAPeerThatIsOnlySlowIsNotNamed) {
+  for (const SubsystemNet* receiver : {&nets::b_receiver, &nets::b_receiver_timed}) {
+    const bool slow = receiver == &nets::b_receiver;
+    TestSystem system;
+    const auto a = system.add("robot.a", nets::nb_sender, for_iterations(slow ? 0 : 3), slow ? 3s : 10ms);
+    const auto b = system.add("robot.b", *receiver, Script{});
+    system.connect(a, "x", b, "x", buffered, 0s, slow ? 0s : 10ms);
+    const RunSummary summary = run(system, simulated(5s));
+    EXPECT_EQ(summary.ended, "duration");
+    EXPECT_FALSE(summary.failed);
+  }
+}
+
+TEST(Stuck, TheDevicesOfAStuckEffectorGetTheSafeCommandWhenItIsNoticed) {
+  for (const bool real_time : {false, true}) {
+    TestSystem system;
+    Script driver;
+    driver.acts = true;
+    driver.call = [](ScriptState& state) { state.command = 5; };
+    const auto a = system.add("robot.a", nets::nb_sender, for_iterations(3), 10ms);
+    const auto b = system.add("robot.b", nets::b_receiver, driver, 0s, 0s, Kind::effector);
+    system.add("robot.c", nets::alone, Script{}, 10ms);
+    system.connect(a, "x", b, "x", buffered);
+    const RunSummary summary = run(system, real_time ? steady(2s) : simulated(10s));
+    EXPECT_TRUE(summary.failed);
+    ASSERT_GE(system.devices.commands.size(), 2U);
+    // Once when it was noticed, once at the end.
+    EXPECT_EQ(system.devices.commands.back(), -1);
+    EXPECT_EQ(system.devices.commands.at(system.devices.commands.size() - 2), -1);
+  }
+}
+
+TEST(Stuck, AScheduleThatLeavesSomebodyStuckFails) {
+  TestSystem system;
+  const auto a = system.add("robot.a", nets::nb_sender, for_iterations(3), 10ms);
+  const auto b = system.add("robot.b", nets::b_receiver, Script{});
+  system.add("robot.c", nets::alone, Script{}, 10ms);
+  system.connect(a, "x", b, "x", buffered);
+  std::string error;
+  const auto report = try_schedules(system.system(), simulated(200ms), 10, error);
+  ASSERT_TRUE(report) << error;
+  ASSERT_TRUE(report->failed);
+  EXPECT_EQ(report->tried, 1U);
+  EXPECT_NE(schedules_line(*report).find("stuck for good: robot.b"), std::string::npos)
+      << schedules_line(*report);
+}
+
+// -------------------------------------------------------------------------------------------- an oracle
+
+using Marking = std::vector<bool>;
+
+[[nodiscard]] Marking final_marking(const std::string& file, const FlatNet& net) {
+  Marking marking;
+  for (const FlatNet::FlatPlace& place : net.places) marking.push_back(place.tokens > 0);
+  std::string error;
+  const std::optional<Recording> recording = read_recording(file, error);
+  if (!recording) throw std::runtime_error(error);
+  for (const Recording::Entry& entry : recording->entries) {
+    if (entry.event.kind() != Event::Kind::firing) continue;
+    for (const std::uint32_t place : net.transitions.at(entry.event.subject).inputs) marking[place] = false;
+    for (const std::uint32_t place : net.transitions.at(entry.event.subject).outputs) marking[place] = true;
+  }
+  return marking;
+}
+
+/// The subsystems of which some transition can fire in some marking that can be reached, whatever conditions
+/// and times say.
+[[nodiscard]] std::set<std::uint32_t> who_can_go_on(const FlatNet& net, const Marking& from) {
+  std::set<std::uint32_t> able;
+  std::set<Marking> seen{from};
+  std::deque<Marking> open{from};
+  while (!open.empty()) {
+    const Marking marking = std::move(open.front());
+    open.pop_front();
+    for (const FlatNet::FlatTransition& transition : net.transitions) {
+      const auto marked = [&](std::uint32_t place) { return marking[place]; };
+      if (!std::ranges::all_of(transition.inputs, marked)) continue;
+      able.insert(transition.instance);
+      Marking next = marking;
+      for (const std::uint32_t place : transition.inputs) next[place] = false;
+      for (const std::uint32_t place : transition.outputs) next[place] = true;
+      if (seen.insert(next).second) open.push_back(std::move(next));
+    }
+  }
+  return able;
+}
+
+/// A system of two to four subsystems with blocking channels, some of which end.
+void build(TestSystem& system, std::mt19937_64& random) {
+  const auto below = [&](std::uint64_t limit) { return random() % limit; };
+  const auto script = [&] { return for_iterations(below(2) == 0 ? 0 : 1 + below(8)); };
+  const auto path = [count = 0]() mutable { return "robot.s" + std::to_string(count++); };
+  const auto rate = [&] { return Duration(std::chrono::milliseconds(3 + below(20))); };
+  if (below(3) == 0) {  // relays in a line or a circle, one of which may be another sender
+    const std::size_t size = 2 + below(2);
+    const bool circle = below(2) == 0;
+    std::vector<std::uint32_t> all;
+    if (!circle) all.push_back(system.add(path(), nets::b_sender, script(), rate()));
+    for (std::size_t at = 0; at < size; ++at) all.push_back(system.add(path(), relay, script(), rate()));
+    if (!circle) all.push_back(system.add(path(), nets::b_receiver_ack, script(), rate()));
+    for (std::size_t at = 0; at + 1 < all.size(); ++at)
+      system.connect(all[at], at == 0 && !circle ? "x" : "y", all[at + 1], "x", acknowledged);
+    if (circle) system.connect(all.back(), "y", all.front(), "x", acknowledged);
+    return;
+  }
+  for (std::uint64_t pair = 0; pair < 1 + below(2); ++pair) {
+    if (below(2) == 0) {
+      const auto from = system.add(path(), below(2) == 0 ? leaver : nets::nb_sender, script(), rate());
+      const bool timed = below(3) == 0;
+      const auto to = system.add(path(), timed ? nets::b_receiver_timed : nets::b_receiver, script(), rate());
+      system.connect(from, "x", to, "x", buffered, 0s, timed ? 5ms : 0s);
+    } else {
+      const bool timed = below(3) == 0;
+      const auto from = system.add(path(), timed ? nets::b_sender_timed : nets::b_sender, script(), rate());
+      const auto to =
+          system.add(path(), below(3) == 0 ? nets::nb_receiver_ack : nets::b_receiver_ack, script(), rate());
+      system.connect(from, "x", to, "x", acknowledged, timed ? 5ms : 0s);
+    }
+  }
+}
+
+/// TESSERA_STUCK_SYSTEMS: how many, in place of 300.
+TEST(Stuck, NobodyIsNamedWhoCouldGoOnAndNobodyIsForgotten) {
+  const char* const asked = std::getenv("TESSERA_STUCK_SYSTEMS");
+  const std::uint64_t count = asked == nullptr ? 300 : std::strtoull(asked, nullptr, 10);
+  std::uint64_t stuck_systems = 0;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    TestSystem system;
+    build(system, random);
+    RunOptions options = simulated(Duration(std::chrono::milliseconds(5 + random() % 300)));
+    options.seed = seed;
+    options.interleave = random() % 2 == 0;
+    options.recording = scratch_file("stuck.tessrec");
+    const RunSummary summary = run(system, options);
+    const FlatNet net = net_of(system.system());
+    const Marking marking = final_marking(options.recording, net);
+    const std::set<std::uint32_t> able = who_can_go_on(net, marking);
+    bool any = false;
+    for (std::uint32_t instance = 0; instance < summary.subsystems.size(); ++instance) {
+      const std::string& path = summary.subsystems[instance].path;
+      const bool named = summary.ended.find(path + " at ") != std::string::npos;
+      // One that has ended has no token in a place of its own but `out`, which the agent may have taken.
+      bool ended = true;
+      for (std::size_t place = 0; place < net.places.size(); ++place)
+        ended = ended && (!marking[place] || !net.places[place].name.starts_with(path + '.') ||
+                          net.places[place].name == path + ".out" ||
+                          net.places[place].name.find("->") != std::string::npos);
+      EXPECT_EQ(named, !ended && !able.contains(instance)) << path << ": " << summary.ended;
+      any = any || named;
+    }
+    EXPECT_EQ(summary.failed, any);
+    stuck_systems += any ? 1 : 0;
+  }
+  EXPECT_GT(stuck_systems, count / 5);
+  EXPECT_LT(stuck_systems, count * 9 / 10);
+}
+
+}  // namespace
+}  // namespace tessera::testing

@@ -9,7 +9,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
+#include "diagnostics/diagnostics.hpp"
 #include "project/installation.hpp"
+#include "spec/names.hpp"
 
 namespace tessera::cli {
 
@@ -54,12 +56,22 @@ struct RemoveUnlessDone {
   }
 };
 
+/// In the words of `check`, which would refuse the specification that is to be made.
+bool may_name_a_system(const std::string& name) {
+  diagnostics::Diagnostics found("", "");
+  if (spec::check_system_name(name, {}, found)) return true;
+  for (const diagnostics::Diagnostic& one : found.sorted())
+    complain(fmt::format("{}; {}", one.message, one.hint));
+  return false;
+}
+
 int new_command(const std::string& given) {
   const fs::path folder(given);
   const std::string name = folder.filename().string();
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_]*")))
     return complain(fmt::format("'{}' cannot name a system: use lower-case letters, digits and _", name)),
            usage;
+  if (!may_name_a_system(name)) return usage;
   if (fs::exists(folder)) return complain(fmt::format("{} exists already", folder.string()));
 
   const Installation installation = Installation::find();

@@ -110,7 +110,7 @@ int run_again(const Controller& controller, const SimulateOptions& options) {
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
-  if (!can_run(options, true)) return failed;
+  if (!can_run(options, options.from.empty())) return failed;
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   const std::optional<Controller> controller =

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include "console.hpp"
@@ -117,7 +119,7 @@ std::string_view Operations::place_of_call(std::uint16_t behaviour) const {
 // -------------------------------------------------------------------------------------------- transition
 // function
 
-void Operations::start_call(std::uint16_t behaviour, Time now) {
+void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t missed) {
   behaviour_ = behaviour;
   called_at_ = now;
   failed_ = false;
@@ -128,11 +130,20 @@ void Operations::start_call(std::uint16_t behaviour, Time now) {
   context_.now = now;
   context_.iteration = iteration_;
   if (parts_.values != nullptr) parts_.values->call(now, behaviour, iteration_);
+  if (missed > 0) return fail_late(missed);
   if (!parts_.receptors.empty() &&
       !survives(Fault::device, behaviour, "reading a real receptor: ", [&] { read_receptors(now); }))
     return;
   refresh_ages(now);
   static_cast<void>(survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
+}
+
+void Operations::fail_late(std::uint64_t missed) {
+  std::array<char, 128> text;
+  const auto end =
+      fmt::format_to_n(text.data(), text.size(), "its work made it miss {} instant{} of its rate", missed,
+                       missed == 1 ? "" : "s");
+  fail(Fault::overrun, behaviour_, {text.data(), std::min(end.size, text.size())});
 }
 
 void Operations::finish_call(Time now) {
@@ -405,6 +416,7 @@ Time Operations::guard_deadline(Time now) const {
 // -------------------------------------------------------------------------------------------- services
 
 void Operations::log(LogLevel level, std::string_view text) {
+  while (control_.abandoned()) std::this_thread::sleep_for(std::chrono::seconds(1));
   const Time now = clock_.now();
   console::print(level, now, parts_.path, text);
   if (lane_ != nullptr) lane_->text(Event::Kind::log, now, static_cast<std::uint32_t>(level), text);

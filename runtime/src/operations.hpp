@@ -64,7 +64,9 @@ class Operations final : public ContextServices {
   Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane);
 
   // Operations of places.
-  void start_call(std::uint16_t behaviour, Time now);
+  /// missed: so many instants of the rate, which is a fault: the function is not called, and the iteration
+  /// fails.
+  void start_call(std::uint16_t behaviour, Time now, std::uint64_t missed = 0);
   void finish_call(Time now);
   void count() { ++iteration_; }
   void write(std::uint32_t port, std::uint16_t slot, Time now);
@@ -128,6 +130,7 @@ class Operations final : public ContextServices {
   void read_receptors(Time now);
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void write_effectors(Time now);
+  void fail_late(std::uint64_t missed);
   void check_watchdog(Time now);
   void check_outputs();
   void fail_not_finite(const Bindings::Outgoing& output);

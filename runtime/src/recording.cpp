@@ -182,6 +182,8 @@ std::string_view name_of(Fault fault) {
       return "stale";
     case Fault::stall:
       return "stall";
+    case Fault::overrun:
+      return "overrun";
   }
   return "";
 }

@@ -30,7 +30,7 @@ using Entry = Recording::Entry;
     if (entry->event.kind() != Event::Kind::fault) continue;
     const auto fault = static_cast<Fault>(entry->event.version);
     if (fault == Fault::exception || fault == Fault::not_finite || fault == Fault::device ||
-        fault == Fault::stall)
+        fault == Fault::stall || fault == Fault::overrun)
       return entry;
   }
   return nullptr;
@@ -120,7 +120,9 @@ void RedrivenSubsystem::call(const RecordedMoment& moment) {
   const auto behaviour = static_cast<std::uint16_t>(moment.head->event.subject);
   take_values(moment,
               [](Recording::Direction direction) { return direction == Recording::Direction::real_input; });
-  operations_.start_call(behaviour, at_);
+  const Entry* const fault = recorded_failure(moment);
+  const bool late = fault != nullptr && static_cast<Fault>(fault->event.version) == Fault::overrun;
+  operations_.start_call(behaviour, at_, late ? 1 : 0);
   unfinished_ = &moment;
 }
 

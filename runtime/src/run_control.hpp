@@ -26,6 +26,10 @@ class RunControl {
   [[nodiscard]] std::string_view reason() const { return {reason_.data(), length_}; }
   [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
 
+  /// The process ends although user code runs still: what that asks for from now on does not return.
+  void abandon() { abandoned_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
+
   void mark_ended(std::uint32_t instance) { ended_[instance].store(true, std::memory_order_release); }
   [[nodiscard]] bool has_ended(std::uint32_t instance) const {
     return ended_[instance].load(std::memory_order_acquire);
@@ -53,7 +57,7 @@ class RunControl {
 
  private:
   std::atomic<std::uint32_t> state_{0};
-  std::atomic<bool> failed_{false}, suspended_{false};
+  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false};
   std::atomic<Time> valid_from_{Time::min()};
   std::array<char, 512> reason_{};
   std::size_t length_ = 0;

@@ -80,8 +80,10 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
   const bool one = remote_ != nullptr && remote_->one_by_one();
   if (one) remote_->about_to_fire();
   const std::uint64_t before = executor.firings();
+  calls_->begin(instance, clock_.now());
   const SubsystemExecutor::Progress progress =
       executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
+  calls_->end();
   if (one && executor.firings() != before) remote_->fired(instance);
   if (progress.state == SubsystemExecutor::State::ready) {
     if (!assembly.options.interleave) {
@@ -126,10 +128,12 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
     monitor_.emplace(assembly, clock_, remote_.get());
     monitor_->complain_of_failure(clock_.now());
   }
+  calls_.emplace(assembly);
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
   for (const auto& executor : assembly.executors) executor->insist();  // nobody waits for who refuses
+  calls_.reset();
   return ending;
 }
 
@@ -155,7 +159,9 @@ bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size
   const Scenario::Step& step = assembly.scenario->steps[index];
   SubsystemExecutor& executor = *assembly.executors[step.instance];
   for (;;) {
+    calls_->begin(step.instance, clock_.now());
     const SubsystemExecutor::FollowProgress progress = executor.follow();
+    calls_->end();
     if (progress.state == SubsystemExecutor::Followed::waiting) {
       if (progress.deadline == Time::max()) return false;
       move_to(assembly, std::max(progress.deadline, clock_.now()));

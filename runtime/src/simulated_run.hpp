@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "call_watch.hpp"
 #include "deadline_queue.hpp"
 #include "monitor.hpp"
 #include "remote_control.hpp"
@@ -59,6 +60,7 @@ class SimulatedRun final : public Waker {
   DeadlineQueue deadlines_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   StuckWatch stuck_;
+  std::optional<CallWatch> calls_;
   std::optional<Monitor> monitor_;  // the last: it looks at the others
 };
 

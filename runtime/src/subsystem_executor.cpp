@@ -324,7 +324,7 @@ Time SubsystemExecutor::release() {
   } else {
     const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
     count_overruns(without_waiting);
-    if (instance.policies.overrun == Overrun::skip)
+    if (instance.policies.overrun != Overrun::catch_up)
       next_release_ = std::max(next_release_, now);
     else
       next_release_ =
@@ -339,6 +339,8 @@ void SubsystemExecutor::count_overruns(std::int64_t end) {
   if (missed <= 0) return;
   counted_to_ = end;
   overruns_ += static_cast<std::uint64_t>(missed);
+  if (operations_.parts().instance->policies.overrun == Overrun::fault)
+    missed_ = static_cast<std::uint64_t>(missed);
   if (lane_ != nullptr)
     lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
 }
@@ -359,7 +361,7 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     const std::uint16_t behaviour = plan_->places[place].subject;
     const Time begin = now();
     gauges_.begin_call(behaviour, begin);
-    operations_.start_call(behaviour, begin);
+    operations_.start_call(behaviour, begin, std::exchange(missed_, 0));
     time_is_known_ = false;
     token.phase = Phase::running;
     token.due = Time::min();

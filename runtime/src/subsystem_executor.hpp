@@ -205,6 +205,7 @@ class SubsystemExecutor {
   std::size_t followed_ = 0;           // of the script
 
   std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
+  std::uint64_t missed_ = 0;           // instants that the next call has to fail for
   std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
   Time returns_{};                  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();

@@ -24,8 +24,10 @@ std::string table(std::string_view type, std::string_view name, const std::strin
 /// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
 std::string policies(const spec::Subsystem& subsystem) {
   std::vector<std::string> members;
-  if (subsystem.overrun == spec::Overrun::catch_up)
-    members.emplace_back(".overrun = tessera::Overrun::catch_up");
+  constexpr std::array overruns{"skip", "catch_up", "fault"};
+  if (subsystem.overrun != spec::Overrun::skip)
+    members.push_back(fmt::format(".overrun = tessera::Overrun::{}",
+                                  overruns[static_cast<std::size_t>(subsystem.overrun)]));
   if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
   if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");
   if (subsystem.realtime) {

@@ -131,8 +131,9 @@ enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
 /// What a subsystem with a rate does about instants that its work made it miss.
 enum class Overrun : std::uint8_t {
-  skip,     ///< leaves them out
-  catch_up  ///< runs the iterations late, one after the other
+  skip,      ///< leaves them out
+  catch_up,  ///< runs the iterations late, one after the other
+  fault      ///< leaves them out, and the iteration that comes late fails
 };
 
 /// How the operating system schedules the thread of a subsystem that runs in real time.

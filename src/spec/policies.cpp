@@ -1,7 +1,8 @@
 #include "spec/policies.hpp"
 
-#include <array>
+#include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,19 @@ namespace {
 
 using diagnostics::quoted;
 
-/// The place of the word among the two choices; the first if it is neither, which is an error.
-std::size_t read_choice(const Entry& entry, const std::array<std::string_view, 2>& choices,
+/// The place of the word among the choices; the first if it is none, which is an error.
+std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_view> choices,
                         Diagnostics& out) {
-  const std::string either = std::string(choices[0]) + " or " + std::string(choices[1]);
+  const std::vector<std::string> words(choices.begin(), choices.end());
+  std::string either = words.front();
+  for (std::size_t at = 1; at < words.size(); ++at)
+    either += (at + 1 == words.size() ? " or " : ", ") + words[at];
   const Node* text = text_of(*entry.value, entry.span, entry.key, out, "write " + either);
-  if (text == nullptr || text->text == choices[0]) return 0;
-  if (text->text == choices[1]) return 1;
+  if (text == nullptr) return 0;
+  const auto found = std::ranges::find(words, text->text);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   out.error("E104", text->span, entry.key + " must be " + either + ", not " + quoted(text->text),
-            diagnostics::did_you_mean(text->text, {std::string(choices[0]), std::string(choices[1])}));
+            diagnostics::did_you_mean(text->text, words));
   return 0;
 }
 
@@ -57,8 +62,7 @@ RealTime read_realtime(const Entry& entry, Diagnostics& out) {
 
 void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& out) {
   if (const Entry* overrun = section.find("overrun")) {
-    subsystem.overrun =
-        read_choice(*overrun, {"skip", "catch_up"}, out) == 0 ? Overrun::skip : Overrun::catch_up;
+    subsystem.overrun = static_cast<Overrun>(read_choice(*overrun, {"skip", "catch_up", "fault"}, out));
     if (section.find("rate") == nullptr)
       out.error("E110", overrun->span, "'overrun' belongs to subsystems with a rate",
                 "without one there is no instant to miss");

@@ -18,12 +18,26 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
   const project::Exit tests = tessera("test rover");
   EXPECT_EQ(tests.code, 0) << tests.text;
   EXPECT_NE(tests.text.find("[  PASSED  ]"), std::string::npos) << tests.text;
+  const project::Exit none = tessera("test rover --filter 'Folow.*'");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.text.find("no test matches --filter Folow.*; there are Follow.SteersByTheTable, "),
+            std::string::npos)
+      << none.text;
 }
 
 TEST_F(Project, NewRefusesAFolderThatExistsAndANameThatIsNone) {
   ASSERT_EQ(tessera("new rover").code, 0);
   EXPECT_EQ(tessera("new rover").code, 1);
   EXPECT_EQ(tessera("new 'Not A Name'").code, 2);
+  for (const char* taken : {"errno", "while", "std", "time", "tessera_rover"}) {
+    const project::Exit refused = tessera(std::string("new ") + taken);
+    EXPECT_EQ(refused.code, 2) << refused.text;
+    EXPECT_FALSE(fs::exists(folder_ / taken));
+  }
+  EXPECT_NE(tessera("new time")
+                .text.find("system name 'time' is taken by the C or C++ library; for example "
+                           "'time_1'"),
+            std::string::npos);
 }
 
 TEST_F(Project, ChangedFunctionChangesTheRun) {

@@ -61,6 +61,10 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
   EXPECT_NE(values.text.find("robot.control.motion = {linear: "), std::string::npos) << values.text;
   EXPECT_EQ(tessera("replay run.tsr --values=motion --csv motion.csv").code, 0);
   EXPECT_EQ(content_of(folder_ / "motion.csv").find("time_ns,buffer,status,stamp_ns,linear,angular\n"), 0U);
+  const project::Exit nothing = tessera("replay run.tsr --values=motoin");
+  EXPECT_EQ(nothing.code, 2);
+  EXPECT_NE(nothing.text.find("has 'motoin' in its path; did you mean 'motion'?"), std::string::npos)
+      << nothing.text;
 
   const nlohmann::json same = json("simulate 01_line_follower --from run.tsr");
   EXPECT_EQ(same.at("same"), true);

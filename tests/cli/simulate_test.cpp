@@ -50,8 +50,8 @@ TEST_F(Simulate, ParametersChangeTheRunWithoutCompiling) {
   EXPECT_EQ(fs::last_write_time(project / ".tessera/build/release/controller"), built);
 }
 
-TEST_F(Simulate, WrongParametersAndTracksAreNamed) {
-  example("01_line_follower");
+TEST_F(Simulate, WrongParametersAndTracksAreNamedBeforeAnythingIsBuilt) {
+  const fs::path project = example("01_line_follower");
   const project::Exit unknown = tessera("simulate 01_line_follower --for 1s --set vv=1");
   EXPECT_EQ(unknown.code, 1) << unknown.text;
   EXPECT_NE(unknown.text.find("did you mean"), std::string::npos) << unknown.text;
@@ -59,6 +59,13 @@ TEST_F(Simulate, WrongParametersAndTracksAreNamed) {
   const project::Exit nowhere = tessera("simulate 01_line_follower --for 1s --track nowhere.png");
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_NE(nowhere.text.find("nowhere.png"), std::string::npos) << nowhere.text;
+  EXPECT_EQ(tessera("simulate 01_line_follower --for soon").code, 1);
+  replace(project / "spec.yaml", "world: line_world.xml", "world: line_wrold.xml");
+  const project::Exit no_world = tessera("simulate 01_line_follower --for 1s");
+  EXPECT_EQ(no_world.code, 1);
+  EXPECT_NE(no_world.text.find("error E310: there is no world 'line_wrold.xml'"), std::string::npos)
+      << no_world.text;
+  EXPECT_FALSE(fs::exists(project / ".tessera/build"));
 }
 
 TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain) {

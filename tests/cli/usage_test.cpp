@@ -43,6 +43,21 @@ TEST_F(Usage, APropertyMayNotHaveTheNameOfADefaultOne) {
   }
 }
 
+TEST_F(Usage, CheckNamesFilesOfTheSimulationThatAreMissing) {
+  const fs::path spec = example("01_line_follower") / "spec.yaml";
+  EXPECT_EQ(tessera("check 01_line_follower").code, 0);
+  replace(spec, "world: line_world.xml", "world: line_wrold.xml");
+  replace(spec, "image: oval.png", "image: ovl.png");
+  const project::Exit missing = tessera("check 01_line_follower");
+  EXPECT_EQ(missing.code, 1);
+  for (const char* text :
+       {"error E310: there is no world 'line_wrold.xml' in ", "did you mean 'line_world.xml'?",
+        "error E310: there is no picture 'ovl.png' in ", "did you mean 'oval.png'?", "^~~~~~~"})
+    EXPECT_NE(missing.text.find(text), std::string::npos) << missing.text;
+  EXPECT_EQ(tessera("check 01_line_follower --json found.json").code, 1);
+  EXPECT_EQ(nlohmann::json::parse(content_of(folder_ / "found.json")).size(), 2U);
+}
+
 TEST_F(Usage, EveryCommandShowsAnExample) {
   for (const char* command :
        {"new", "check", "show", "verify", "export", "generate", "test", "simulate", "run", "completion"}) {

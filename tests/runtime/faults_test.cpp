@@ -224,6 +224,20 @@ TEST_F(Pair, WhileTheSourceStallsTheEffectorGetsTheSafeCommandAtOnce) {
   EXPECT_NE(std::get<2>(faults[1]).find("the source of input 'x' stalls"), std::string::npos);
 }
 
+TEST_F(Routed, AnOverrunIsAnErrorWhereThatIsAskedFor) {
+  Policies policies;
+  policies.overrun = Overrun::fault;
+  Script motor = script();
+  motor.acts = true;
+  add(std::move(motor), policies);
+  EXPECT_EQ(run_with("robot.a:stall=12ms@10ms"),
+            (std::vector<Recorded>{{30ms, Fault::overrun,
+                                    "robot.a.first.in: its work made it miss 1 instant of its rate; the "
+                                    "devices get the safe command"}}));
+  // The function is not called at 30 ms.
+  EXPECT_EQ(behaviours, (std::vector<std::uint16_t>{0, 0, 1}));
+}
+
 TEST(Overruns, AreLeftOutOrMadeUpForAndRecorded) {
   for (const Overrun overrun : {Overrun::skip, Overrun::catch_up}) {
     TestSystem system;
@@ -363,7 +377,9 @@ struct Outer {
   std::array<Inner, 2> inner;
   BoundedString<4> name;
   bool flag;
-  friend auto tessera_fields_of(const Outer&) { return std::tuple(&Outer::inner, &Outer::name, &Outer::flag); }
+  friend auto tessera_fields_of(const Outer&) {
+    return std::tuple(&Outer::inner, &Outer::name, &Outer::flag);
+  }
 };
 
 TEST(Finite, LooksIntoStructuresAndArrays) {

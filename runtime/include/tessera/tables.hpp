@@ -85,8 +85,9 @@ enum class Kind : std::uint8_t { control, receptor, effector };
 
 /// What a subsystem with a rate does about instants that its work made it miss.
 enum class Overrun : std::uint8_t {
-  skip,     ///< leaves them out
-  catch_up  ///< runs the iterations late, one after the other
+  skip,      ///< leaves them out
+  catch_up,  ///< runs the iterations late, one after the other
+  fault      ///< leaves them out, and the iteration that comes late fails: its function is not called
 };
 
 /// How the operating system schedules the thread of a subsystem on the steady clock.

@@ -102,6 +102,9 @@ void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& o
       out.error("E106", field.span,
                 "field name " + quoted(field.key) + " is reserved for the status of a buffer",
                 "for example '" + field.key + "_value'");
+    } else if (field.key == entry.key) {
+      out.error("E107", field.span, "field " + quoted(field.key) + " has the name of its type",
+                "begin types with a capital letter");
     } else {
       check_name(field.key, field.span, "field", out);
     }

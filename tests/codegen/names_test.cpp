@@ -150,13 +150,15 @@ std::string specification(Role role, const Words& words) {
           each([](auto& word) { return "            " + word + ": memory.zcount > 3\n"; }));
     case Role::model:
       return head + "models:\n" + each([](auto& word) {
-               return "  " + word +
-                      ":\n    shared: { zslot: 1 }\n    send: { places: [zw], transitions: { za: { from: "
-                      "[in, zslot], to: "
-                      "[zw, zslot] }, zb: { from: [zw], to: [out] } }, writes: zw }\n"
-                      "    receive: { places: [zr], transitions: { za: { from: [in], to: [zr] }, zb: { from: "
-                      "[zr], to: "
-                      "[out] } }, reads: zr }\n";
+               return "  " + word + R"(:
+    shared: { free: 1, there: 0 }
+    send:
+      places: { in, work: { write: 1 }, out }
+      transitions: { t1: { from: [in, free], to: work }, t2: { from: work, to: [out, there] } }
+    receive:
+      places: { in, work: { read: 1 }, out }
+      transitions: { t1: { from: [in, there], to: work }, t2: { from: work, to: [out, free] } }
+)";
              }) +
              alone;
   }

@@ -36,6 +36,8 @@ void declare(CLI::App& command, project::LaunchOptions& options) {
                   "device:robot.motor@any (docs/running.md)")
       ->take_all()
       ->allow_extra_args(false);
+  command.add_flag("--accept-stuck", options.accept_stuck,
+                   "A subsystem that waits for ever, while others go on, is no failure");
   declare_gate(command, options.gate);
   command.add_flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }

@@ -62,6 +62,7 @@ std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
   };
   for (const std::string& value : options.set) add("--set", value);
   for (const std::string& fault : options.inject) add("--inject", fault);
+  if (options.accept_stuck) line.emplace_back("--accept-stuck");
   add("--parameters", options.parameters);
   add("--track", options.track);
   if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));

@@ -156,7 +156,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   std::to_string(options.seed)};
   if (options.progress) command.push_back("--progress");
   if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
-  if (options.gate.accept_violations) command.push_back("--accept-stuck");
+  if (options.accept_stuck) command.push_back("--accept-stuck");
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameter_values(specification, options))
     append(command, {"--set", value});

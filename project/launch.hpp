@@ -20,6 +20,7 @@ struct LaunchOptions {
   std::string record, record_values = "small", record_limit;
   std::string folder;                                            ///< of the run's files; empty: .tessera/last
   std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
+  bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is no failure
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
   Gate gate;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "console.hpp"
 
@@ -135,8 +134,10 @@ void StuckWatch::look(Assembly& assembly, Time now) {
 
 void StuckWatch::found(Assembly& assembly, const std::vector<std::uint32_t>& stuck, Time now) {
   std::vector<std::uint32_t> news;
-  for (const std::uint32_t instance : stuck)
-    if (!std::exchange(said_[instance], true)) news.push_back(instance);
+  for (const std::uint32_t instance : stuck) {
+    if (!said_[instance]) news.push_back(instance);
+    said_[instance] = true;
+  }
   if (news.empty()) return;
   for (const std::uint32_t instance : news)
     static_cast<void>(assembly.executors[instance]->leave_from_outside());

@@ -66,7 +66,8 @@ void CallWatch::give_up(const Look& last) {
   gives_up_.store(true, std::memory_order_seq_cst);
   if (turns_.load(std::memory_order_seq_cst) != last.turn) return gives_up_.store(false);
   const int signal = StopSignals::pending();
-  for (const auto& executor : assembly_.executors) static_cast<void>(executor->leave_from_outside());
+  for (const auto& executor : assembly_.executors)
+    executor->effectors().make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out);
   assembly_.control.abandon();
   std::this_thread::sleep_for(between_looks);  // a line that was being logged is in the recording now
   const std::string text = fmt::format("{}; {} has not returned for {:.1f} s", StopSignals::name(signal),

@@ -26,6 +26,7 @@ struct SafeReason {
     source_ended,
     fault,      ///< of this subsystem
     stalls,     ///< its own transition function does not return
+    stuck,      ///< it waits for ever
     suspended,  ///< the process is about to stop for a while
     leaves      ///< the subsystem or the run ends
   } kind = Kind::none;

@@ -208,7 +208,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     } else if (stillness.look(now, wake_words_.get(), gone)) {
       control.request_stop(why_nothing_happens(assembly), /*fault=*/true);
     } else {
-      if (stillness.changed()) look_for_stuck(assembly, stillness, now);
+      if (stillness.changed()) look_for_stuck(assembly, stillness, securing, now);
       progress.update(now);
       assembly.signals.raise_due(now);
       const Time next = std::min({end, stillness.next(), watchdogs.check(now), assembly.signals.next()});
@@ -257,9 +257,11 @@ void SteadyRun::stop_process(Time since, RecordingLane* lane) {
   say(fmt::format("goes on after {:.1f} s; each effector waits for new values", away_s));
 }
 
-void SteadyRun::look_for_stuck(Assembly& assembly, const Stillness& stillness, Time now) {
+void SteadyRun::look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now) {
   const std::vector<std::uint32_t> stuck = stuck_among_resting(assembly, stillness.resting());
-  if (!stuck.empty() && stillness.rest_still(wake_words_.get(), stuck)) stuck_.found(assembly, stuck, now);
+  if (stuck.empty() || !stillness.rest_still(wake_words_.get(), stuck)) return;
+  stuck_.found(assembly, stuck, now,
+               [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stuck}); });
 }
 
 void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {

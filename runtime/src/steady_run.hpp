@@ -44,7 +44,7 @@ class SteadyRun final : public Waker {
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);
   [[nodiscard]] Ending ending(const Assembly& assembly, const UpperLayers& upper) const;
-  void look_for_stuck(Assembly& assembly, const Stillness& stillness, Time now);
+  void look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
   void await_news(Time until) const;
   /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.

@@ -128,19 +128,23 @@ void StuckWatch::look(Assembly& assembly, Time now) {
     // Somebody may wait for long and be freed in the end: that is asked less and less often.
     if (std::ranges::all_of(stuck, [&](std::uint32_t one) { return said_[one]; }))
       next_ = now + std::max(patience, now.time_since_epoch() / 4);
-    return found(assembly, stuck, now);
+    return found(assembly, stuck, now, [&](std::uint32_t one) {
+      Effectors& effectors = assembly.executors[one]->effectors();
+      effectors.make_safe({SafeReason::Kind::stuck}, Effectors::Busy::leaves_out);
+      effectors.record(assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+    });
   }
 }
 
-void StuckWatch::found(Assembly& assembly, const std::vector<std::uint32_t>& stuck, Time now) {
+void StuckWatch::found(Assembly& assembly, const std::vector<std::uint32_t>& stuck, Time now,
+                       const std::function<void(std::uint32_t)>& secure) {
   std::vector<std::uint32_t> news;
   for (const std::uint32_t instance : stuck) {
     if (!said_[instance]) news.push_back(instance);
     said_[instance] = true;
   }
   if (news.empty()) return;
-  for (const std::uint32_t instance : news)
-    static_cast<void>(assembly.executors[instance]->leave_from_outside());
+  for (const std::uint32_t instance : news) secure(instance);
   const std::string text = stuck_text(assembly, news);
   if (assembly.recorder != nullptr)
     assembly.recorder->system_lane()->text(Event::Kind::log, now,

@@ -41,8 +41,10 @@ class StuckWatch {
   /// Under the simulated clock, where nobody runs at the moment. Looks only if somebody has waited for long,
   /// and seldom.
   void look(Assembly& assembly, Time now);
-  /// In real time: `stuck` has been found from outside.
-  void found(Assembly& assembly, const std::vector<std::uint32_t>& stuck, Time now);
+  /// In real time: `stuck` has been found from outside. secure: gives the devices of a subsystem their safe
+  /// command.
+  void found(Assembly& assembly, const std::vector<std::uint32_t>& stuck, Time now,
+             const std::function<void(std::uint32_t)>& secure);
 
  private:
   std::vector<bool> said_;  // per instance

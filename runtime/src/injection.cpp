@@ -12,6 +12,7 @@
 
 #include "command_line.hpp"
 #include "nearest.hpp"
+#include "tessera/signals.hpp"
 
 namespace tessera {
 
@@ -55,9 +56,10 @@ class Reader {
  private:
   void signal(const std::string& name) {
     fault_.kind = Injection::Kind::signal;
-    if (name != "SIGINT" && name != "SIGTERM")
-      throw std::invalid_argument("'" + name + "' is not SIGINT or SIGTERM");
-    fault_.signal = name == "SIGINT" ? SIGINT : SIGTERM;
+    for (const HandledSignal& one : handled_signals)
+      if (one.use == SignalUse::stop && one.name == name) fault_.signal = one.number;
+    if (fault_.signal == 0)
+      throw std::invalid_argument("'" + name + "' is no signal that stops a run, such as SIGINT or SIGHUP");
   }
 
   void device(const std::string& kind, const std::string& path) {

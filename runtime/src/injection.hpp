@@ -53,7 +53,7 @@ using Injections = std::vector<std::shared_ptr<Injection>>;
 ///
 ///     SUBSYSTEM[.BEHAVIOUR]:throw@WHEN   :stall=TIME@WHEN   :nan@WHEN   :inf@WHEN
 ///     device:SUBSYSTEM[.BUFFER]@WHEN     silent:RECEPTOR[.BUFFER]@WHEN
-///     signal:SIGINT@WHEN                 signal:SIGTERM@WHEN
+///     signal:SIGINT@WHEN                 (or another signal that stops a run)
 ///
 /// WHEN: `2s` the first chance from then on; `2s..` every one from then on; `2s..3s` every one in between;
 /// `any` the first from a time on that is drawn from the seed, within the run's duration.

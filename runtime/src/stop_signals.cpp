@@ -71,9 +71,9 @@ StopSignals::StopSignals(Suspension wanted) {
     Before before{signal, {}};
     if (sigaction(signal, nullptr, &before.action) != 0 || is_left_to_others(signal, before.action)) return;
     struct sigaction action {};
-    action.sa_handler = use == SignalUse::stop      ? note_stop
-                        : use == SignalUse::suspend ? note_suspension
-                                                    : SIG_IGN;
+    const bool stops =
+        use == SignalUse::stop || (use == SignalUse::suspend && wanted == Suspension::ends_run);
+    action.sa_handler = stops ? note_stop : use == SignalUse::suspend ? note_suspension : SIG_IGN;
     action.sa_flags = SA_RESTART;  // a driver that reads its device must not fail because a terminal closes
     sigemptyset(&action.sa_mask);
     if (sigaction(signal, &action, nullptr) == 0) before_.push_back(before);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <csignal>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ namespace tessera {
 /// members from any thread.
 class StopSignals {
  public:
-  /// suspension: whether SIGTSTP is noted; otherwise it stops the process as usual.
-  enum class Suspension : bool { usual, noted };
+  /// What SIGTSTP does.
+  enum class Suspension : std::uint8_t {
+    usual,    ///< stops the process for a while: nothing real moves
+    noted,    ///< suspension_asked
+    ends_run  ///< as the signals that do: there is nobody who could suspend it safely
+  };
   explicit StopSignals(Suspension suspension = Suspension::usual);
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;

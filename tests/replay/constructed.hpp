@@ -33,6 +33,10 @@ class Constructed {
     return add(at_s, subsystem, tessera::Event::Kind::log, static_cast<std::uint32_t>(text.size()), level,
                text);
   }
+  Constructed& safe(double at_s, std::uint32_t subsystem, tessera::SafeEvent what, const std::string& text) {
+    return add(at_s, subsystem, tessera::Event::Kind::safe, static_cast<std::uint32_t>(text.size()),
+               static_cast<std::uint32_t>(what), text);
+  }
 
  private:
   Constructed& add(double at_s, std::uint32_t subsystem, tessera::Event::Kind kind, std::uint32_t subject,

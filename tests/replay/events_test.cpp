@@ -72,6 +72,21 @@ TEST(Events, ArePrintedWithTheValuesThatAreWanted) {
   EXPECT_EQ(printed(selection), "      2.000000 robot.control.motion = {linear: 0.25, angular: 7}\n");
 }
 
+TEST(Events, SafeCommandsArePrinted) {
+  Constructed run({"robot.motor"});
+  run.safe(1.0, 0, tessera::SafeEvent::given, "robot.motor.left: safe command: a fault")
+      .safe(1.5, 0, tessera::SafeEvent::ended, "robot.motor.left: commands go to it again");
+  std::ostringstream text, table;
+  tessera::replay::print_events(run.recording, {}, text);
+  EXPECT_EQ(text.str(),
+            "      1.000000 robot.motor: robot.motor.left: safe command: a fault\n"
+            "      1.500000 robot.motor: robot.motor.left: commands go to it again\n");
+  tessera::replay::write_csv(run.recording, {}, table);
+  EXPECT_NE(table.str().find(",safe,robot.motor,1,robot.motor.left: safe command: a fault"),
+            std::string::npos)
+      << table.str();
+}
+
 TEST(Events, ValuesAreATableWithAColumnPerField) {
   std::ostringstream text;
   Selection selection;

@@ -154,7 +154,7 @@ TEST_F(Routed, ASilentReceptorIsNoErrorButNotFresh) {
 }
 
 TEST_F(Routed, ASignalEndsTheRunWithTheSafeCommand) {
-  for (const char* signal : {"SIGINT", "SIGTERM"}) {
+  for (const char* signal : {"SIGINT", "SIGTERM", "SIGHUP", "SIGALRM"}) {
     TestSystem fresh;
     Script motor = script();
     motor.acts = true;
@@ -282,7 +282,7 @@ TEST(Inject, SaysWhatIsWrong) {
            Case{"robot.a:throw@soon", "'soon' is no time such as 2.5s or 200ms"},
            Case{"robot.a:throw@2s..1s", "'2s..1s' ends before it begins"},
            Case{"device:robot.a@1s", "'robot.a' has no such device"},
-           Case{"signal:SIGKILL@1s", "'SIGKILL' is not SIGINT or SIGTERM"},
+           Case{"signal:SIGKILL@1s", "'SIGKILL' is no signal that stops a run, such as SIGINT or SIGHUP"},
        }) {
     TestSystem system;
     system.add("robot.a", nets::two_behaviours, {}, 10ms);

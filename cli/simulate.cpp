@@ -11,6 +11,7 @@
 #include "cli/outcome.hpp"
 #include "cli/play_net.hpp"
 #include "cli/terminal.hpp"
+#include "project/death.hpp"
 
 namespace tessera::cli {
 
@@ -43,9 +44,14 @@ int launch(const Controller& controller, const LaunchOptions& options, const Com
            const std::string& json, const std::string& report_folder) {
   if (options.debug) return print_debugger(command);
   const RunFiles files = run_files(controller.specification, options);
+  const std::filesystem::path note = death_note(files);
   std::filesystem::remove(files.summary);
-  const Exit exit = run(command);
-  if (!std::filesystem::exists(files.summary)) return exit.code == 0 ? failed : exit.code;
+  std::filesystem::remove(note);
+  const Exit exit = run(attended(command, note));
+  if (!std::filesystem::exists(files.summary)) {
+    if (const std::string death = describe_death(exit, note); !death.empty()) complain(death);
+    return exit.code == 0 ? failed : exit.code;
+  }
   const RunOutcome outcome = read_outcome(controller, options);
   if (json != "-") print(outcome);
   if (!json.empty()) write_output(json, to_json(outcome));

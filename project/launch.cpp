@@ -1,6 +1,7 @@
 #include "project/launch.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <numbers>
@@ -162,6 +163,13 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
     append(command, {"--set", value});
   for (const std::string& fault : options.inject) append(command, {"--inject", fault});
   if (with_world) add_world(command, specification, options);
+  return command;
+}
+
+fs::path death_note(const RunFiles& files) { return files.summary.parent_path() / "death.txt"; }
+
+Command attended(Command command, const fs::path& note) {
+  append(command, {"--death-note", note.string(), "--parent", std::to_string(getpid())});
   return command;
 }
 

@@ -53,4 +53,11 @@ struct Floor {
 [[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
                                          const std::string& mode, bool with_world);
 
+/// Where the controller of a run leaves a note if it dies in the middle of it.
+[[nodiscard]] std::filesystem::path death_note(const RunFiles& files);
+
+/// The command of a controller that this process starts and waits for: it stops when this process ends, and
+/// leaves a note if it dies.
+[[nodiscard]] Command attended(Command command, const std::filesystem::path& note);
+
 }  // namespace tessera::project

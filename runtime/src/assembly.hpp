@@ -18,6 +18,8 @@
 
 namespace tessera {
 
+class Guardian;
+
 /// A controller ready to run: every subsystem with its plan, channels, devices and parameters.
 struct Assembly {
   Assembly(const System& its_system, const RunOptions& its_options)
@@ -28,6 +30,7 @@ struct Assembly {
   const System& system;
   const RunOptions& options;
   RunControl control;
+  Guardian* guardian = nullptr;  ///< nullptr: none
   std::unique_ptr<World> world;
   std::unique_ptr<Recorder> recorder;
   std::optional<Scenario> scenario;

@@ -86,6 +86,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   command.add_flag("--accept-stuck", options.accept_stuck,
                    "A subsystem that waits for ever, while others go on, is no failure");
   command.add_flag("--progress", options.progress, "Show progress on standard error");
+  command.add_option("--death-note", options.death_note,
+                     "Write to this file where and of what the process died, if it dies in the middle of the run");
+  command
+      .add_option("--parent", options.parent,
+                  "Number of the process that started the controller; when it has ended, the run stops safely")
+      ->check(CLI::PositiveNumber);
 }
 
 /// What is wrong with the words; empty: nothing, and the options are filled.
@@ -231,6 +237,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     describe_common(*command, line, words);
   }
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
+  run->add_flag("!--no-guardian", line.options.guardian,
+                "No guardian process, for debuggers that stop the controller (docs/safety.md)");
   simulate->add_option("--scenario", line.options.scenario,
                        "Follow this run first (tessera verify --scenario), then run on freely");
   simulate->add_flag("--interleave", line.options.interleave,

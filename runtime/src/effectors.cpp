@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace tessera {
+namespace {
+
+thread_local constinit const void* in_call = nullptr;
+
+}  // namespace
 
 /// One thread at a time calls the driver of a device. Others come only when something has gone wrong, so this
 /// costs no system call as a rule.
@@ -19,11 +24,13 @@ class Effectors::Lock {
       device_.in_use.wait(true, std::memory_order_relaxed);
     }
     held_ = true;
+    in_call = &device_;
   }
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
   ~Lock() {
     if (!held_) return;
+    in_call = nullptr;
     device_.in_use.clear(std::memory_order_release);
     device_.in_use.notify_one();
   }
@@ -113,6 +120,15 @@ bool Effectors::write_safe(Device& device, SafeReason why) {
   if (device.standing != why) device.since = clock_.now();
   device.standing = why;
   return true;
+}
+
+const void* Effectors::device_in_call() { return in_call; }
+
+bool Effectors::rescue(std::size_t index, const void* dead) {
+  Device& device = devices_[index];
+  device.owes = true;
+  const Lock lock(device, Busy::leaves_out);
+  return (lock || dead == &device) && write_safe(device, {SafeReason::Kind::leaves});
 }
 
 bool Effectors::owing() const {

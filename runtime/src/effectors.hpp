@@ -69,6 +69,15 @@ class Effectors {
   /// The same for those only that have not taken theirs.
   bool insist(SafeReason why, Busy busy);
 
+  // For a thread that acts because another one dies (Rescuer).
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] const void* device(std::size_t index) const { return &devices_[index]; }
+  /// The device whose driver the calling thread is in; nullptr: none. Async-signal-safe.
+  [[nodiscard]] static const void* device_in_call();
+  /// Gives one device the safe command, once, if no thread is in its driver, or only the dying one, for which
+  /// device_in_call has given `dead`. What the driver throws is a refusal.
+  [[nodiscard]] bool rescue(std::size_t index, const void* dead);
+
   /// The safe command was wanted last, and some device has not taken it.
   [[nodiscard]] bool owing() const;
   /// Devices whose last command taken is not the safe one, as "robot.motor.left".

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "companions.hpp"
 #include "console.hpp"
+#include "last_chance.hpp"
 #include "simulated_run.hpp"
 #include "steady_run.hpp"
 #include "stop_signals.hpp"
@@ -56,9 +58,13 @@ template <class Run>
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
   RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
   UpperLayers upper(agents_of(assembly.system), lane);
+  std::optional<LastChance> last_chance;
+  last_chance.emplace(assembly, run.clock(), assembly.guardian);
   const std::int64_t start_ns = monotonic_ns();
   Ending ending = run.run(assembly, upper, signals);
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
+  last_chance.reset();
+  if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
   ending.failed = ending.failed || !unsafe.empty();
 
   std::string stuck;
@@ -101,7 +107,8 @@ template <class Run>
 }
 
 [[nodiscard]] std::optional<RunSummary> with_lost_lines(std::optional<RunSummary> summary,
-                                                        console::Session& session) {
+                                                        const Assembly& assembly, console::Session& session) {
+  if (!summary && assembly.guardian != nullptr) assembly.guardian->dismiss();  // it has not started
   if (summary) summary->lines_not_printed = session.settle();
   return summary;
 }
@@ -113,15 +120,20 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   // Before the first driver is made, until the last is gone.
   const StopSignals signals(simulated ? StopSignals::Suspension::usual : StopSignals::Suspension::noted);
+  // Before there are threads.
+  Companions companions(system, options);
+  if (!companions.start_guardian(error)) return std::nullopt;
   // No simulated motor runs on because somebody reads slowly what is printed.
   console::Session session(simulated ? console::Session::Overflow::waits : console::Session::Overflow::loses);
+  companions.watch();
   Assembly assembly(system, options);
+  assembly.guardian = companions.guardian();
   if (simulated) {
     SimulatedRun run(instances, options.seed);
-    return with_lost_lines(drive(run, assembly, signals, error), session);
+    return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
   }
   SteadyRun run(instances);
-  return with_lost_lines(drive(run, assembly, signals, error), session);
+  return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
 }
 
 }  // namespace tessera

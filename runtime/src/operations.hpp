@@ -115,6 +115,11 @@ class Operations final : public ContextServices {
   /// Threads: any, with a lane of its own.
   void report_stall(std::uint16_t behaviour, RecordingLane* lane) const;
 
+  void record_death(std::string_view text) const {
+    if (lane_ != nullptr)
+      lane_->text(Event::Kind::fault, clock_.now(), static_cast<std::uint32_t>(Fault::crash), text);
+  }
+
   [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
     const Duration declared = parts_.instance->net->behaviours[behaviour].takes;

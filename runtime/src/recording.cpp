@@ -184,6 +184,8 @@ std::string_view name_of(Fault fault) {
       return "stall";
     case Fault::overrun:
       return "overrun";
+    case Fault::crash:
+      return "crash";
   }
   return "";
 }

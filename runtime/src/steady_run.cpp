@@ -14,8 +14,11 @@
 
 #include "boundary.hpp"
 #include "console.hpp"
+#include "death.hpp"
+#include "liveness.hpp"
 #include "realtime.hpp"
 #include "stillness.hpp"
+#include "thread_role.hpp"
 #include "watchdogs.hpp"
 
 namespace tessera {
@@ -50,6 +53,17 @@ void SteadyRun::tell_supervisor() const {
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
 }
 
+/// By pthread_exit.
+void SteadyRun::complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control) {
+  std::array<char, 256> place_room, reason_room;
+  const std::string_view place = where_a_subsystem_is(executor, place_room);
+  const auto end = fmt::format_to_n(reason_room.data(), reason_room.size(),
+                                    "{}: user code has ended the thread of the subsystem (pthread_exit)", place);
+  const std::string_view reason(reason_room.data(), std::min(end.size, reason_room.size()));
+  control.request_stop(reason, /*fault=*/true);
+  executor.record_death(reason);
+}
+
 void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
   // However this thread ends (user code may call pthread_exit), its devices are left safe.
   struct Leaving {
@@ -59,7 +73,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
     RunControl& control;
     bool orderly = false;
     ~Leaving() {
-      if (!orderly) control.request_stop("user code has ended the thread of its subsystem", /*fault=*/true);
+      if (!orderly) complain_of_ended_thread(executor, control);
       if (control.stopping()) run.tell_supervisor();  // now: the devices may take their time
       if (!control.has_ended(instance)) executor.leave();
       executor.insist();
@@ -67,6 +81,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
       run.tell_supervisor();
     }
   } leaving{*this, executor, instance, control};
+  const AlternateStack stack;
   survives_in_thread(control, executor.path(), [&] {
     // Releases are exact to what the timer can do; by default the kernel may add 50 us to spare itself a
     // wake-up.
@@ -100,6 +115,7 @@ void SteadyRun::deny(const std::string& what) {
 /// A world that is slower than real time falls behind: it is moved in short steps, so that nobody waits long
 /// for it, and what it cannot make up for is left out (Ending::world_time).
 void SteadyRun::run_world(World& world, RunControl& control) {
+  const AlternateStack stack;
   const bool survived = survives_in_thread(control, "the world", [&] {
     Duration left_out{};
     for (Time next{}; !control.stopping();) {
@@ -191,6 +207,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       assembly.executors,
       [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
   Stillness stillness(started_);
+  Liveness liveness(assembly, assembly.guardian);
   const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
     collect_ended(assembly, upper);
@@ -201,7 +218,9 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     } else if (const int signal = StopSignals::pending(); signal != 0) {
       control.request_stop(StopSignals::name(signal), /*fault=*/false);
     } else if (StopSignals::suspension_asked()) {
+      liveness.suspend();
       suspend(assembly, securing);
+      liveness.resume();
     } else if (now >= end) {
       duration_over_ = true;
       control.request_stop("duration", /*fault=*/false);
@@ -211,7 +230,10 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       if (stillness.changed()) look_for_stuck(assembly, stillness, securing, now);
       progress.update(now);
       assembly.signals.raise_due(now);
-      const Time next = std::min({end, stillness.next(), watchdogs.check(now), assembly.signals.next()});
+      // Watchdogs first: what they find is told.
+      const Time watched = watchdogs.check(now);
+      const Time next =
+          std::min({end, stillness.next(), watched, assembly.signals.next(), liveness.show(now)});
       await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
     }
   }

@@ -32,6 +32,7 @@ class SteadyRun final : public Waker {
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
 
  private:
+  static void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control);
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(World& world, RunControl& control);

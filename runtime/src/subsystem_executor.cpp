@@ -7,6 +7,8 @@
 #include <atomic>
 #include <utility>
 
+#include "thread_role.hpp"
+
 namespace tessera {
 
 SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
@@ -37,6 +39,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
 void SubsystemExecutor::enter() { put(plan_->in); }
 
 SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
+  const RunningSubsystem running(*this);
   if (watches_time_)
     renew_time();
   else

@@ -103,6 +103,8 @@ class SubsystemExecutor {
 
   [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
   [[nodiscard]] const Operations& operations() const { return operations_; }
+  /// What has happened to the thread of the subsystem, for the recording. Threads: that one. Async-signal-safe.
+  void record_death(std::string_view text) { operations_.record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }

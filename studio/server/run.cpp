@@ -7,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "project/death.hpp"
 #include "project/launch.hpp"
 #include "project/listener.hpp"
 #include "project/process.hpp"
@@ -185,8 +186,9 @@ void Run::execute(const project::Controller& controller) {
     if (request_.paused) command.emplace_back("--paused");
   }
   set_state(request_.paused && simulated ? State::paused : State::running);
+  const std::filesystem::path note = place_.folder / "death.txt";
   const project::Exit exit = project::capture_apart(
-      command, stop_,
+      project::attended(command, note), stop_,
       [this](std::string_view line) {
         publish("log", {{"line", line}});
       },
@@ -199,7 +201,9 @@ void Run::execute(const project::Controller& controller) {
   if (follower_.joinable()) follower_.join();
   json summary = read_summary(place_.folder / "summary.json");
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
-  const std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
+  std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
+  if (!stop_ && !summary.is_object())
+    if (const std::string death = project::describe_death(exit, note); !death.empty()) why = death;
   {
     const std::lock_guard lock(mutex_);
     outcome_ = summary.is_object() ? std::move(summary) : json(nullptr);

@@ -54,6 +54,11 @@ struct RunOptions {
   /// A subsystem that is stuck for good when the run ends is a warning, no failure.
   bool accept_stuck = false;
   bool progress = false;            ///< a line on standard error that is rewritten
+  /// File that gets two lines if the process dies in the middle of the run: where it was ("robot.control.follow"),
+  /// and what has happened ("killed by SIGSEGV at address 0x0"). Empty: none.
+  std::string death_note;
+  int parent = 0;        ///< process whose end ends the run, as SIGTERM does; 0: none
+  bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
 };
 
 /// What a run came to.

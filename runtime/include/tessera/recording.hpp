@@ -20,7 +20,8 @@ enum class Fault : std::uint8_t {
   device = 5,      ///< a real receptor or effector has thrown or refused
   stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
   stall = 7,       ///< a transition function takes longer than its watchdog
-  overrun = 8      ///< its work has made the subsystem miss instants, which Overrun::fault forbids
+  overrun = 8,     ///< its work has made the subsystem miss instants, which Overrun::fault forbids
+  crash = 10       ///< the process has died in the subsystem, or ended by exit
 };
 /// What has happened to the safe command of a device.
 enum class SafeEvent : std::uint8_t {

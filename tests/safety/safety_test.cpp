@@ -1,0 +1,191 @@
+// Whatever happens to a controller, the last command of every device is the safe one: the rows of
+// docs/safety.md. TESSERA_SAFETY_RUNS=100 is the long form.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "trials.hpp"
+
+namespace tessera::safety_test {
+namespace {
+
+using After = Case::After;
+using Output = RobotProcess::Output;
+
+constexpr char ctrl_c = '\x03', ctrl_backslash = '\x1c', ctrl_z = '\x1a', ctrl_s = '\x13';
+
+std::int64_t hang_up(RobotProcess& robot) {
+  const std::int64_t now_ns = command_log::now_ns();
+  robot.hang_up();
+  return now_ns;
+}
+
+/// After Ctrl-S, or with a pipe that is full, a function that never returns.
+std::int64_t loop_behind_ctrl_s(RobotProcess& robot) {
+  robot.type(ctrl_s);
+  robot.do_harm(Harm::loop, Place::control);
+  return 0;
+}
+std::int64_t chatter_into_full_pipe(RobotProcess& robot) {
+  robot.stop_reading();
+  robot.do_harm(Harm::chatter, Place::control);
+  return command_log::now_ns();
+}
+std::int64_t chatter_into_closed_pipe(RobotProcess& robot) {
+  robot.hang_up();
+  robot.do_harm(Harm::chatter, Place::control);
+  return command_log::now_ns();
+}
+
+TEST(Safety, SignalsGiveTheSafeCommand) {
+  try_all({
+      {"SIGINT", sends(SIGINT)},
+      {"SIGTERM", sends(SIGTERM)},
+      {"SIGHUP", sends(SIGHUP)},
+      {"SIGQUIT", sends(SIGQUIT)},
+      {"SIGUSR1", sends(SIGUSR1)},
+      {"SIGUSR2", sends(SIGUSR2)},
+      {"SIGALRM", sends(SIGALRM)},
+      {"SIGVTALRM", sends(SIGVTALRM)},
+      {"SIGPROF", sends(SIGPROF)},
+      {"SIGIO", sends(SIGIO)},
+      {"SIGPWR", sends(SIGPWR)},
+      {"SIGXCPU", sends(SIGXCPU)},
+      {"SIGSTKFLT", sends(SIGSTKFLT)},
+      {"a real-time signal", sends(SIGRTMIN + 3)},
+      {"SIGPIPE", sends(SIGPIPE), After::goes_on},
+      {"SIGXFSZ", sends(SIGXFSZ), After::goes_on},
+      {"SIGTSTP", sends(SIGTSTP), After::halts},
+      {"Ctrl-C", types(ctrl_c)},
+      {"Ctrl-\\", types(ctrl_backslash)},
+      {"Ctrl-Z", types(ctrl_z), After::halts},
+      {"closed terminal", hang_up},
+  });
+}
+
+TEST(Safety, BlockedAndClosedOutputHoldsUpNothing) {
+  try_all({
+      {"endless loop behind Ctrl-S", loop_behind_ctrl_s, After::hangs},
+      {"full pipe", chatter_into_full_pipe, After::goes_on, Output::pipe},
+      {"closed pipe", chatter_into_closed_pipe, After::goes_on, Output::pipe},
+  });
+}
+
+/// What the robot does to itself, in a function of the controller and in one of the motor.
+void add(std::vector<Case>& cases, const std::string& name, Harm harm, const std::string& says) {
+  for (const Place place : {Place::control, Place::motor}) {
+    const bool control = place == Place::control;
+    Case one;
+    one.name = name + (control ? " in control" : " in motor");
+    one.strike = does(harm, place);
+    one.says = (control ? "robot.control.follow: " : "robot.motor.drive: ") + says;
+    one.arguments = {"--no-guardian"};  // the controller does it by itself
+    cases.push_back(one);
+  }
+}
+
+TEST(Safety, DeathsOfTheProcessGiveTheSafeCommandFirst) {
+  std::vector<Case> cases;
+  add(cases, "abort", Harm::abort, "killed by SIGABRT");
+  add(cases, "exit", Harm::exit, "called exit(0)");
+  add(cases, "quick_exit", Harm::quick_exit, "called quick_exit");
+  add(cases, "SIGSEGV", Harm::segv, "killed by SIGSEGV at address 0x0");
+  add(cases, "SIGBUS", Harm::bus, "killed by SIGBUS at address 0x");
+  add(cases, "SIGFPE", Harm::fpe, "killed by SIGFPE");
+  add(cases, "SIGILL", Harm::ill, "killed by SIGILL");
+  add(cases, "SIGSYS", Harm::sys, "killed by SIGSYS");
+  add(cases, "SIGTRAP", Harm::trap, "killed by SIGTRAP");
+  add(cases, "std::terminate", Harm::terminate, "killed by SIGABRT (std::terminate)");
+  add(cases, "stack overflow", Harm::stack_overflow, "killed by SIGSEGV at address 0x");
+  for (const auto& [name, harm, says] :
+       {std::tuple{"pthread_exit", Harm::pthread_exit, "pthread_exit"},
+        std::tuple{"throw of a number", Harm::throw_number, "an exception that is no std::exception"},
+        std::tuple{"no memory", Harm::out_of_memory, "bad_alloc"}})
+    for (const Place place : {Place::control, Place::motor})
+      cases.push_back({.name = std::string(name) + (place == Place::control ? " in control" : " in motor"),
+                       .strike = does(harm, place),
+                       .says = says,
+                       .arguments = {"--no-guardian"}});
+  try_all(cases);
+}
+
+/// The driver that dies holds the lock of its device.
+TEST(Safety, DeathsInsideADriverGiveTheSafeCommandFirst) {
+  std::vector<Case> cases;
+  for (const auto& [name, harm, says] :
+       {std::tuple{"abort in a driver", Harm::abort, "robot.motor.drive: killed by SIGABRT"},
+        std::tuple{"SIGSEGV in a driver", Harm::segv, "robot.motor.drive: killed by SIGSEGV at address 0x0"},
+        std::tuple{"exit in a driver", Harm::exit, "robot.motor.drive: called exit(0)"}})
+    cases.push_back({.name = name,
+                     .strike = does(harm, Place::driver),
+                     .says = says,
+                     .arguments = {"--no-guardian"}});
+  try_all(cases);
+}
+
+TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
+  const milliseconds watchdog_and_stale(150);
+  try_all({
+      {.name = "endless loop in control",
+       .strike = does(Harm::loop, Place::control),
+       .after = After::hangs,
+       .bar = watchdog_and_stale},
+      {.name = "endless loop in motor",
+       .strike = does(Harm::loop, Place::motor),
+       .after = After::hangs,
+       .bar = watchdog_and_stale},
+      {.name = "FIFO loop in control",
+       .strike = does(Harm::fifo_loop, Place::control),
+       .after = After::hangs,
+       .bar = watchdog_and_stale},
+  });
+}
+
+TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
+  const milliseconds stands_still(2600);
+  const std::string has_died = "the controller has died; the devices have got the safe command";
+  try_all({
+      {.name = "SIGKILL", .strike = sends(SIGKILL), .says = has_died},
+      {.name = "SIGKILL by itself", .strike = does(Harm::kill, Place::control), .says = has_died},
+      {.name = "_exit in control", .strike = does(Harm::underscore_exit, Place::control), .says = has_died},
+      {.name = "_exit in a driver", .strike = does(Harm::underscore_exit, Place::driver), .says = has_died},
+      {.name = "SIGSEGV with a guardian", .strike = does(Harm::segv, Place::motor), .says = has_died},
+      {.name = "SIGSTOP",
+       .strike = sends(SIGSTOP),
+       .after = After::halts,
+       .bar = stands_still,
+       .says = "the controller stands still, since it is stopped"},
+      {.name = "exec in control",
+       .strike = does(Harm::exec, Place::control),
+       .bar = stands_still,
+       .says = "the controller stands still, and is killed"},
+      {.name = "SIGTERM with a guardian", .strike = sends(SIGTERM)},
+  });
+}
+
+/// Without a terminal, so that nobody sends SIGHUP.
+TEST(Safety, ControllersDoNotOutliveTheirParent) {
+  const std::vector<std::string> run{std::string(TESSERA_BINARY_DIR) + "/tessera", "run",
+                                     project().folder.string()};
+  try_all({
+      {.name = "SIGKILL of tessera run",
+       .strike = sends(SIGKILL),
+       .output = Output::pipe,
+       .says = "the process that started the controller has ended",
+       .command = run},
+      {.name = "SIGSEGV below tessera run",
+       .strike = does(Harm::segv, Place::control),
+       .says = "tessera: error: the controller was killed by SIGSEGV at address 0x0 in robot.control.follow",
+       .command = run},
+      {.name = "_exit below tessera run",
+       .strike = does(Harm::underscore_exit, Place::control),
+       .says = "tessera: error: the controller has ended without a word",
+       .command = run},
+  });
+}
+
+}  // namespace
+}  // namespace tessera::safety_test

@@ -1,0 +1,163 @@
+#include "trials.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <random>
+#include <thread>
+
+namespace tessera::safety_test {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr unsigned workers = 3;
+constexpr milliseconds patience = seconds(30);  // for what must happen
+constexpr milliseconds still{150};              // so long must devices stay safe where nothing ends
+
+[[nodiscard]] unsigned runs() {
+  const char* const wanted = std::getenv("TESSERA_SAFETY_RUNS");
+  return wanted == nullptr ? 2 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
+}
+
+/// What came of one trial.
+struct Result {
+  std::string failure;  // empty: none
+  double latency_ms = 0;
+};
+
+[[nodiscard]] std::string description(const RobotProcess& robot) {
+  return fmt::format("\n--- the terminal ---\n{}\n---", robot.text());
+}
+
+void pass_random_time(RobotProcess& robot, std::mt19937& random) {
+  const milliseconds time(std::uniform_int_distribution<int>(0, 40)(random));
+  static_cast<void>(robot.await_end(time));
+}
+
+/// Empty, or what is wrong with how it went on.
+[[nodiscard]] std::string see_it_through(const Case& one, RobotProcess& robot, std::int64_t& event_ns) {
+  using After = Case::After;
+  if (one.after == After::goes_on) {
+    if (!robot.await_driving(3)) return "it does not drive on";
+    robot.read_again();
+    event_ns = command_log::now_ns();
+    robot.send(SIGTERM);
+  }
+  if (one.after == After::hangs || one.after == After::halts)
+    if (!robot.await_safe(still, patience)) return "the devices did not become safe";
+  if (one.after == After::hangs) return "";
+  if (one.after == After::halts) robot.send(SIGCONT);
+  if (!robot.await_end(patience)) return "the controller did not end";
+  if (!robot.await_nobody_left(patience)) return "somebody is left";
+  return robot.is_safe() ? "" : "the last command is not the safe one";
+}
+
+[[nodiscard]] Result try_once(const Case& one, std::mt19937& random) {
+  std::vector<std::string> command = one.command;
+  if (command.empty()) command = {project().controller.string(), "run"};
+  command.insert(command.end(), one.arguments.begin(), one.arguments.end());
+  RobotProcess robot(command, one.output, one.environment);
+  if (!robot.await_driving()) return {"it does not drive" + description(robot)};
+  pass_random_time(robot, random);
+  std::int64_t event_ns = one.strike(robot);
+  std::string failure = see_it_through(one, robot, event_ns);
+  if (event_ns == 0) event_ns = robot.struck_ns();
+  if (event_ns == 0) failure += " (the harm was not done)";
+  if (failure.empty() && robot.text().find(one.says) == std::string::npos)
+    failure = fmt::format("'{}' is not on the terminal", one.says);
+  if (!failure.empty()) return {failure + description(robot)};
+  return {"", std::max(0.0, static_cast<double>(robot.safe_since_ns() - event_ns) * 1e-6)};
+}
+
+struct Figures {
+  std::vector<double> latencies_ms;
+  std::vector<std::string> failures;
+};
+
+void print_line(const std::string& line) {
+  fmt::print("{}", line);
+  std::fflush(stdout);
+  if (const char* const file = std::getenv("TESSERA_SAFETY_TABLE"); file != nullptr)
+    std::ofstream(file, std::ios::app) << line;
+}
+
+void judge(const Case& one, Figures& figures) {
+  std::vector<double>& all = figures.latencies_ms;
+  std::sort(all.begin(), all.end());
+  const auto at = [&](double part) {
+    return all.empty() ? 0.0 : all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
+  };
+  const auto late = std::count_if(all.begin(), all.end(), [&](double latency) {
+    return latency > static_cast<double>(one.bar.count());
+  });
+  print_line(fmt::format("{:<34} {:>5} runs  p50 {:>7.1f} ms  max {:>7.1f} ms  over {} ms: {}  failed: {}\n",
+                         one.name, all.size() + figures.failures.size(), at(0.5), at(1), one.bar.count(),
+                         late, figures.failures.size()));
+  if (!figures.failures.empty()) ADD_FAILURE() << one.name << ": " << figures.failures.front();
+  const bool strict = std::getenv("TESSERA_SAFETY_STRICT") != nullptr;
+  EXPECT_TRUE(late == 0 || !strict) << one.name;
+}
+
+}  // namespace
+
+void try_all(const std::vector<Case>& cases) {
+  ASSERT_TRUE(fs::exists(project().controller));
+  std::vector<Figures> figures(cases.size());
+  std::atomic<std::size_t> next{0};
+  const std::size_t all = cases.size() * runs();
+  std::mutex writing;
+  const auto work = [&](unsigned seed) {
+    std::mt19937 random(seed);
+    for (std::size_t trial = next++; trial < all; trial = next++) {
+      const std::size_t index = trial % cases.size();
+      Result result;
+      try {
+        result = try_once(cases[index], random);
+      } catch (const std::exception& problem) {
+        result.failure = problem.what();
+      }
+      const std::lock_guard lock(writing);
+      if (result.failure.empty())
+        figures[index].latencies_ms.push_back(result.latency_ms);
+      else
+        figures[index].failures.push_back(result.failure);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned worker = 0; worker < workers; ++worker) threads.emplace_back(work, std::random_device()());
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t index = 0; index < cases.size(); ++index) judge(cases[index], figures[index]);
+}
+
+std::function<std::int64_t(RobotProcess&)> sends(int signal) {
+  return [signal](RobotProcess& robot) {
+    const std::int64_t now_ns = command_log::now_ns();
+    robot.send(signal);
+    return now_ns;
+  };
+}
+
+std::function<std::int64_t(RobotProcess&)> types(char key) {
+  return [key](RobotProcess& robot) {
+    const std::int64_t now_ns = command_log::now_ns();
+    robot.type(key);
+    return now_ns;
+  };
+}
+
+std::function<std::int64_t(RobotProcess&)> does(Harm harm, Place place) {
+  return [harm, place](RobotProcess& robot) {
+    robot.do_harm(harm, place);
+    return std::int64_t{0};
+  };
+}
+
+}  // namespace tessera::safety_test

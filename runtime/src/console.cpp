@@ -14,6 +14,7 @@
 #include "line_ring.hpp"
 #include "patient_output.hpp"
 #include "stop_signals.hpp"
+#include "service.hpp"
 #include "waker.hpp"
 
 namespace tessera::console {
@@ -24,6 +25,7 @@ constexpr std::int64_t patience_ns = 500'000'000;
 constexpr int look_up_ms = 50;
 
 std::atomic<bool> progress_shown{false}, silent{false};
+std::atomic<bool> to_journal{false};  // of the outermost Session
 
 /// Writes what is in the ring. Lives as long as the process: a thread that a driver of a terminal holds up
 /// may outlive its session.
@@ -171,6 +173,12 @@ template <std::size_t Size>
   return {line.data(), std::min(wanted, Size)};
 }
 
+/// As sd-daemon(3) says; empty: nobody reads it there.
+[[nodiscard]] const char* journal_level(LogLevel level) {
+  if (!to_journal.load(std::memory_order_relaxed)) return "";
+  return level == LogLevel::info ? "<6>" : level == LogLevel::warning ? "<4>" : "<3>";
+}
+
 [[nodiscard]] const char* erase_progress() {
   return progress_shown.exchange(false, std::memory_order_relaxed) ? "\r\x1b[K" : "";
 }
@@ -178,7 +186,9 @@ template <std::size_t Size>
 }  // namespace
 
 Session::Session(Overflow overflow) : outermost_(sessions++ == 0) {
-  if (outermost_) writer().begin(overflow);
+  if (!outermost_) return;
+  to_journal = writes_to_journal();
+  writer().begin(overflow);
 }
 
 Session::~Session() {
@@ -192,8 +202,9 @@ void print(LogLevel level, Time time, std::string_view path, std::string_view te
   if (silent.load(std::memory_order_relaxed)) return;
   std::array<char, longest_line> line;
   const char* mark = level == LogLevel::info ? "" : level == LogLevel::warning ? "warning: " : "error: ";
-  const auto end = fmt::format_to_n(line.data(), line.size(), "{}{:.3f} s  {}  {}{}\n", erase_progress(),
-                                    seconds(time.time_since_epoch()), path, mark, text);
+  const auto end =
+      fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}\n", journal_level(level),
+                       erase_progress(), seconds(time.time_since_epoch()), path, mark, text);
   writer().put(cut(line, end.size));
 }
 
@@ -206,6 +217,7 @@ void say(std::string_view text) {
 }
 
 void progress(std::string_view text) {
+  if (to_journal.load(std::memory_order_relaxed)) return;
   std::array<char, 256> line;
   progress_shown.store(true, std::memory_order_relaxed);
   writer().put_progress(cut(line, fmt::format_to_n(line.data(), line.size(), "\r{}\x1b[K", text).size));

@@ -16,6 +16,7 @@
 #include <typeinfo>
 
 #include "realtime.hpp"
+#include "service.hpp"
 
 namespace tessera {
 namespace {
@@ -139,7 +140,9 @@ void leave_note(const char* file, std::string_view text) {
 }  // namespace
 
 LastChance::LastChance(Assembly& assembly, const Clock& clock, Guardian* guardian)
-    : assembly_(assembly), clock_(clock), guardian_(guardian), on_terminal_(isatty(STDERR_FILENO) != 0) {
+    : assembly_(assembly), clock_(clock), guardian_(guardian), line_begin_(writes_to_journal()             ? "<2>"
+                  : isatty(STDERR_FILENO) != 0 ? "\r\x1b[K"  // away with the progress
+                                               : "") {
   const std::string& file = assembly.options.death_note;
   if (file.size() < note_file_.size()) std::copy(file.begin(), file.end(), note_file_.begin());
   const bool has_devices = std::ranges::any_of(
@@ -184,7 +187,7 @@ void LastChance::use(const Death& death) {
   if (SubsystemExecutor* const executor = RunningSubsystem::current(); executor != nullptr)
     executor->record_death(put(FMT_STRING("{}: {}{}"), place, what, effect));
   const double time_s = seconds(clock_.now().time_since_epoch());
-  tell(put(FMT_STRING("{}{:.3f} s  {}: {}{}\n"), on_terminal_ ? "\r\x1b[K" : "", time_s, place, what, effect));
+  tell(put(FMT_STRING("{}{:.3f} s  {}: {}{}\n"), line_begin_, time_s, place, what, effect));
 }
 
 void LastChance::tell(std::string_view text) const {

@@ -46,7 +46,7 @@ class LastChance {
   const Clock& clock_;
   Guardian* guardian_;
   std::array<char, 4096> note_file_{};
-  bool on_terminal_ = false;
+  const char* line_begin_;
   AlternateStack stack_;
   std::optional<Rescuer> rescuer_;
 };

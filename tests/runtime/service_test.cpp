@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -149,6 +150,34 @@ TEST(Service, GetsNoSignOfLifeWhileASubsystemStalls) {
   EXPECT_EQ(std::find(meanwhile.begin(), meanwhile.end(), "WATCHDOG=1"), meanwhile.end());
   const std::vector<std::string> after = there.all();
   EXPECT_NE(std::find(after.begin(), after.end(), "STOPPING=1"), after.end());
+}
+
+TEST(Service, WritesLinesWithTheirLevelIfStandardErrorIsTheJournal) {
+  const std::string file = scratch_file("journal");
+  const int before = dup(STDERR_FILENO), target = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  dup2(target, STDERR_FILENO);
+  struct stat status {};
+  fstat(STDERR_FILENO, &status);
+  for (const bool journal : {true, false}) {
+    const std::string inode = std::to_string(status.st_ino + (journal ? 0 : 1));
+    setenv("JOURNAL_STREAM", (std::to_string(status.st_dev) + ":" + inode).c_str(), 1);
+    const console::Session session;
+    console::progress("half way");
+    console::print(LogLevel::error, Time(1s), "robot.control", journal ? "to the journal" : "elsewhere");
+    console::print(LogLevel::warning, Time(1s), "robot.control", "careful");
+    console::print(LogLevel::info, Time(1s), "robot.control", "all is well");
+  }
+  unsetenv("JOURNAL_STREAM");
+  dup2(before, STDERR_FILENO);
+  close(before);
+  close(target);
+  const std::string text = bytes_of(file);
+  EXPECT_TRUE(text.starts_with("<3>1.000 s  robot.control  error: to the journal\n"
+                               "<4>1.000 s  robot.control  warning: careful\n"
+                               "<6>1.000 s  robot.control  all is well\n"))
+      << text;
+  EXPECT_EQ(text.find("<3>", 1), std::string::npos) << text;
+  EXPECT_NE(text.find("half way"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ struct Death {
   int number = 0;                 ///< of the signal, or the exit code
   const void* address = nullptr;  ///< of the memory access, if there was one
   bool has_address = false;
-  std::string_view detail{};      ///< what std::terminate was called for; empty: not by that
+  std::string_view detail{};  ///< what std::terminate was called for; empty: not by that
 };
 
 /// "killed by SIGSEGV at address 0x10", "called exit(0)". room: where the text stands. Async-signal-safe.

@@ -19,9 +19,9 @@ namespace tessera {
 /// It is forked before the first driver is made and before the run has threads, has a session of its own,
 /// ignores every signal that can be ignored, and ends with the controller.
 ///
-/// *Standing still*: the run has not called `beat` for stands_still_after. If the process is stopped (SIGSTOP,
-/// a debugger), the devices get their safe command, and `has_acted` says so when it goes on. Otherwise it is
-/// killed first, so that no other thread of it commands them afterwards.
+/// *Standing still*: the run has not called `beat` for stands_still_after. If the process is stopped
+/// (SIGSTOP, a debugger), the devices get their safe command, and `has_acted` says so when it goes on.
+/// Otherwise it is killed first, so that no other thread of it commands them afterwards.
 ///
 /// Threads: `announce_death` any, also in a signal handler; the rest the run's.
 class Guardian {

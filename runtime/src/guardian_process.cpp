@@ -1,8 +1,8 @@
 // The guardian's side: everything here runs in its own process, which has one thread.
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <fmt/format.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -50,8 +50,7 @@ struct Subject {
 };
 
 void say(const std::string& text) {
-  const std::string line =
-      fmt::format("{}tessera guardian: {}\n", writes_to_journal() ? "<3>" : "", text);
+  const std::string line = fmt::format("{}tessera guardian: {}\n", writes_to_journal() ? "<3>" : "", text);
   pollfd target{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (poll(&target, 1, 0) != 1 || (target.revents & POLLOUT) == 0) return;
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());

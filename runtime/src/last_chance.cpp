@@ -1,5 +1,6 @@
 #include "last_chance.hpp"
 
+#include <cxxabi.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -11,7 +12,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
-#include <cxxabi.h>
 #include <exception>
 #include <typeinfo>
 
@@ -140,7 +140,10 @@ void leave_note(const char* file, std::string_view text) {
 }  // namespace
 
 LastChance::LastChance(Assembly& assembly, const Clock& clock, Guardian* guardian)
-    : assembly_(assembly), clock_(clock), guardian_(guardian), line_begin_(writes_to_journal()             ? "<2>"
+    : assembly_(assembly),
+      clock_(clock),
+      guardian_(guardian),
+      line_begin_(writes_to_journal()          ? "<2>"
                   : isatty(STDERR_FILENO) != 0 ? "\r\x1b[K"  // away with the progress
                                                : "") {
   const std::string& file = assembly.options.death_note;

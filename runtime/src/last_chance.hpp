@@ -1,11 +1,12 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <sys/types.h>
 
 #include "assembly.hpp"
 #include "death.hpp"
@@ -20,8 +21,8 @@ namespace tessera {
 /// dump, exit status).
 ///
 /// Noticed are SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT (abort, std::terminate), SIGSYS and SIGTRAP, on every
-/// thread, also when its stack has overflowed (AlternateStack), and exit and quick_exit, which end the process
-/// with exit code 1. Not noticed are _exit and SIGKILL: that is what the Guardian is for.
+/// thread, also when its stack has overflowed (AlternateStack), and exit and quick_exit, which end the
+/// process with exit code 1. Not noticed are _exit and SIGKILL: that is what the Guardian is for.
 ///
 /// Threads: one object at a time per process, constructed and destroyed by the run's thread.
 class LastChance {
@@ -29,8 +30,8 @@ class LastChance {
   /// So long a dying thread waits for the devices.
   static constexpr Duration patience = std::chrono::milliseconds(500);
 
-  /// From now on. On the steady clock a thread waits to give devices their safe command. guardian: told of the
-  /// death; nullptr: none.
+  /// From now on. On the steady clock a thread waits to give devices their safe command. guardian: told of
+  /// the death; nullptr: none.
   LastChance(Assembly& assembly, const Clock& clock, Guardian* guardian);
   LastChance(const LastChance&) = delete;
   LastChance& operator=(const LastChance&) = delete;

@@ -45,9 +45,9 @@ void Liveness::resume() {
 }
 
 void Liveness::tell_status() {
-  manager_.status(stalled_ ? "a subsystem stalls: its transition function does not return"
-                           : fmt::format("{}: {} subsystems run", assembly_.system.name,
-                                         assembly_.executors.size()));
+  manager_.status(
+      stalled_ ? "a subsystem stalls: its transition function does not return"
+               : fmt::format("{}: {} subsystems run", assembly_.system.name, assembly_.executors.size()));
 }
 
 bool Liveness::somebody_stalls() const {

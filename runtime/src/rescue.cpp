@@ -24,7 +24,8 @@ thread_local constinit WayOut* way_out = nullptr;
 void block_all_signals() {
   sigset_t all;
   sigfillset(&all);
-  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP}) sigdelset(&all, deadly);
+  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
+    sigdelset(&all, deadly);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 

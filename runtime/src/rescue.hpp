@@ -31,8 +31,8 @@ class Rescuer {
   ~Rescuer();
 
   /// Wakes the thread and waits until it is done, or until the limit is over. dead: the device that the
-  /// calling thread was in, or nullptr (Effectors::device_in_call). Returns whether every device has taken its
-  /// safe command.
+  /// calling thread was in, or nullptr (Effectors::device_in_call). Returns whether every device has taken
+  /// its safe command.
   [[nodiscard]] bool rescue(const void* dead, Duration limit);
 
   /// If the calling thread is the one of a Rescuer that calls a driver, leaves that driver and does not

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 namespace tessera {
 namespace {
@@ -38,15 +39,13 @@ ServiceManager::ServiceManager() {
   const char* const name = std::getenv("NOTIFY_SOCKET");
   const std::size_t length = name == nullptr ? 0 : std::strlen(name);
   // A path, or the name of an abstract socket, which has no zero at its end.
-  const bool usable =
-      length > 1 && length < sizeof address_.sun_path && (name[0] == '/' || name[0] == '@');
+  const bool usable = length > 1 && length < sizeof address_.sun_path && (name[0] == '/' || name[0] == '@');
   if (usable) {
     address_.sun_family = AF_UNIX;
     std::copy_n(name, length, address_.sun_path);
     const bool abstract = name[0] == '@';
     if (abstract) address_.sun_path[0] = '\0';
-    address_bytes_ =
-        static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length + (abstract ? 0 : 1));
+    address_bytes_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length + (abstract ? 0 : 1));
     socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     // Twice in the manager's limit, as sd_watchdog_enabled(3) advises, and once more for a late wake-up.
     if (const std::optional<Duration> limit = watchdog_limit()) period_ = *limit / 3;
@@ -58,9 +57,7 @@ ServiceManager::~ServiceManager() {
   if (socket_ >= 0) close(socket_);
 }
 
-void ServiceManager::status(std::string_view text) {
-  send("STATUS=" + std::string(text));
-}
+void ServiceManager::status(std::string_view text) { send("STATUS=" + std::string(text)); }
 
 Time ServiceManager::beat(Time now) {
   if (!period_ || socket_ < 0) return Time::max();

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <sys/socket.h>
+#include <sys/un.h>
+
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <sys/socket.h>
-#include <sys/un.h>
 
 #include "tessera/time.hpp"
 

@@ -1,3 +1,5 @@
+#include "service.hpp"
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -16,7 +18,6 @@
 
 #include "console.hpp"
 #include "nets.hpp"
-#include "service.hpp"
 #include "test_system.hpp"
 
 namespace tessera::testing {
@@ -28,7 +29,8 @@ using namespace std::chrono_literals;
 class Manager {
  public:
   enum class Address : std::uint8_t { path, abstract };
-  explicit Manager(Address address = Address::abstract) : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  explicit Manager(Address address = Address::abstract)
+      : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     const std::string number = std::to_string(getpid());
     name_ = address == Address::path
                 ? (std::filesystem::temp_directory_path() / ("tessera_notify_" + number)).string()
@@ -172,9 +174,10 @@ TEST(Service, WritesLinesWithTheirLevelIfStandardErrorIsTheJournal) {
   close(before);
   close(target);
   const std::string text = bytes_of(file);
-  EXPECT_TRUE(text.starts_with("<3>1.000 s  robot.control  error: to the journal\n"
-                               "<4>1.000 s  robot.control  warning: careful\n"
-                               "<6>1.000 s  robot.control  all is well\n"))
+  EXPECT_TRUE(
+      text.starts_with("<3>1.000 s  robot.control  error: to the journal\n"
+                       "<4>1.000 s  robot.control  warning: careful\n"
+                       "<6>1.000 s  robot.control  all is well\n"))
       << text;
   EXPECT_EQ(text.find("<3>", 1), std::string::npos) << text;
   EXPECT_NE(text.find("half way"), std::string::npos) << text;

@@ -130,11 +130,10 @@ pid_t start(const std::vector<std::string>& command, const std::vector<std::stri
   sigfillset(&all);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                                           POSIX_SPAWN_SETSID));
+  posix_spawnattr_setflags(
+      &attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID));
   pid_t child = 0;
-  const int problem =
-      posix_spawn(&child, words[0], &actions, &attributes, words.data(), variables.data());
+  const int problem = posix_spawn(&child, words[0], &actions, &attributes, words.data(), variables.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (ends.theirs >= 0) close(ends.theirs);
@@ -211,8 +210,8 @@ bool RobotProcess::await_driving(unsigned commands) {
     return std::all_of(drove.begin(), drove.end(), [&](unsigned count) { return count >= commands; });
   };
   while (!enough() && Clock::now() < end && !await_end(milliseconds(0))) {
-    for (const std::uint64_t count = std::min<std::uint64_t>(log_->count, log_->commands.size()); seen < count;
-         ++seen) {
+    for (const std::uint64_t count = std::min<std::uint64_t>(log_->count, log_->commands.size());
+         seen < count; ++seen) {
       const command_log::Command& command = log_->commands[seen];
       if (command.at_ns.load(std::memory_order_acquire) == 0) break;
       if (command.value != 0) ++drove[command.device];

@@ -119,10 +119,8 @@ TEST(Safety, DeathsInsideADriverGiveTheSafeCommandFirst) {
        {std::tuple{"abort in a driver", Harm::abort, "robot.motor.drive: killed by SIGABRT"},
         std::tuple{"SIGSEGV in a driver", Harm::segv, "robot.motor.drive: killed by SIGSEGV at address 0x0"},
         std::tuple{"exit in a driver", Harm::exit, "robot.motor.drive: called exit(0)"}})
-    cases.push_back({.name = name,
-                     .strike = does(harm, Place::driver),
-                     .says = says,
-                     .arguments = {"--no-guardian"}});
+    cases.push_back(
+        {.name = name, .strike = does(harm, Place::driver), .says = says, .arguments = {"--no-guardian"}});
   try_all(cases);
 }
 
@@ -141,28 +139,6 @@ TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
        .strike = does(Harm::fifo_loop, Place::control),
        .after = After::hangs,
        .bar = watchdog_and_stale},
-  });
-}
-
-TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
-  const milliseconds stands_still(2600);
-  const std::string has_died = "the controller has died; the devices have got the safe command";
-  try_all({
-      {.name = "SIGKILL", .strike = sends(SIGKILL), .says = has_died},
-      {.name = "SIGKILL by itself", .strike = does(Harm::kill, Place::control), .says = has_died},
-      {.name = "_exit in control", .strike = does(Harm::underscore_exit, Place::control), .says = has_died},
-      {.name = "_exit in a driver", .strike = does(Harm::underscore_exit, Place::driver), .says = has_died},
-      {.name = "SIGSEGV with a guardian", .strike = does(Harm::segv, Place::motor), .says = has_died},
-      {.name = "SIGSTOP",
-       .strike = sends(SIGSTOP),
-       .after = After::halts,
-       .bar = stands_still,
-       .says = "the controller stands still, since it is stopped"},
-      {.name = "exec in control",
-       .strike = does(Harm::exec, Place::control),
-       .bar = stands_still,
-       .says = "the controller stands still, and is killed"},
-      {.name = "SIGTERM with a guardian", .strike = sends(SIGTERM)},
   });
 }
 

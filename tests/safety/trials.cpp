@@ -95,9 +95,8 @@ void judge(const Case& one, Figures& figures) {
   const auto at = [&](double part) {
     return all.empty() ? 0.0 : all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
   };
-  const auto late = std::count_if(all.begin(), all.end(), [&](double latency) {
-    return latency > static_cast<double>(one.bar.count());
-  });
+  const auto late = std::count_if(
+      all.begin(), all.end(), [&](double latency) { return latency > static_cast<double>(one.bar.count()); });
   print_line(fmt::format("{:<34} {:>5} runs  p50 {:>7.1f} ms  max {:>7.1f} ms  over {} ms: {}  failed: {}\n",
                          one.name, all.size() + figures.failures.size(), at(0.5), at(1), one.bar.count(),
                          late, figures.failures.size()));

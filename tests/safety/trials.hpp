@@ -21,10 +21,10 @@ struct Case {
   /// are safe, and the test kills what is left. halts: it is stopped, and ends when it is continued.
   enum class After : std::uint8_t { ends, goes_on, hangs, halts } after = After::ends;
   RobotProcess::Output output = RobotProcess::Output::terminal;
-  milliseconds bar{100};  ///< declared time from the event to the last safe command
-  std::string says{};     ///< what must stand on the terminal then
-  std::vector<std::string> arguments{};     ///< of the controller
-  std::vector<std::string> command{};       ///< in place of the controller
+  milliseconds bar{100};                 ///< declared time from the event to the last safe command
+  std::string says{};                    ///< what must stand on the terminal then
+  std::vector<std::string> arguments{};  ///< of the controller
+  std::vector<std::string> command{};    ///< in place of the controller
   std::vector<std::string> environment{};
 };
 

@@ -107,6 +107,9 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
              recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
   if (recording.segment.value_or(0) > 0)
     fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
+  if (recording.truncated)
+    fmt::print("its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
+  if (recording.lost > 0) fmt::print("{} events of the run are missing in it\n", recording.lost);
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
@@ -160,6 +163,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
           {"seed", recording.seed},
           {"events", recording.entries.size()},
           {"truncated", recording.truncated},
+          {"lost", recording.lost},
           {"subsystems", std::move(subsystems)}};
 }
 

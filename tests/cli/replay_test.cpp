@@ -21,6 +21,7 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   std::string bytes = content_of(folder_ / "threads.tsr");
   write(folder_ / "cut.tsr", bytes.substr(0, bytes.size() - 10));
   EXPECT_EQ(tessera("replay cut.tsr --check --spec 01_line_follower").code, 3);
+  EXPECT_NE(tessera("replay cut.tsr").text.find("its end is missing"), std::string::npos);
 
   replace(project / "spec.yaml", "init:", "start:");
   write(project / "src/control.cpp", "");

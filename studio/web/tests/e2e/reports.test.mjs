@@ -109,7 +109,7 @@ const shown = () =>
       };
     });
     return {
-      text: document.body.innerText,
+      text: document.body.innerText.replaceAll("\t", " "), // between cells
       language: document.documentElement.lang,
       height: document.documentElement.scrollHeight,
       tooWide: document.documentElement.scrollWidth - document.documentElement.clientWidth,
@@ -134,7 +134,7 @@ async function assertReport(file) {
   for (const { label, outside, shapes, points, wrong } of drawings) {
     assert.deepEqual(outside, [], `${label}: text outside`);
     assert.equal(wrong, "", label);
-    assert.ok(shapes > 3, `${label} is empty`);
+    assert.ok(shapes > 0, `${label} is empty`);
     if (label !== "Behaviours of each subsystem over time")
       assert.ok(points.reduce((sum, count) => sum + count, 0) > 100, `${label} has no curve`);
   }

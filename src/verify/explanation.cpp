@@ -126,12 +126,9 @@ class Explainer {
     if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
     if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
     std::vector<std::string> texts;
-    if (subsystem == concerned_.front()) {
-      if (lacks.front().empty())
-        for (const net::Arc& arc : net_.preset(stuck_.front()))
-          if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
-      return texts;
-    }
+    if (subsystem == concerned_.front() && lacks.front().empty())
+      for (const net::Arc& arc : net_.preset(stuck_.front()))
+        if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
     for (std::size_t other = 0; other < lacks.size(); ++other)
       for (const std::uint32_t place : lacks[other])
         if (waits.givers(place, concerned_[other]).contains(subsystem))

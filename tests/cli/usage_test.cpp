@@ -23,7 +23,8 @@ TEST_F(Usage, ExitCodesTellMistakesInTheFileFromMistakesInTheCall) {
 TEST_F(Usage, AFileThatCannotBeReadIsNoViolation) {
   write(folder_ / "text.yaml", "tessera: [1\n");
   write(folder_ / "wrong.yaml", "tessera: 1\nsystem: x\nagents: { a: { kontrol: {} } }\n");
-  for (const char* command : {"check", "check --json -", "verify", "generate", "show", "export", "simulate"}) {
+  for (const char* command :
+       {"check", "check --json -", "verify", "generate", "show", "export --pnml net.pnml", "simulate"}) {
     SCOPED_TRACE(command);
     EXPECT_EQ(tessera(std::string(command) + " text.yaml").code, 2);
     EXPECT_EQ(tessera(std::string(command) + " nowhere.yaml").code, 2);

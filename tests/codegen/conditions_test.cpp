@@ -173,7 +173,7 @@ agents:
 )";
   const Ran ran = compile(spec, "-S -o unused.s");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
-  EXPECT_THAT(generate(spec)["robot.control.cpp"], testing::Not(HasSubstr("memory.m")));
+  EXPECT_THAT(generate(spec)["robot.control.cpp"], testing::Not(HasSubstr("a_next_2")));
 }
 
 TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {

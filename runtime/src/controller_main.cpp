@@ -10,6 +10,7 @@
 #include "console.hpp"
 #include "redrive.hpp"
 #include "schedules.hpp"
+#include "stop_signals.hpp"
 #include "summary_text.hpp"
 #include "tessera/controller.hpp"
 
@@ -80,7 +81,8 @@ int controller_main(const System& system, int argc, char** argv) try {
   const std::optional<RunSummary> summary = execute(system, line.options, error);
   if (!summary) {
     fmt::print(stderr, "error: {}\n", error);
-    return exit_failed;
+    const int signal = StopSignals::pending();  // one may have come while devices were opened
+    return signal == 0 ? exit_failed : exit_signal + signal;
   }
   return report(*summary, line);
 } catch (const std::exception& exception) {

@@ -77,7 +77,7 @@ class Recordings : public Command {
   [[nodiscard]] replay::Legality check(const fs::path& file) const {
     std::string error;
     const std::optional<Recording> recording = read_recording(file.string(), error);
-    if (!recording) return {.verdict = Verdict::illegal, .why = error};
+    if (!recording) return {.verdict = Verdict::illegal, .why = error, .firings = 0, .marking = {}};
     return replay::check_legal(*recording, nets_->flat);
   }
   /// The command that makes a recording of `milliseconds`.
@@ -91,7 +91,7 @@ class Recordings : public Command {
   void be_busy() {
     const Load load(4);
     const fs::path file = fresh();
-    const project::Exit ran = shell(record(file, 50 + random_() % 200, "--record-limit 16kBx2000"));
+    const project::Exit ran = shell(record(file, 50 + below(200), "--record-limit 16kBx2000"));
     ASSERT_EQ(ran.code, 0) << ran.text;
     const replay::Legality whole = check(file);
     EXPECT_EQ(whole.verdict, Verdict::legal) << whole.why;
@@ -100,17 +100,18 @@ class Recordings : public Command {
   void be_killed(const std::string& limit) {
     const fs::path file = fresh();
     static_cast<void>(
-        shell(fmt::format("timeout -s KILL 0.{:03} {}", 20 + random_() % 400, record(file, 60'000, limit))));
+        shell(fmt::format("timeout -s KILL 0.{:03} {}", 20 + below(400), record(file, 60'000, limit))));
     expect_cut_off(file);
   }
   /// The disk is full for this process only, at any number of blocks of 512 bytes.
   void run_out_of_space(const std::string& limit) {
     const fs::path file = fresh();
     static_cast<void>(
-        shell(fmt::format("trap '' XFSZ; ulimit -f {}; {}", 10 + random_() % 60, record(file, 250, limit))));
+        shell(fmt::format("trap '' XFSZ; ulimit -f {}; {}", 10 + below(60), record(file, 250, limit))));
     expect_cut_off(file, Verdict::legal);  // when it ends before the disk is full
   }
 
+  [[nodiscard]] unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
   [[nodiscard]] fs::path fresh() const {
     fs::remove_all(folder_ / "recorded");
     fs::create_directories(folder_ / "recorded");
@@ -145,8 +146,8 @@ TEST_F(Recordings, OnABusyMachineAreLegalAndThoseOfKilledControllersAndFullDisks
   for (unsigned number = 0; number < recordings() && !HasFailure(); ++number) {
     SCOPED_TRACE(number);
     be_busy();
-    be_killed(random_() % 2 == 0 ? "" : "--record-limit 16kBx2000");
-    run_out_of_space(random_() % 2 == 0 ? "" : "--record-limit 16kBx2000");
+    be_killed(below(2) == 0 ? "" : "--record-limit 16kBx2000");
+    run_out_of_space(below(2) == 0 ? "" : "--record-limit 16kBx2000");
   }
   EXPECT_GT(segments_, recordings());
 }

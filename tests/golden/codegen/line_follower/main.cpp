@@ -3,4 +3,6 @@
 
 #include "system.hpp"
 
-int main(int argc, char** argv) { return tessera::controller_main(line_follower::system(), argc, argv); }
+int main(int argc, char** argv) {
+  return tessera::controller_main(tessera_generated::system(), argc, argv);
+}

@@ -6,13 +6,16 @@
 #include "robot/control.hpp"
 #include "subsystems.hpp"
 
-namespace line_follower::robot::control {
+namespace tessera_generated::units::robot::control {
 namespace {
+
+namespace yours = ::line_follower::robot::control;
 
 enum class Behaviour : std::uint16_t { init, follow };
 
 /// The user's functions and the conditions of robot.control, by number.
-class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Parameters, Context> {
+class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory, yours::Outputs,
+                                                    yours::Parameters, yours::Context> {
  public:
   void bind(tessera::Bindings& bindings) override {
     bindings.input("line", in.line);
@@ -24,9 +27,9 @@ class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Par
   void call(std::uint16_t behaviour) override {
     switch (static_cast<Behaviour>(behaviour)) {
       case Behaviour::init:
-        return control::init(context_, in, memory, out);
+        return yours::init(context_, in, memory, out);
       case Behaviour::follow:
-        return control::follow(context_, in, memory, out);
+        return yours::follow(context_, in, memory, out);
     }
   }
 
@@ -104,4 +107,4 @@ const tessera::Transition transitions[] = {
 const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
 std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
 
-}  // namespace line_follower::robot::control
+}  // namespace tessera_generated::units::robot::control

@@ -6,13 +6,16 @@
 #include "robot/motor.hpp"
 #include "subsystems.hpp"
 
-namespace line_follower::robot::motor {
+namespace tessera_generated::units::robot::motor {
 namespace {
+
+namespace yours = ::line_follower::robot::motor;
 
 enum class Behaviour : std::uint16_t { drive };
 
 /// The user's functions and the conditions of robot.motor, by number.
-class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Parameters, Context> {
+class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory, yours::Outputs,
+                                                    yours::Parameters, yours::Context> {
  public:
   void bind(tessera::Bindings& bindings) override {
     bindings.real_output("left", out.left, double{0.0});
@@ -27,7 +30,7 @@ class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Par
   void call(std::uint16_t behaviour) override {
     switch (static_cast<Behaviour>(behaviour)) {
       case Behaviour::drive:
-        return motor::drive(context_, in, memory, out);
+        return yours::drive(context_, in, memory, out);
     }
   }
 
@@ -76,4 +79,4 @@ const tessera::Transition transitions[] = {
 const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
 std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
 
-}  // namespace line_follower::robot::motor
+}  // namespace tessera_generated::units::robot::motor

@@ -6,13 +6,16 @@
 #include "robot/sensor.hpp"
 #include "subsystems.hpp"
 
-namespace line_follower::robot::sensor {
+namespace tessera_generated::units::robot::sensor {
 namespace {
+
+namespace yours = ::line_follower::robot::sensor;
 
 enum class Behaviour : std::uint16_t { watch };
 
 /// The user's functions and the conditions of robot.sensor, by number.
-class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Parameters, Context> {
+class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory, yours::Outputs,
+                                                    yours::Parameters, yours::Context> {
  public:
   void bind(tessera::Bindings& bindings) override {
     bindings.real_input("left", in.left);
@@ -27,7 +30,7 @@ class Subsystem final : public tessera::SubsystemOf<Inputs, Memory, Outputs, Par
   void call(std::uint16_t behaviour) override {
     switch (static_cast<Behaviour>(behaviour)) {
       case Behaviour::watch:
-        return sensor::watch(context_, in, memory, out);
+        return yours::watch(context_, in, memory, out);
     }
   }
 
@@ -75,4 +78,4 @@ const tessera::Transition transitions[] = {
 const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
 std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
 
-}  // namespace line_follower::robot::sensor
+}  // namespace tessera_generated::units::robot::sensor

@@ -6,23 +6,23 @@
 
 // What each subsystem executes, and how to make one: robot.control.cpp.
 
-namespace line_follower::robot::control {
+namespace tessera_generated::units::robot::control {
 struct Part {
   static const tessera::SubsystemNet net;
   static std::unique_ptr<tessera::Subsystem> make();
 };
-}  // namespace line_follower::robot::control
+}  // namespace tessera_generated::units::robot::control
 
-namespace line_follower::robot::sensor {
+namespace tessera_generated::units::robot::sensor {
 struct Part {
   static const tessera::SubsystemNet net;
   static std::unique_ptr<tessera::Subsystem> make();
 };
-}  // namespace line_follower::robot::sensor
+}  // namespace tessera_generated::units::robot::sensor
 
-namespace line_follower::robot::motor {
+namespace tessera_generated::units::robot::motor {
 struct Part {
   static const tessera::SubsystemNet net;
   static std::unique_ptr<tessera::Subsystem> make();
 };
-}  // namespace line_follower::robot::motor
+}  // namespace tessera_generated::units::robot::motor

@@ -9,16 +9,16 @@
 
 static_assert(tessera::tables_version == 1, "made for another version of Tessera: generate it again");
 
-namespace line_follower {
+namespace tessera_generated {
 namespace {
 
 using namespace std::chrono_literals;
 
 // clang-format off
 constexpr tessera::Instance instances[] = {
-    {"robot", "control", tessera::Kind::control, &robot::control::Part::net, robot::control::Part::make, 50ms},
-    {"robot", "sensor", tessera::Kind::receptor, &robot::sensor::Part::net, robot::sensor::Part::make, 20ms},
-    {"robot", "motor", tessera::Kind::effector, &robot::motor::Part::net, robot::motor::Part::make, 20ms, 500ms},
+    {"robot", "control", tessera::Kind::control, &units::robot::control::Part::net, units::robot::control::Part::make, 50ms},
+    {"robot", "sensor", tessera::Kind::receptor, &units::robot::sensor::Part::net, units::robot::sensor::Part::make, 20ms},
+    {"robot", "motor", tessera::Kind::effector, &units::robot::motor::Part::net, units::robot::motor::Part::make, 20ms, 500ms},
 };
 
 constexpr tessera::Channel channels[] = {
@@ -42,4 +42,4 @@ constexpr tessera::System whole{
 
 const tessera::System& system() { return whole; }
 
-}  // namespace line_follower
+}  // namespace tessera_generated

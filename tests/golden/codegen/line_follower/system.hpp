@@ -3,9 +3,13 @@
 
 #include <tessera/tables.hpp>
 
-namespace line_follower {
+namespace tessera_generated {
 
 /// The whole controller, for tessera::execute and tests.
 [[nodiscard]] const tessera::System& system();
 
+}  // namespace tessera_generated
+
+namespace line_follower {
+using tessera_generated::system;
 }  // namespace line_follower

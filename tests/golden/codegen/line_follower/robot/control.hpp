@@ -4,7 +4,7 @@
 #include <tessera/buffer.hpp>
 #include <tessera/context.hpp>
 
-#include "types.hpp"
+#include "../types.hpp"
 
 /// Control subsystem robot.control, every 50ms; spec.yaml:13
 namespace line_follower::robot::control {

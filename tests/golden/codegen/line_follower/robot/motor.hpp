@@ -4,7 +4,7 @@
 #include <tessera/buffer.hpp>
 #include <tessera/context.hpp>
 
-#include "types.hpp"
+#include "../types.hpp"
 
 /// Virtual effector robot.motor, every 20ms; spec.yaml:28
 namespace line_follower::robot::motor {

@@ -4,7 +4,7 @@
 #include <tessera/buffer.hpp>
 #include <tessera/context.hpp>
 
-#include "types.hpp"
+#include "../types.hpp"
 
 /// Virtual receptor robot.sensor, every 20ms; spec.yaml:21
 namespace line_follower::robot::sensor {

@@ -18,6 +18,9 @@ void add_run(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_studio(CLI::App& app, int& exit_code);
 void add_top(CLI::App& app, int& exit_code);
+void add_set(CLI::App& app, int& exit_code);
+void add_emergency_stop(CLI::App& app, int& exit_code);
+void add_reset(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 
 }  // namespace tessera::cli

@@ -1,113 +1,24 @@
 #include <fmt/core.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
-#include "tessera/monitor.hpp"
 
 namespace tessera::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Options {
   std::string which;
   bool once = false, lines = false;
 };
-
-/// The stream of lines that a running controller sends.
-class Watched {
- public:
-  /// nullopt: nobody listens there.
-  static std::optional<Watched> attach(const fs::path& socket_file) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    const std::string name = socket_file.string();
-    if (name.size() >= sizeof address.sun_path) return std::nullopt;
-    std::memcpy(address.sun_path, name.c_str(), name.size() + 1);
-    Watched watched(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    const auto* raw = reinterpret_cast<const sockaddr*>(&address);
-    if (watched.descriptor_ < 0 || connect(watched.descriptor_, raw, sizeof address) != 0)
-      return std::nullopt;
-    return watched;
-  }
-  Watched(Watched&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), pending_(std::move(other.pending_)) {}
-  Watched(const Watched&) = delete;
-  Watched& operator=(const Watched&) = delete;
-  Watched& operator=(Watched&&) = delete;
-  ~Watched() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-
-  /// The next line; nullopt: the controller has ended.
-  std::optional<std::string> line() {
-    for (;;) {
-      if (const std::size_t end = pending_.find('\n'); end != std::string::npos) {
-        std::string line = pending_.substr(0, end);
-        pending_.erase(0, end + 1);
-        return line;
-      }
-      char bytes[65536];
-      const ssize_t count = read(descriptor_, bytes, sizeof bytes);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return std::nullopt;
-      pending_.append(bytes, static_cast<std::size_t>(count));
-    }
-  }
-
- private:
-  explicit Watched(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
-  std::string pending_;
-};
-
-/// The sockets of controllers that `which` (a system, a process, or empty for any) may mean.
-std::vector<fs::path> sockets(const std::string& which) {
-  std::vector<fs::path> found;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(monitor_folder(), none)) {
-    const std::string name = entry.path().filename().string();  // SYSTEM.PID.sock
-    if (!name.ends_with(".sock")) continue;
-    if (which.empty() || name.starts_with(which + ".") || name.ends_with("." + which + ".sock"))
-      found.push_back(entry.path());
-  }
-  std::ranges::sort(found);
-  return found;
-}
-
-/// nullopt after the reason has been printed.
-std::optional<Watched> attach(const std::string& which) {
-  std::vector<Watched> running;
-  std::string names;
-  for (const fs::path& file : sockets(which)) {
-    std::optional<Watched> watched = Watched::attach(file);
-    if (!watched) continue;  // left behind by a process that was killed
-    running.push_back(std::move(*watched));
-    names += (names.empty() ? "" : ", ") + file.stem().string();
-  }
-  if (running.size() == 1) return std::move(running.front());
-  if (running.empty())
-    complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
-             " in real time as this user; `tessera run` starts one");
-  else
-    complain("several controllers are running (" + names + "): name one, by its system or its process");
-  return std::nullopt;
-}
 
 // ---------------------------------------------------------------------------------------------- table
 
@@ -158,7 +69,7 @@ std::string table(const json& now, const json& before) {
 }
 
 int top_command(const Options& options) {
-  std::optional<Watched> watched = attach(options.which);
+  std::optional<RunningController> watched = find_controller(options.which);
   if (!watched) return failed;
   json before;
   while (const std::optional<std::string> line = watched->line()) {

@@ -36,6 +36,8 @@ const char* kind_of(const Event& event) {
       return "end";
     case Event::Kind::safe:
       return "safe";
+    case Event::Kind::parameter:
+      return "parameter";
   }
   return "";
 }
@@ -75,6 +77,8 @@ std::string prefix_of(const Event& event) {
       return "";
     case Event::Kind::stop:
       return "stop: ";
+    case Event::Kind::parameter:
+      return "parameter: ";
     case Event::Kind::overrun:
       return "overrun: ";
     case Event::Kind::call:

@@ -184,11 +184,13 @@ class Assembler {
     return assembly_.scenario.has_value();
   }
 
-  bool set_values() {
-    std::vector<ParameterOwner> owners;
-    for (const SubsystemParts& parts : parts_) owners.push_back({parts.path, parts.bindings.parameters});
-    return set_parameters(owners, assembly_.options.parameters, error_);
+  [[nodiscard]] std::vector<ParameterOwner> owners() const {
+    std::vector<ParameterOwner> all;
+    for (const SubsystemParts& parts : parts_) all.push_back({parts.path, parts.bindings.parameters});
+    return all;
   }
+
+  bool set_values() { return set_parameters(owners(), assembly_.options.parameters, error_); }
 
   bool open_devices() {
     error_.clear();
@@ -371,8 +373,10 @@ class Assembler {
   }
 
   bool make_executors() {
+    assembly_.changes = std::make_unique<ParameterChanges>(owners());
     for (std::uint32_t index = 0; index < parts_.size(); ++index) {
       RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
+      parts_[index].changes = assembly_.changes.get();
       assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
           index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
           SubsystemExecutor::Shared{assembly_.control, clock_, *waker_, assembly_.options.monitor}, lane));

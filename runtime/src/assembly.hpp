@@ -9,6 +9,7 @@
 #include "devices.hpp"
 #include "flat_net.hpp"
 #include "injection.hpp"
+#include "parameter_changes.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
 #include "scenario.hpp"
@@ -36,6 +37,7 @@ struct Assembly {
   std::optional<Scenario> scenario;
   Injections faults;
   InjectedSignals signals;
+  std::unique_ptr<ParameterChanges> changes;  ///< made with the executors, which take them
   std::vector<std::unique_ptr<SharedChannel>> channels;
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };

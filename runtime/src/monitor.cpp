@@ -239,7 +239,10 @@ std::string Monitor::answer_to(const nlohmann::json& command) {
   std::int64_t id = 0;
   try {
     id = command.value("id", id);
-    wrong = remote_ == nullptr ? "a controller in real time can only be watched" : remote_->command(command);
+    if (command.value("command", "") == "set")
+      wrong = assembly_.changes->ask(command.at("path"), command.at("value"));
+    else
+      wrong = remote_ == nullptr ? "a controller in real time cannot be paused" : remote_->command(command);
   } catch (const nlohmann::json::exception&) {  // members of another type
   }
   return text_of({{"answer", id}, {"error", wrong}}) + '\n';

@@ -119,7 +119,16 @@ std::string_view Operations::place_of_call(std::uint16_t behaviour) const {
 // -------------------------------------------------------------------------------------------- transition
 // function
 
+void Operations::take_changes(Time now) {
+  if (parts_.changes == nullptr) return;
+  parts_.changes->take(parts_.index, [&](const std::string& change) {
+    if (lane_ != nullptr) lane_->text(Event::Kind::parameter, now, 0, change);
+    console::print(LogLevel::info, now, "tessera", change);
+  });
+}
+
 void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t missed) {
+  take_changes(now);
   behaviour_ = behaviour;
   called_at_ = now;
   failed_ = false;

@@ -10,6 +10,7 @@
 #include "clock.hpp"
 #include "effectors.hpp"
 #include "injection.hpp"
+#include "parameter_changes.hpp"
 #include "recorder.hpp"
 #include "run_control.hpp"
 #include "shared_channel.hpp"
@@ -40,6 +41,7 @@ struct SubsystemParts {
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
   std::unique_ptr<ValueRecorder> values;                 ///< nullptr: they are not recorded
+  ParameterChanges* changes = nullptr;                   ///< nullptr: parameters stay as they are
 };
 
 /// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code.
@@ -132,6 +134,7 @@ class Operations final : public ContextServices {
   [[nodiscard]] std::uint64_t errors() const { return errors_; }
 
  private:
+  void take_changes(Time now);
   void read_receptors(Time now);
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void write_effectors(Time now);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "nearest.hpp"
@@ -110,26 +111,6 @@ template <class Number>
   return "";
 }
 
-/// What is wrong with one assignment; empty: nothing.
-[[nodiscard]] std::string assign(std::span<const ParameterOwner> owners, const std::string& path,
-                                 const std::string& value) {
-  const std::size_t dot = path.rfind('.');
-  const std::string_view name =
-      dot == std::string::npos ? std::string_view(path) : std::string_view(path).substr(dot + 1);
-  bool found = false;
-  for (const ParameterOwner& owner : owners) {
-    if (dot != std::string::npos && !matches(std::string_view(path).substr(0, dot), owner.path)) continue;
-    for (const Parameter& parameter : owner.parameters) {
-      if (parameter.name != name) continue;
-      found = true;
-      if (const std::string wrong = store(parameter, value); !wrong.empty())
-        return fmt::format("parameter {} = {}: {} {}", path, value, value.empty() ? "nothing" : value, wrong);
-    }
-  }
-  if (found) return "";
-  return fmt::format("unknown parameter '{}'{}", path, did_you_mean(path, names_of(owners)));
-}
-
 [[nodiscard]] std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return "";
@@ -138,12 +119,39 @@ template <class Number>
 
 }  // namespace
 
+std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
+                            const std::string& value, std::vector<CheckedValue>& checked) {
+  const std::size_t dot = path.rfind('.');
+  const std::string_view name =
+      dot == std::string::npos ? std::string_view(path) : std::string_view(path).substr(dot + 1);
+  std::vector<CheckedValue> found;
+  for (std::uint32_t index = 0; index < owners.size(); ++index) {
+    const ParameterOwner& owner = owners[index];
+    if (dot != std::string::npos && !matches(std::string_view(path).substr(0, dot), owner.path)) continue;
+    for (const Parameter& parameter : owner.parameters) {
+      if (parameter.name != name) continue;
+      CheckedValue one{index, parameter, std::vector<std::byte>(parameter.size)};
+      Parameter scratch = parameter;
+      scratch.value = one.bytes.data();
+      if (const std::string wrong = store(scratch, value); !wrong.empty())
+        return fmt::format("parameter {} = {}: {} {}", path, value, value.empty() ? "nothing" : value, wrong);
+      found.push_back(std::move(one));
+    }
+  }
+  if (found.empty())
+    return fmt::format("unknown parameter '{}'{}", path, did_you_mean(path, names_of(owners)));
+  std::ranges::move(found, std::back_inserter(checked));
+  return "";
+}
+
 bool set_parameters(std::span<const ParameterOwner> owners,
                     std::span<const std::pair<std::string, std::string>> values, std::string& error) {
   error.clear();
+  std::vector<CheckedValue> checked;
   for (const auto& [path, value] : values)
-    if (const std::string wrong = assign(owners, path, value); !wrong.empty())
+    if (const std::string wrong = check_parameter(owners, path, value, checked); !wrong.empty())
       error += (error.empty() ? "" : "\n") + wrong;
+  for (const CheckedValue& one : checked) one.give();
   return error.empty();
 }
 

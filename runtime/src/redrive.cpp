@@ -131,7 +131,7 @@ class Play {
       const std::uint32_t instance = entry.event.instance();
       if (instance >= last.size()) continue;
       const Event::Kind kind = entry.event.kind();
-      if (kind == Event::Kind::firing || kind == Event::Kind::call) {
+      if (kind == Event::Kind::firing || kind == Event::Kind::call || kind == Event::Kind::parameter) {
         last[instance] = all.size();
         all.push_back({&entry, {}});
       } else if (last[instance] != SIZE_MAX) {

@@ -109,10 +109,23 @@ SubsystemParts RedrivenSubsystem::with_devices(SubsystemParts parts) const {
 
 void RedrivenSubsystem::play(const RecordedMoment& moment) {
   at_ = Time(Duration(moment.head->event.time_ns));
-  if (moment.head->event.kind() == Event::Kind::call)
+  if (moment.head->event.kind() == Event::Kind::parameter)
+    set_parameter(moment.head->text);
+  else if (moment.head->event.kind() == Event::Kind::call)
     call(moment);
   else
     fire(moment);
+}
+
+/// "robot.control.v=0.3"
+void RedrivenSubsystem::set_parameter(const std::string& change) {
+  finish_call();
+  const std::size_t equals = change.find('=');
+  if (equals == std::string::npos) return differ("a parameter", change, "nothing that can be set");
+  const std::pair<std::string, std::string> one{change.substr(0, equals), change.substr(equals + 1)};
+  const ParameterOwner owner{parts().path, parts().bindings.parameters};
+  std::string wrong;
+  if (!set_parameters({&owner, 1}, {&one, 1}, wrong)) differ("a parameter", change, wrong);
 }
 
 void RedrivenSubsystem::call(const RecordedMoment& moment) {

@@ -59,6 +59,7 @@ class RedrivenSubsystem {
 
   [[nodiscard]] const SubsystemParts& parts() const { return operations_.parts(); }
   [[nodiscard]] SubsystemParts with_devices(SubsystemParts parts) const;
+  void set_parameter(const std::string& change);
   void call(const RecordedMoment& moment);
   void finish_call();
   template <class Wanted>

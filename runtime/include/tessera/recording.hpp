@@ -56,6 +56,7 @@ struct Event {
     /// Not counted in `sequence`.
     marking = 8,
     safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: the SafeEvent
+    parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
     /// The last of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
@@ -105,7 +106,7 @@ struct Recording {
   };
   struct Entry {
     Event event;
-    std::string text;  ///< of log, stop, fault and safe; the bytes of a value
+    std::string text;  ///< of log, stop, fault, safe and parameter; the bytes of a value
   };
   enum class Direction : std::uint8_t { input, output, real_input, real_output };
   struct Buffer {

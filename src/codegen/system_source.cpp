@@ -29,6 +29,7 @@ std::string policies(const spec::Subsystem& subsystem) {
     members.push_back(fmt::format(".overrun = tessera::Overrun::{}",
                                   overruns[static_cast<std::size_t>(subsystem.overrun)]));
   if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
+  if (subsystem.operator_resets) members.emplace_back(".operator_resets = true");
   if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");
   if (subsystem.realtime) {
     const spec::RealTime& real = *subsystem.realtime;

@@ -153,6 +153,8 @@ struct Subsystem {
   std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
   std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
   std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
+  /// effector: a fault or a stale input begins an emergency stop, which an operator ends
+  bool operator_resets = false;
   Overrun overrun = Overrun::skip;
   std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
   bool non_finite_allowed = false;   ///< outputs may be infinite or not a number

@@ -69,6 +69,8 @@ void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& ou
   }
   if (const Entry* watchdog = section.find("watchdog"))
     subsystem.watchdog = read_duration(*watchdog->value, watchdog->span, "watchdog", out);
+  if (const Entry* recovery = section.find("recovery"))
+    subsystem.operator_resets = read_choice(*recovery, {"automatic", "operator"}, out) == 1;
   if (const Entry* non_finite = section.find("non_finite"))
     subsystem.non_finite_allowed = read_choice(*non_finite, {"fault", "allowed"}, out) == 1;
   if (const Entry* realtime = section.find("realtime")) subsystem.realtime = read_realtime(*realtime, out);

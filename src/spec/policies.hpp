@@ -5,7 +5,7 @@
 
 namespace tessera::spec {
 
-/// What a subsystem does about time and faults: `overrun`, `watchdog`, `non_finite`, `realtime`.
+/// What a subsystem does about time and faults: `overrun`, `watchdog`, `recovery`, `non_finite`, `realtime`.
 ///
 /// Errors: E104 not among the choices; E110 `overrun` without a rate; E204 a priority outside 1 .. 99, a cpu
 /// outside 0 .. 1023, or neither a number; E205, E206 of durations.

@@ -25,7 +25,8 @@ struct SpecialKey {
 };
 constexpr std::array special_keys = {SpecialKey{"real", true, "receptors and effectors"},
                                      SpecialKey{"safe", false, "effectors"},
-                                     SpecialKey{"stale", false, "effectors"}};
+                                     SpecialKey{"stale", false, "effectors"},
+                                     SpecialKey{"recovery", false, "effectors"}};
 
 void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
   for (const SpecialKey& key : special_keys) {
@@ -116,7 +117,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
                          Diagnostics& out) {
   const Section section(*entry.value, entry.span, "a subsystem",
                         {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real",
-                         "safe", "stale", "overrun", "watchdog", "non_finite", "realtime"},
+                         "safe", "stale", "recovery", "overrun", "watchdog", "non_finite", "realtime"},
                         out);
   check_kind(section, kind, out);
   Subsystem subsystem;

@@ -101,6 +101,7 @@ struct RealTime {
 struct Policies {
   Overrun overrun = Overrun::skip;
   Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: none is
+  bool operator_resets = false;     ///< effector: a fault or a stale input begins an emergency stop
   bool non_finite_allowed = false;  ///< outputs to channels may be infinite or not a number
   RealTime realtime{};
 };

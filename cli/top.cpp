@@ -49,6 +49,9 @@ std::string table(const json& now, const json& before) {
                   now.at("system").get<std::string>(), now.at("pid").get<int>(),
                   now.at("time_s").get<double>(), now.at("net_hash").get<std::string>(), "subsystem",
                   "behaviour", "rate", "call", "longest", "overruns", "errors");
+  if (now.contains("emergency"))
+    text = fmt::format("EMERGENCY STOP: {}\n`tessera reset` ends it\n\n{}",
+                       now.at("emergency").get<std::string>(), text);
   for (std::size_t index = 0; index < now.at("subsystems").size(); ++index) {
     const json& one = now.at("subsystems")[index];
     text += fmt::format("{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n", one.at("path").get<std::string>(),

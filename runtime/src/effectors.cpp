@@ -188,6 +188,8 @@ std::string_view describe(const SafeReason& why, std::span<char> room) {
       return "its transition function does not return";
     case SafeReason::Kind::stuck:
       return "it waits for ever";
+    case SafeReason::Kind::emergency:
+      return "emergency stop";
     case SafeReason::Kind::suspended:
       return "the run is suspended";
     case SafeReason::Kind::leaves:

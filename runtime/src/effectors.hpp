@@ -27,6 +27,7 @@ struct SafeReason {
     fault,      ///< of this subsystem
     stalls,     ///< its own transition function does not return
     stuck,      ///< it waits for ever
+    emergency,  ///< an emergency stop stands
     suspended,  ///< the process is about to stop for a while
     leaves      ///< the subsystem or the run ends
   } kind = Kind::none;

@@ -75,7 +75,7 @@ std::string monitor_folder() {
   return fmt::format("/tmp/tessera-{}", geteuid());
 }
 
-Monitor::Monitor(const Assembly& assembly, const Clock& clock, RemoteControl* remote)
+Monitor::Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote)
     : assembly_(assembly),
       clock_(clock),
       recording_path_(absolute(assembly.options.recording)),
@@ -234,15 +234,25 @@ void Monitor::obey(Client& client, const std::string& line) {
   deliver(client);
 }
 
+/// What is wrong with it; empty: nothing. Throws what a member of another type makes nlohmann::json throw.
+std::string Monitor::carry_out(const nlohmann::json& command) {
+  const std::string what = command.value("command", "");
+  if (what == "set") return assembly_.changes->ask(command.at("path"), command.at("value"));
+  if (what == "emergency_stop") {
+    assembly_.control.begin_emergency(command.value("why", "an operator asks for it"));
+    return "";
+  }
+  if (what == "reset")
+    return assembly_.control.end_emergency(clock_.now() + Duration(1)) ? "" : "there is no emergency stop";
+  return remote_ == nullptr ? "a controller in real time cannot be paused" : remote_->command(command);
+}
+
 std::string Monitor::answer_to(const nlohmann::json& command) {
   std::string wrong = "this is no command";
   std::int64_t id = 0;
   try {
     id = command.value("id", id);
-    if (command.value("command", "") == "set")
-      wrong = assembly_.changes->ask(command.at("path"), command.at("value"));
-    else
-      wrong = remote_ == nullptr ? "a controller in real time cannot be paused" : remote_->command(command);
+    wrong = carry_out(command);
   } catch (const nlohmann::json::exception&) {  // members of another type
   }
   return text_of({{"answer", id}, {"error", wrong}}) + '\n';
@@ -344,6 +354,7 @@ std::string Monitor::snapshot() const {
       {"system", assembly_.system.name},       {"pid", getpid()},
       {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
       {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}};
+  if (assembly_.control.emergency()) all["emergency"] = assembly_.control.emergency_reason();
   if (!recording_path_.empty()) all["recording"] = recording_path_;
   if (remote_ == nullptr) return text_of(all);
   const RemoteControl::Shown shown = remote_->shown();

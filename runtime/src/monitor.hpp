@@ -20,7 +20,7 @@ namespace tessera {
 class Monitor {
  public:
   /// remote: takes commands; nullptr: there are none.
-  Monitor(const Assembly& assembly, const Clock& clock, RemoteControl* remote = nullptr);
+  Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote = nullptr);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
@@ -47,13 +47,14 @@ class Monitor {
   static void deliver(Client& client);
   void hear(Client& client);
   void obey(Client& client, const std::string& line);
+  [[nodiscard]] std::string carry_out(const nlohmann::json& command);
   [[nodiscard]] std::string answer_to(const nlohmann::json& command);
   bool add_piece(Client& client);
   void say_goodbye(Client& client);
   void drop_the_gone();
   [[nodiscard]] std::string snapshot() const;
 
-  const Assembly& assembly_;
+  Assembly& assembly_;
   const Clock& clock_;
   std::string recording_path_, socket_file_, failure_;
   int listening_ = -1, ending_ = -1;

@@ -88,6 +88,7 @@ void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view wha
   give_safe_command({SafeReason::Kind::fault});  // before anything is said
   report(fault, place_of_call(behaviour), what);
   effectors_.record(lane_);
+  ask_for_operator(what);
   failed_ = true;
   parts_.subsystem->restore_outputs();
 }
@@ -225,7 +226,9 @@ void Operations::write_effectors(Time now) {
   switch (effectors_.command(now)) {
     case Effectors::Answer::withheld:
       return give_safe_command(
-          {control_.stopping() ? SafeReason::Kind::leaves : SafeReason::Kind::suspended});
+          {control_.stopping()    ? SafeReason::Kind::leaves
+           : control_.emergency() ? SafeReason::Kind::emergency
+                                  : SafeReason::Kind::suspended});
     case Effectors::Answer::refused:
       return fail(Fault::device, behaviour_, "a real effector refused its command");
     case Effectors::Answer::taken:
@@ -359,6 +362,7 @@ void Operations::try_again(Time now) {
 
 SafeReason Operations::why_hold(Time now) const {
   using Why = SafeReason::Kind;
+  if (control_.emergency()) return {Why::emergency, {}};
   const Duration stale = parts_.instance->stale;
   for (std::size_t index = 0; index < inputs_.size(); ++index) {
     const InputState& input = inputs_[index];
@@ -381,6 +385,17 @@ void Operations::hold(const SafeReason& why, std::string_view place) {
   if (held_ == why) return;
   held_ = why;
   report_hold(why, place);
+  if (why.kind != SafeReason::Kind::stale && why.kind != SafeReason::Kind::source_stalls) return;
+  std::array<char, 128> room;
+  ask_for_operator(describe(why, room));
+}
+
+/// Where only an operator may end what a fault has begun.
+void Operations::ask_for_operator(std::string_view why) {
+  if (effectors_.none() || !parts_.instance->policies.operator_resets) return;
+  std::array<char, 384> text;
+  const auto end = fmt::format_to_n(text.data(), text.size(), "{}: {}", parts_.path, why);
+  control_.begin_emergency({text.data(), std::min(end.size, text.size())});
 }
 
 void Operations::report_hold(const SafeReason& why, std::string_view place) {
@@ -457,6 +472,12 @@ void Operations::broken(std::string_view assertion) {
   const auto end =
       fmt::format_to_n(reason.data(), reason.size(), "{}: broken assertion: {}", parts_.path, assertion);
   control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
+}
+
+void Operations::emergency_stop(std::string_view reason) {
+  std::array<char, 512> text;
+  const auto end = fmt::format_to_n(text.data(), text.size(), "{}: {}", parts_.path, reason);
+  control_.begin_emergency({text.data(), std::min(end.size, text.size())});
 }
 
 void Operations::stop(std::string_view reason) { control_.request_stop(reason, /*fault=*/false); }

@@ -56,6 +56,7 @@ struct SubsystemParts {
 /// - until a valid value has come to every input that the behaviours called so far receive;
 /// - while no valid value has arrived on some input for longer than `stale` (counted from the start of the
 ///   run before the first; an invalid value is no news);
+/// - while an emergency stop stands;
 /// - for good once a subsystem that feeds an input has ended, and while one stalls.
 /// Given at once on failure, and by leave on every way out of the run. It comes first, and is reported then.
 /// What a device refuses is tried again; if it refuses for as long as Effectors::patience, the run fails.
@@ -106,6 +107,7 @@ class Operations final : public ContextServices {
 
   void log(LogLevel level, std::string_view text) override;
   void stop(std::string_view reason) override;
+  void emergency_stop(std::string_view reason) override;
   void broken(std::string_view assertion) override;
   /// Something has gone wrong in a place of this subsystem: to the terminal and the record.
   void report(Fault fault, std::string_view place, std::string_view what) {
@@ -150,6 +152,7 @@ class Operations final : public ContextServices {
   /// Why the outputs must not go to the devices.
   [[nodiscard]] SafeReason why_hold(Time now) const;
   void hold(const SafeReason& why, std::string_view place);
+  void ask_for_operator(std::string_view why);
   void report_hold(const SafeReason& why, std::string_view place);
   void give_safe_command(SafeReason why);
   void try_again(Time now);

@@ -80,12 +80,9 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::stop:
     case Event::Kind::overrun:
     case Event::Kind::marking:
-<<<<<<< HEAD
     case Event::Kind::end:
     case Event::Kind::safe:
-=======
     case Event::Kind::parameter:
->>>>>>> 8a4297b (Parameters can be changed while the system runs: checked at once, taken between two transition functions, recorded)
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <string_view>
 
 #include "tessera/time.hpp"
@@ -12,7 +14,7 @@ namespace tessera {
 
 /// How a run is told to end, and who has ended already. Shared by all threads of a run.
 ///
-/// Threads: any, unless said otherwise. Never blocks, never allocates after construction.
+/// Threads: any, unless said otherwise. Never blocks for long, never allocates after construction.
 class RunControl {
  public:
   explicit RunControl(std::uint32_t instances)
@@ -44,8 +46,20 @@ class RunControl {
   }
   [[nodiscard]] bool suspended() const { return suspended_.load(std::memory_order_seq_cst); }
   [[nodiscard]] Time valid_from() const { return valid_from_.load(std::memory_order_relaxed); }
+
+  /// The emergency stop begins, unless it stands already: nothing but safe commands goes to devices until an
+  /// operator ends it. why: as request_stop.
+  void begin_emergency(std::string_view why);
+  /// An operator ends it. valid_from: as of resume. false: there was none.
+  bool end_emergency(Time valid_from);
+  [[nodiscard]] bool emergency() const { return emergency_.load(std::memory_order_seq_cst); }
+  /// Why it stands, or stood last.
+  [[nodiscard]] std::string emergency_reason() const;
+  /// An eventfd that is written to when an emergency stop begins or ends; -1: none.
+  void tell_of_emergencies(int descriptor) { news_.store(descriptor, std::memory_order_release); }
+
   /// Only safe commands may go to devices.
-  [[nodiscard]] bool withholds_commands() const { return stopping() || suspended(); }
+  [[nodiscard]] bool withholds_commands() const { return stopping() || suspended() || emergency(); }
 
   /// Its transition function has run longer than its watchdog allows, and has not returned.
   void mark_stalled(std::uint32_t instance, bool stalled) {
@@ -56,8 +70,14 @@ class RunControl {
   }
 
  private:
+  void tell() const;
+
   std::atomic<std::uint32_t> state_{0};
-  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false};
+  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
+  std::atomic<int> news_{-1};
+  mutable std::mutex emergency_mutex_;  // of what follows; nobody holds it for longer than a copy takes
+  std::array<char, 512> emergency_reason_{};
+  std::size_t emergency_length_ = 0;
   std::atomic<Time> valid_from_{Time::min()};
   std::array<char, 512> reason_{};
   std::size_t length_ = 0;

@@ -105,6 +105,15 @@ void SimulatedRun::move_to(Assembly& assembly, Time time) {
   survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); });
 }
 
+/// All devices at this instant, not when their subsystems have their next turn.
+void SimulatedRun::follow_emergency(Assembly& assembly) {
+  const EmergencyWatch::News news = emergencies_.look(assembly.control);
+  if (news == EmergencyWatch::News::none) return;
+  for (const auto& executor : assembly.executors) executor->guard();
+  EmergencyWatch::say(news, assembly.control, clock_.now(),
+                      assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+}
+
 /// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.
 /// true: it was paused meanwhile.
 bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
@@ -117,6 +126,7 @@ bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, co
     const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready();
     unfinished_.reset();
     if (!has_ended_[instance]) step(assembly, upper, instance);
+    follow_emergency(assembly);
   }
   if (remote_ != nullptr) waited = remote_->wait_while_paused(signals) || waited;
   return waited;

@@ -9,6 +9,7 @@
 
 #include "assembly.hpp"
 #include "call_watch.hpp"
+#include "emergency_watch.hpp"
 #include "deadline_queue.hpp"
 #include "monitor.hpp"
 #include "remote_control.hpp"
@@ -50,6 +51,7 @@ class SimulatedRun final : public Waker {
   [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
   void move_to(Assembly& assembly, Time time);
+  void follow_emergency(Assembly& assembly);
 
   SimulatedClock clock_;
   std::mt19937_64 random_;
@@ -58,6 +60,7 @@ class SimulatedRun final : public Waker {
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn is not over
   std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
   DeadlineQueue deadlines_;
+  EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   StuckWatch stuck_;
   std::optional<CallWatch> calls_;

@@ -143,6 +143,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   if (wants_realtime(assembly.system.instances))
     if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
   clock_.restart();
+  assembly.control.tell_of_emergencies(news_);
   if (const int signal = StopSignals::pending(); signal != 0)
     assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
   upper.enter(clock_.now());
@@ -208,10 +209,12 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
   Stillness stillness(started_);
   Liveness liveness(assembly, assembly.guardian);
+  EmergencyWatch emergencies;
   const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
     collect_ended(assembly, upper);
     securing.collect(lane);
+    follow_emergency(emergencies, control, securing, lane);
     const Time now = clock_.now();
     if (upper.ended()) {
       control.request_stop("net ended", /*fault=*/false);
@@ -237,6 +240,16 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
     }
   }
+}
+
+/// Devices first; subsystems whose user code runs long do not look for themselves.
+void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
+                                 RecordingLane* lane) const {
+  const EmergencyWatch::News news = emergencies.look(control);
+  if (news == EmergencyWatch::News::begins)
+    for (std::uint32_t instance = 0; instance < started_; ++instance)
+      securing.secure(instance, {SafeReason::Kind::emergency});
+  EmergencyWatch::say(news, control, clock_.now(), lane);
 }
 
 /// Safe commands first; then the process stops until somebody continues it, and the clock of the run with it.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "emergency_watch.hpp"
 #include "monitor.hpp"
 #include "securing.hpp"
 #include "simulated_run.hpp"
@@ -41,6 +42,8 @@ class SteadyRun final : public Waker {
   void tell_supervisor() const;
   void deny(const std::string& what);
   void supervise(Assembly& assembly, UpperLayers& upper, Securing& securing);
+  void follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
+                        RecordingLane* lane) const;
   void suspend(Assembly& assembly, Securing& securing);
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);

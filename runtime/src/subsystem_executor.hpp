@@ -77,6 +77,10 @@ class SubsystemExecutor {
   /// Says so. Threads: any, with a lane of its own.
   void tell_alarm(RecordingLane* lane) const;
 
+  /// Gives the safe command if something asks for it by now. Threads: as `step`.
+  void guard() {
+    if (!marked_.empty()) operations_.guard_effectors(clock_.now(), name_of(marked_.front()));
+  }
   /// The safe command, on every way out of the run; insist tries again where a device has refused it.
   void leave() { operations_.leave(); }
   void insist() { operations_.insist(); }

@@ -1,21 +1,27 @@
 #include "remote_control.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <thread>
+#include <vector>
 #include <vector>
 
 #include "../eventually.hpp"
 #include "nets.hpp"
+#include "redrive.hpp"
 #include "tessera/monitor.hpp"
 #include "test_system.hpp"
 
@@ -65,7 +71,7 @@ class Controlled : public ::testing::Test {
   }
 
   void start() {
-    build(system_);
+    build_(system_);
     made_ = &system_.system();
     running_ = std::thread([this] {
       std::string error;
@@ -144,6 +150,7 @@ class Controlled : public ::testing::Test {
   }
 
   std::string folder_;
+  std::function<void(TestSystem&)> build_ = build;
   TestSystem system_;
   const System* made_ = nullptr;  // of system_, while it runs
   RunOptions options_;
@@ -287,6 +294,171 @@ TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
   EXPECT_EQ(summary_.ended, "SIGTERM");
   recorded += what_comes_at_the_end();
   EXPECT_EQ(recorded, bytes_of(options_.recording));
+}
+
+TEST_F(Controlled, AParameterIsSetWhileItRunsAndRunsAgainFromTheRecording) {
+  std::atomic<double> seen{0};
+  build_ = [&](TestSystem& system) {
+    Script script;
+    script.call = [&](ScriptState& state) {
+      state.out_x = state.gain;
+      seen = state.gain;
+    };
+    const std::uint32_t a = system.add("robot.a", nets::async_sender, script, 2ms);
+    const std::uint32_t b = system.add("robot.b", nets::async_receiver, {}, 2ms);
+    system.connect(a, "x", b, "x", asynchronous);
+  };
+  options_.clock = RunOptions::Clock::steady;
+  options_.duration = 600s;
+  options_.values = RunOptions::Values::all;
+  start();
+  const auto set = [&](const char* path, const char* value) {
+    return command({{"command", "set"}, {"path", path}, {"value", value}});
+  };
+  EXPECT_EQ(set("robot.a.gain", "11"), "parameter robot.a.gain = 11: 11 is out of range 0 to 10");
+  EXPECT_EQ(set("gian", "2"), "unknown parameter 'gian'; did you mean 'gain'?");
+  EXPECT_NE(command({{"command", "set"}, {"path", "gain"}, {"value", 2}}), "") << "a value is text";
+  EXPECT_EQ(set("gain", "2.5"), "");
+  EXPECT_TRUE(eventually([&] { return seen == 2.5; }));
+  kill(getpid(), SIGTERM);
+  running_.join();
+
+  std::string error;
+  const auto recording = read_recording(options_.recording, error);
+  ASSERT_TRUE(recording) << error;
+  std::vector<std::string> changes;
+  for (const auto& [event, text] : recording->entries)
+    if (event.kind() == Event::Kind::parameter) changes.push_back(text);
+  EXPECT_THAT(changes, ::testing::UnorderedElementsAre("robot.a.gain=2.5", "robot.b.gain=2.5"));
+  const auto again = redrive(system_.system(), RunOptions{}, options_.recording, error);
+  ASSERT_TRUE(again) << error;
+  EXPECT_FALSE(again->first) << again->first->what << ": " << again->first->recorded << ", "
+                             << again->first->computed;
+}
+
+/// An effector that commands 5, and -1 as its safe command.
+class EmergencyStop : public Controlled {
+ protected:
+  EmergencyStop() {
+    options_.clock = RunOptions::Clock::steady;
+    options_.duration = 600s;
+    build_ = [this](TestSystem& system) {
+      Script motor;
+      motor.acts = true;
+      motor.call = [](ScriptState& state) { state.command = 5; };
+      system.devices.accept = [this](double value) {
+        last_ = value;
+        ++commands_;
+        return true;
+      };
+      system.add("robot.motor", nets::alone, motor, 2ms, 0ms, Kind::effector);
+    };
+  }
+  std::uint64_t iterations() {
+    return await([](const json& line) { return line.contains("subsystems"); })
+        .at("subsystems")
+        .at(0)
+        .at("iterations");
+  }
+  std::atomic<double> last_{0};
+  std::atomic<std::uint64_t> commands_{0};
+};
+
+TEST_F(EmergencyStop, StandsUntilTheOperatorResetsIt) {
+  start();
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  EXPECT_EQ(command({{"command", "reset"}}), "there is no emergency stop");
+  EXPECT_EQ(command({{"command", "emergency_stop"}, {"why", "smoke"}}), "");
+  EXPECT_TRUE(eventually([&] { return last_ == -1; }));
+  const json shown = await([](const json& line) { return line.contains("emergency"); });
+  EXPECT_EQ(shown.at("emergency"), "smoke");
+  const std::uint64_t before = iterations();
+  EXPECT_TRUE(eventually([&] { return iterations() > before + 10; })) << "it goes on otherwise";
+  EXPECT_EQ(last_, -1);
+  EXPECT_EQ(command({{"command", "reset"}}), "");
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  kill(getpid(), SIGTERM);
+  running_.join();
+  EXPECT_EQ(last_, -1);
+  std::string error;
+  const auto recording = read_recording(options_.recording, error);
+  ASSERT_TRUE(recording) << error;
+  std::string texts;
+  for (const auto& [event, text] : recording->entries)
+    if (event.kind() == Event::Kind::log || event.kind() == Event::Kind::safe) texts += text + "\n";
+  EXPECT_THAT(texts, ::testing::HasSubstr("EMERGENCY STOP: smoke"));
+  EXPECT_THAT(texts, ::testing::HasSubstr("robot.motor.command: safe command: emergency stop"));
+  EXPECT_THAT(texts, ::testing::HasSubstr("the emergency stop is over"));
+}
+
+TEST_F(EmergencyStop, ComesThoughTheTransitionFunctionDoesNotReturn) {
+  std::atomic<bool> release{false};
+  build_ = [&, usual = build_](TestSystem& system) {
+    usual(system);
+    Script hangs;
+    hangs.acts = true;
+    hangs.call = [&](ScriptState& state) {
+      state.command = 5;
+      if (state.context.iteration == 3) static_cast<void>(eventually([&] { return release.load(); }));
+    };
+    system.add("robot.arm", nets::alone, hangs, 2ms, 0ms, Kind::effector);
+  };
+  start();
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  EXPECT_EQ(command({{"command", "emergency_stop"}}), "");
+  // Both devices have theirs: nothing else is commanded any more.
+  EXPECT_TRUE(eventually([&] { return last_ == -1; }));
+  release = true;
+  kill(getpid(), SIGTERM);
+  running_.join();
+  EXPECT_EQ(summary_.ended, "SIGTERM");
+}
+
+/// Commands of a motor whose transition function throws once.
+std::vector<double> commands_around_a_fault(bool operator_resets) {
+  TestSystem system;
+  Script motor;
+  motor.acts = true;
+  motor.call = [](ScriptState& state) {
+    state.command = 5;
+    if (state.context.iteration == 3) throw std::runtime_error("lost");
+  };
+  motor.route = [](const ScriptState&, bool) { return 0; };
+  Policies policies;
+  policies.operator_resets = operator_resets;
+  system.add("robot.motor", nets::two_behaviours, motor, 10ms, 0ms, Kind::effector, policies);
+  static_cast<void>(run(system, simulated(200ms)));
+  return system.devices.commands;
+}
+
+TEST(Recovery, IsByItselfOrByAnOperator) {
+  const std::vector<double> automatic = commands_around_a_fault(false), held = commands_around_a_fault(true);
+  EXPECT_GT(std::ranges::count(automatic, 5), 10);
+  EXPECT_EQ(std::ranges::count(held, 5), 3) << "those before the fault";
+  EXPECT_EQ(held.back(), -1);
+}
+
+TEST(EmergencyStopOfABehaviour, ReachesEveryDeviceAtOnce) {
+  TestSystem system;
+  Script watches, motor;
+  watches.call = [](ScriptState& state) {
+    if (state.context.iteration == 5) state.context.emergency_stop("too close");
+  };
+  motor.acts = true;
+  motor.call = [](ScriptState& state) { state.command = 5; };
+  system.add("robot.watch", nets::alone, watches, 10ms);
+  system.add("robot.motor", nets::alone, motor, 1s, 0ms, Kind::effector);
+  RunOptions options = simulated(3s);
+  options.recording = scratch_file("run");
+  static_cast<void>(run(system, options));
+  std::string error;
+  const auto recording = read_recording(options.recording, error);
+  ASSERT_TRUE(recording) << error;
+  std::int64_t safe_ns = -1;
+  for (const auto& [event, text] : recording->entries)
+    if (event.kind() == Event::Kind::safe && text.ends_with("emergency stop")) safe_ns = event.time_ns;
+  EXPECT_EQ(safe_ns, 50'000'000) << "the motor's own turns are a second apart";
+  EXPECT_EQ(std::ranges::count(system.devices.commands, 5), 1);
 }
 
 TEST_F(Controlled, WithoutARecordingThereAreNoBytes) {

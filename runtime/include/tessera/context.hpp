@@ -19,6 +19,10 @@ class ContextServices {
   virtual ~ContextServices() = default;
   virtual void log(LogLevel level, std::string_view text) = 0;
   virtual void stop(std::string_view reason) = 0;
+  virtual void emergency_stop(std::string_view reason) {
+    log(LogLevel::error, reason);
+    stop(reason);
+  }
   /// What the user asserts does not hold.
   virtual void broken(std::string_view assertion) {
     log(LogLevel::error, assertion);
@@ -54,6 +58,12 @@ class Context {
   /// Ends the whole system safely (paper: a behaviour commands the scheduler to terminate).
   void stop(std::string_view reason = "requested by a behaviour") {
     if (services_ != nullptr) services_->stop(reason);
+  }
+
+  /// Emergency stop: every device of the system gets its safe command at once, and nothing else until an operator
+  /// ends it (`tessera reset`). The system goes on otherwise: who reads sensors and computes does so.
+  void emergency_stop(std::string_view reason) {
+    if (services_ != nullptr) services_->emergency_stop(reason);
   }
 
   /// States what must hold here, for `tessera simulate --schedules` to look for a run that breaks it. If it

@@ -8,6 +8,7 @@
 /// five times a second:
 ///
 ///     {"system", "pid", "net_hash", "time_s", "recording": file; absent: none,
+///      "emergency": why an emergency stop stands; absent: none does,
 ///      "subsystems": [{"path", "behaviour", "calling", "ended", "iterations", "firings", "overruns",
 ///      "errors",
 ///                      "period_s", "called_at_s", "call_s", "longest_call_s"}],
@@ -26,6 +27,13 @@
 /// first answer begins at the beginning, or with the newest segment of a recording with a limit; where the
 /// next segment begins, `begins` says so. more: there is more already. Whoever has asked gets what was
 /// missing unasked after {"ended": true}, as far as there is room in the socket.
+///
+/// These are taken by every run, and answered as those below:
+///
+///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   a parameter; as `--set v=0.3`
+///     {"command": "emergency_stop", "why": text}                 every device gets its safe command and nothing
+///                                                                else until
+///     {"command": "reset"}                                       the operator's
 ///
 /// Under the simulated clock only a run that was started with `--controlled` listens. It sends 25 lines a
 /// second, with {"paused", "pauses", "speed", "broke_at"} besides, and takes more commands; each is answered

@@ -65,8 +65,7 @@ void declare_controller(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_set(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("set", "Change parameters of a controller that runs in real time");
+  CLI::App* command = app.add_subcommand("set", "Change parameters of a controller that runs in real time");
   auto options = std::make_shared<Options>();
   command->add_option("values", options->values, "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3")
       ->required();

@@ -225,10 +225,9 @@ void Operations::write_effectors(Time now) {
   const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
   switch (effectors_.command(now)) {
     case Effectors::Answer::withheld:
-      return give_safe_command(
-          {control_.stopping()    ? SafeReason::Kind::leaves
-           : control_.emergency() ? SafeReason::Kind::emergency
-                                  : SafeReason::Kind::suspended});
+      return give_safe_command({control_.stopping()    ? SafeReason::Kind::leaves
+                                : control_.emergency() ? SafeReason::Kind::emergency
+                                                       : SafeReason::Kind::suspended});
     case Effectors::Answer::refused:
       return fail(Fault::device, behaviour_, "a real effector refused its command");
     case Effectors::Answer::taken:

@@ -17,7 +17,6 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
-#include <vector>
 
 #include "../eventually.hpp"
 #include "nets.hpp"
@@ -347,8 +346,7 @@ class EmergencyStop : public Controlled {
       motor.acts = true;
       motor.call = [](ScriptState& state) { state.command = 5; };
       system.devices.accept = [this](double value) {
-        last_ = value;
-        ++commands_;
+        (value == 7 || value == -2 ? last_of_arm_ : last_) = value;
         return true;
       };
       system.add("robot.motor", nets::alone, motor, 2ms, 0ms, Kind::effector);
@@ -360,8 +358,7 @@ class EmergencyStop : public Controlled {
         .at(0)
         .at("iterations");
   }
-  std::atomic<double> last_{0};
-  std::atomic<std::uint64_t> commands_{0};
+  std::atomic<double> last_{0}, last_of_arm_{0};
 };
 
 TEST_F(EmergencyStop, StandsUntilTheOperatorResetsIt) {
@@ -392,22 +389,23 @@ TEST_F(EmergencyStop, StandsUntilTheOperatorResetsIt) {
 }
 
 TEST_F(EmergencyStop, ComesThoughTheTransitionFunctionDoesNotReturn) {
-  std::atomic<bool> release{false};
+  std::atomic<bool> release{false}, hanging{false};
   build_ = [&, usual = build_](TestSystem& system) {
     usual(system);
     Script hangs;
     hangs.acts = true;
+    hangs.safe = -2;
     hangs.call = [&](ScriptState& state) {
-      state.command = 5;
-      if (state.context.iteration == 3) static_cast<void>(eventually([&] { return release.load(); }));
+      state.command = 7;
+      hanging = state.context.iteration == 3;
+      if (hanging) static_cast<void>(eventually([&] { return release.load(); }));
     };
     system.add("robot.arm", nets::alone, hangs, 2ms, 0ms, Kind::effector);
   };
   start();
-  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  EXPECT_TRUE(eventually([&] { return last_ == 5 && last_of_arm_ == 7 && hanging; }));
   EXPECT_EQ(command({{"command", "emergency_stop"}}), "");
-  // Both devices have theirs: nothing else is commanded any more.
-  EXPECT_TRUE(eventually([&] { return last_ == -1; }));
+  EXPECT_TRUE(eventually([&] { return last_ == -1 && last_of_arm_ == -2; }));
   release = true;
   kill(getpid(), SIGTERM);
   running_.join();

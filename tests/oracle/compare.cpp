@@ -74,7 +74,8 @@ class Comparer {
       explained = std::any_of(
           specification_.properties.begin(), specification_.properties.end(),
           [&](const Property& property) { return compile(specification_, flat_, property).empty(); });
-    if (!explained) differ("refused " + result_.refusal, answer.errors);
+    if (!explained)
+      differ("refused " + result_.refusal, answer.errors.substr(at == std::string::npos ? 0 : at, 200));
     return result_;
   }
 

@@ -45,6 +45,13 @@ void declare(CLI::App& command, project::LaunchOptions& options) {
 void declare_world(CLI::App& command, project::LaunchOptions& options) {
   command.add_option("--seed", options.seed, "Seed of sensor noise and of ties between subsystems")
       ->capture_default_str();
+  command
+      .add_option(
+          "--hardware", options.hardware,
+          "SUBSYSTEM or BUFFER that keeps its real driver (hardware in the loop); the simulated clock is "
+          "then not faster than the wall clock")
+      ->take_all()
+      ->allow_extra_args(false);
   command.add_option("--track", options.track, "PNG of the floor, dark is line");
   command.add_option("--metres-per-pixel", options.metres_per_pixel, "Scale of the floor picture")
       ->check(CLI::PositiveNumber);

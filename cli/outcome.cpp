@@ -69,7 +69,9 @@ RunOutcome read_outcome(const Controller& controller, const LaunchOptions& optio
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(specification, options);
   RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}};
-  if (!specification.model.simulation || !fs::exists(files.trace)) return outcome;
+  const std::optional<spec::Simulation>& simulation = specification.model.simulation;
+  const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
+  if (!has_world || !fs::exists(files.trace)) return outcome;
   std::string error;
   sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string(), error), error);
   outcome.robots = trace.robots;

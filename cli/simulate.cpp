@@ -3,7 +3,6 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/early_checks.hpp"
@@ -120,13 +119,13 @@ int simulate_command(SimulateOptions options) {
   if (!can_run(options, options.from.empty())) return failed;
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
+  if (options.from.empty() && !drivers_are_there(options, /*simulated=*/true, terminal())) return failed;
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();
   if (!options.from.empty()) return run_again(*controller, options);
-  const bool with_world = controller->specification.model.simulation.has_value();
   if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
-  Command command = controller_command(*controller, options, "simulate", with_world);
+  Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
   if (options.interleave) command.push_back("--interleave");
   if (options.realtime) command.push_back("--realtime");
   if (!options.scenario.empty()) {
@@ -137,39 +136,16 @@ int simulate_command(SimulateOptions options) {
   return launch(*controller, options, command, options.json, options.report);
 }
 
-// On the steady clock without a world, every real buffer needs a device of its own.
-std::vector<std::string> buffers_without_driver(const spec::Model& model) {
-  std::set<std::pair<spec::Index, spec::Index>> driven;
-  for (const spec::Driver& driver : model.drivers) driven.emplace(driver.instance, driver.real);
-  std::vector<std::string> missing;
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
-    const std::vector<spec::Field>& real = model.subsystem(instance).real;
-    for (spec::Index buffer = 0; buffer < real.size(); ++buffer)
-      if (!driven.contains({instance, buffer}))
-        missing.push_back(model.instance_path(instance) + "." + real[buffer].name);
-  }
-  return missing;
-}
-
-int complain_of_drivers(const std::vector<std::string>& missing) {
-  for (const std::string& buffer : missing) complain(fmt::format("the real buffer {} has no driver", buffer));
-  fmt::print(stderr,
-             "hint: name a class of src/drivers.hpp under `drivers:` of the specification, e.g. `{}: {{ cpp: "
-             "Class }}`,\n"
-             "      or add --world to drive the simulated world in real time\n",
-             missing.front());
-  return failed;
-}
-
 int run_command(const RunCommandOptions& options) {
+  if (!options.hardware.empty() && !options.world)
+    return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (!can_run(options, options.world)) return failed;
+  if (!drivers_are_there(options, options.world, terminal())) return failed;
   const std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();
   if (options.world && !controller->specification.model.simulation)
-    return complain("the specification has no `simulation`, so there is no world to drive");
-  const std::vector<std::string> missing = buffers_without_driver(controller->specification.model);
-  if (!options.world && !missing.empty()) return complain_of_drivers(missing);
+    return complain("the specification has no `simulation`, so there is nothing to simulate");
   return launch(*controller, options, controller_command(*controller, options, "run", options.world),
                 options.json, "");
 }
@@ -207,8 +183,10 @@ void add_simulate(CLI::App& app, int& exit_code) {
   command->get_option("--record")->excludes(schedules);
   for (const char* other :
        {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
-        "--scenario", "--schedules", "--interleave", "--realtime", "--report"})
+        "--scenario", "--schedules", "--interleave", "--realtime", "--report", "--hardware"})
     from->excludes(command->get_option(other));
+  for (const char* other : {"--schedules", "--scenario"})
+    command->get_option("--hardware")->excludes(command->get_option(other));
   command->footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
@@ -225,7 +203,8 @@ void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunCommandOptions>();
   declare(*command, *options);
   declare_world(*command, *options);
-  command->add_flag("--world", options->world, "Drive the simulated world in real time instead");
+  command->add_flag("--world", options->world,
+                    "With the simulated drivers, in the simulated world if there is one, in real time");
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command->footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
   command->callback([options, &exit_code] { exit_code = run_command(*options); });

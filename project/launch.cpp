@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -66,12 +67,16 @@ void append(Command& command, std::initializer_list<std::string> words) {
 void add_drivers(Command& command, const spec::Model& model) {
   for (const spec::Driver& driver : model.simulation->drivers) {
     if (driver.kind == "cpp") continue;
-    std::string value =
-        fmt::format("{}.{}={}:{}", model.instance_path(driver.instance),
-                    model.subsystem(driver.instance).real[driver.real].name, driver.kind, driver.target);
-    for (const auto& [option, number] : driver.options) value += fmt::format(",{}={}", option, number);
+    std::string value = fmt::format("{}={}:{}", model.driver_path(driver), driver.kind, driver.target);
+    for (const auto& [name, option] : driver.options)
+      value += fmt::format(",{}={}", name, std::get<double>(option.value));
     append(command, {"--driver", value});
   }
+}
+
+// "robot.motor.left" is in "robot.motor".
+bool is_in(std::string_view path, std::string_view name) {
+  return path.starts_with(name) && (path.size() == name.size() || path[name.size()] == '.');
 }
 
 std::string pose_text(double x_m, double y_m, double heading_rad) {
@@ -107,6 +112,7 @@ void add_floor(Command& command, const spec::Simulation& simulation, const Floor
 
 void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
   const spec::Simulation& simulation = *specification.model.simulation;
+  if (simulation.world.empty() && options.world.empty()) return;  // its drivers are C++ classes
   append(command,
          {"--world",
           asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds")
@@ -116,6 +122,40 @@ void add_world(Command& command, const Specification& specification, const Launc
     add_floor(command, simulation, *floor, options);
   append(command, {"--trace", run_files(specification, options).trace.string()});
   add_drivers(command, specification.model);
+}
+
+// Those that a run of this kind has no driver for.
+std::vector<std::string> missing_drivers(const spec::Model& model, const LaunchOptions& options,
+                                         bool simulated) {
+  const std::vector<std::string> without_real = model.without_driver(model.drivers);
+  if (!simulated) return without_real;
+  const auto is_hardware = [&](const std::string& buffer) {
+    return std::ranges::any_of(options.hardware,
+                               [&](const std::string& name) { return is_in(buffer, name); }) &&
+           std::ranges::find(without_real, buffer) == without_real.end();
+  };
+  std::vector<std::string> missing =
+      model.without_driver(model.simulation ? model.simulation->drivers : std::vector<spec::Driver>());
+  std::erase_if(missing, is_hardware);
+  return missing;
+}
+
+std::string hint_for(const std::string& buffer, const spec::Model& model, bool simulated) {
+  if (!simulated)
+    return fmt::format(
+        "hint: name a class of src/drivers.hpp under `drivers:` of the specification, for example\n"
+        "      {}: {{ cpp: Motor }}\n",
+        buffer);
+  std::string hint = fmt::format(
+      "hint: name a part of the world or a class of src/drivers.hpp under `drivers:` of `simulation:`, for "
+      "example\n"
+      "      {}: {{ cpp: SimulatedMotor }}\n",
+      buffer);
+  if (const auto without = model.without_driver(model.drivers);
+      std::ranges::find(without, buffer) == without.end())
+    hint += fmt::format("      A simulation never opens real drivers, unless --hardware {} asks for it.\n",
+                        buffer);
+  return hint;
 }
 
 }  // namespace
@@ -141,8 +181,23 @@ std::vector<std::string> parameter_values(const Specification& specification, co
   return values;
 }
 
+bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener) {
+  struct : Listener {
+    void say(std::string_view) override {}
+    void progress(std::string_view) override {}
+  } nobody;  // who builds the specification hears what is wrong with it
+  const std::optional<Specification> specification = read(options.spec, nobody);
+  if (!specification) return true;
+  const std::vector<std::string> missing = missing_drivers(specification->model, options, simulated);
+  for (const std::string& buffer : missing)
+    listener.complain(
+        fmt::format("the real buffer {} has no {}driver", buffer, simulated ? "simulated " : ""));
+  if (!missing.empty()) listener.say(hint_for(missing.front(), specification->model, simulated));
+  return missing.empty();
+}
+
 Command controller_command(const Controller& controller, const LaunchOptions& options,
-                           const std::string& mode, bool with_world) {
+                           const std::string& mode, bool simulated) {
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(specification, options);
   Command command{controller.program.string(),
@@ -159,10 +214,11 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
   if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
   if (options.accept_stuck) command.push_back("--accept-stuck");
   if (!options.duration.empty()) append(command, {"--for", options.duration});
-  for (const std::string& value : parameter_values(specification, options))
-    append(command, {"--set", value});
+  for (const std::string& value : parameter_values(specification, options)) append(command, {"--set", value});
   for (const std::string& fault : options.inject) append(command, {"--inject", fault});
-  if (with_world) add_world(command, specification, options);
+  for (const std::string& path : options.hardware) append(command, {"--hardware", path});
+  if (simulated && mode == "run") command.push_back("--simulated");
+  if (simulated && specification.model.simulation) add_world(command, specification, options);
   return command;
 }
 

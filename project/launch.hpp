@@ -20,7 +20,8 @@ struct LaunchOptions {
   std::string record, record_values = "small", record_limit;
   std::string folder;                                            ///< of the run's files; empty: .tessera/last
   std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
-  bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is no failure
+  bool accept_stuck = false;          ///< a subsystem that is stuck for good at the end is no failure
+  std::vector<std::string> hardware;  ///< paths of what has its real drivers in a simulated run
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
   Gate gate;
@@ -49,9 +50,15 @@ struct Floor {
 [[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
                                                         const LaunchOptions& options);
 
-/// The controller's command line. mode: "simulate" or "run"; with_world: in the simulated world.
+/// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:
+/// of the simulated robot, but for the hardware that the options name. True, too, if the specification cannot
+/// be read, which is told elsewhere.
+[[nodiscard]] bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener);
+
+/// The controller's command line. mode: "simulate" or "run"; simulated: of the simulated robot, in its world
+/// if it has one.
 [[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
-                                         const std::string& mode, bool with_world);
+                                         const std::string& mode, bool simulated);
 
 /// Where the controller of a run leaves a note if it dies in the middle of it.
 [[nodiscard]] std::filesystem::path death_note(const RunFiles& files);

@@ -13,10 +13,36 @@
 namespace tessera::sim {
 namespace {
 
-void check_float64(const std::string& path, std::size_t bytes) {
-  if (bytes == sizeof(double)) return;
-  throw std::invalid_argument(path + ": the device has a float64 (8 bytes), the buffer has " +
+[[noreturn]] void refuse_size(const std::string& path, std::size_t bytes) {
+  throw std::invalid_argument(path +
+                              ": the device has a float64 or a float32 (8 or 4 bytes), the buffer has " +
                               std::to_string(bytes) + " bytes");
+}
+
+template <class Float>
+double number_in(std::span<const std::byte> value) {
+  Float number = 0;
+  std::memcpy(&number, value.data(), sizeof number);
+  return number;
+}
+
+template <class Float>
+void put_number(double number, std::span<std::byte> value) {
+  const auto as_float = static_cast<Float>(number);
+  std::memcpy(value.data(), &as_float, sizeof as_float);
+}
+
+/// The buffer's type is known by its size only; the specification allows no others than these two.
+double read_float(std::span<const std::byte> value, const std::string& path) {
+  if (value.size() == sizeof(double)) return number_in<double>(value);
+  if (value.size() == sizeof(float)) return number_in<float>(value);
+  refuse_size(path, value.size());
+}
+
+void write_float(double number, std::span<std::byte> value, const std::string& path) {
+  if (value.size() == sizeof(double)) return put_number<double>(number, value);
+  if (value.size() == sizeof(float)) return put_number<float>(number, value);
+  refuse_size(path, value.size());
 }
 
 /// FNV-1a: the same on every machine, unlike std::hash.
@@ -32,9 +58,8 @@ class LightSensor final : public RealReceptor {
       : simulation_(std::move(simulation)), path_(std::move(path)), eye_(eye), noise_(noise), random_(seed) {}
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
-    check_float64(path_, value.size());
     const double light = std::clamp(simulation_->light_at(eye_) + noise_ * normal_(random_), 0.0, 1.0);
-    std::memcpy(value.data(), &light, sizeof light);
+    write_float(light, value, path_);
     return true;
   }
 
@@ -53,9 +78,7 @@ class Wheel final : public RealEffector {
       : simulation_(std::move(simulation)), path_(std::move(path)), actuator_(actuator) {}
 
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
-    check_float64(path_, value.size());
-    double velocity = 0;
-    std::memcpy(&velocity, value.data(), sizeof velocity);
+    const double velocity = read_float(value, path_);
     if (!std::isfinite(velocity)) return false;
     simulation_->command(actuator_, velocity);
     return true;

@@ -22,7 +22,7 @@ class Assembler {
 
   bool run() {
     return check_version() && read_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
-           read_script() && set_values() && open_devices() && make_channels() && open_recording() &&
+           read_script() && set_values() && make_devices() && make_channels() && open_recording() &&
            make_executors();
   }
 
@@ -192,25 +192,48 @@ class Assembler {
 
   bool set_values() { return set_parameters(owners(), assembly_.options.parameters, error_); }
 
-  bool open_devices() {
+  /// Only makes the drivers; they are opened when nothing else can fail any more.
+  bool make_devices() {
     error_.clear();
+    if (!check_hardware()) return false;
     assembly_.world = open_world(assembly_.options, error_);
     if (assembly_.world == nullptr && assembly_.options.world) return false;
     DeviceFinder finder(system_, assembly_.options, assembly_.world.get());
-    const auto of_device = [](const Injection& fault) {
-      return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
-    };
     for (SubsystemParts& parts : parts_) {
-      for (const Bindings::Incoming& input : parts.bindings.real_inputs)
-        parts.receptors.push_back(with_faults(finder.receptor(fmt::format("{}.{}", parts.path, input.name)),
-                                              faults_of(parts.index, input.name, of_device), clock_));
-      for (const Bindings::RealOutgoing& output : parts.bindings.real_outputs)
-        parts.effectors.push_back(with_faults(finder.effector(fmt::format("{}.{}", parts.path, output.name)),
-                                              faults_of(parts.index, output.name, of_device), clock_,
-                                              output.safe.get()));
+      SubsystemDevices devices = finder.find(parts.path, parts.bindings);
+      parts.receptors = std::move(devices.receptors);
+      parts.effectors = std::move(devices.effectors);
+      parts.drivers = std::move(devices.drivers);
+      plant_device_faults(parts);
     }
     error_ = finder.complaints();
     return error_.empty();
+  }
+
+  /// Simulated time must not stand still or leap while it moves real devices.
+  bool check_hardware() {
+    const RunOptions& options = assembly_.options;
+    if (options.hardware.empty()) return true;
+    if (!simulates_devices(options))
+      return fail("hardware in the loop is for simulated runs; this one has all");
+    if (clock_.simulated() && options.monitor)
+      return fail("a run with hardware in the loop cannot be paused or sped up, so it cannot be controlled");
+    if (!options.scenario.empty()) return fail("a scenario cannot be followed with hardware in the loop");
+    return true;
+  }
+
+  void plant_device_faults(SubsystemParts& parts) {
+    const auto of_device = [](const Injection& fault) {
+      return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
+    };
+    const auto faults = [&](std::string_view buffer) { return faults_of(parts.index, buffer, of_device); };
+    for (std::size_t index = 0; index < parts.receptors.size(); ++index)
+      parts.receptors[index] = with_faults(std::move(parts.receptors[index]),
+                                           faults(parts.bindings.real_inputs[index].name), clock_);
+    for (std::size_t index = 0; index < parts.effectors.size(); ++index)
+      parts.effectors[index] =
+          with_faults(std::move(parts.effectors[index]), faults(parts.bindings.real_outputs[index].name),
+                      clock_, parts.bindings.real_outputs[index].safe.get());
   }
 
   bool make_channels() {

@@ -81,6 +81,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
                   "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
                   "signal:SIGINT@2s; WHEN may be `any`")
       ->allow_extra_args(false);
+  command
+      .add_option(
+          "--hardware", options.hardware,
+          "SUBSYSTEM or BUFFER that has its real driver in a simulated run (hardware in the loop); the "
+          "simulated clock is then not faster than the wall clock")
+      ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
   command.add_option("--summary", line.summary, "Write what the run came to as JSON; - is standard output");
   command.add_flag("--accept-stuck", options.accept_stuck,
@@ -229,8 +235,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   app.set_config("--config", "", "Read options from this file (INI or TOML)");
   CLI::App* simulate =
       app.add_subcommand("simulate", "Simulated clock: deterministic from the seed, as fast as possible");
-  CLI::App* run =
-      app.add_subcommand("run", "Real time, a thread per subsystem; with --world the robot is simulated");
+  CLI::App* run = app.add_subcommand(
+      "run", "Real time, a thread per subsystem; with --world or --simulated the robot is simulated");
   for (CLI::App* command : {simulate, run}) {
     command->fallthrough();
     command->configurable();
@@ -239,6 +245,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
   run->add_flag("!--no-guardian", line.options.guardian,
                 "No guardian process, for debuggers that stop the controller (docs/safety.md)");
+  run->add_flag("--simulated", line.options.simulated_drivers,
+                "Simulated drivers in place of the real ones; a --world implies it");
   simulate->add_option("--scenario", line.options.scenario,
                        "Follow this run first (tessera verify --scenario), then run on freely");
   simulate->add_flag("--interleave", line.options.interleave,

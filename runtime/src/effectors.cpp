@@ -131,6 +131,14 @@ bool Effectors::rescue(std::size_t index, const void* dead) {
   return (lock || dead == &device) && write_safe(device, {SafeReason::Kind::leaves});
 }
 
+void Effectors::alone_with(std::size_t output, const std::function<void()>& code) {
+  for (Device& device : devices()) {
+    if (output < device.its.first || output >= device.its.first + device.its.count) continue;
+    const Lock lock(device, Busy::waits);
+    return code();
+  }
+}
+
 bool Effectors::owing() const {
   return std::ranges::any_of(devices(), [](const Device& device) { return device.owes.load(); });
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -69,6 +70,9 @@ class Effectors {
   bool make_safe(SafeReason why, Busy busy);
   /// The same for those only that have not taken theirs.
   bool insist(SafeReason why, Busy busy);
+
+  /// Calls code while nobody else calls the driver that takes that output. Threads: the subsystem's.
+  void alone_with(std::size_t output, const std::function<void()>& code);
 
   // For a thread that acts because another one dies (Rescuer).
   [[nodiscard]] std::size_t size() const { return count_; }

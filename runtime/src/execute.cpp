@@ -51,6 +51,54 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
+/// The devices of all subsystems are open while it lives.
+class OpenDevices {
+ public:
+  explicit OpenDevices(Assembly& assembly) : assembly_(assembly) {}
+  OpenDevices(const OpenDevices&) = delete;
+  OpenDevices& operator=(const OpenDevices&) = delete;
+  /// Only for a run that ends by an exception; every other one has given the safe command and called `close`.
+  ~OpenDevices() {
+    if (!open_) return;
+    for (const auto& executor : assembly_.executors) executor->leave();
+    close();
+  }
+
+  /// Effectors come first, so that they are safe soon. false and `error`: the run must not start; nothing is
+  /// open any more.
+  [[nodiscard]] bool open(std::string& error) {
+    open_ = true;
+    for (const bool effectors : {true, false})
+      for (const auto& executor : assembly_.executors) {
+        Operations& operations = executor->operations();
+        if (operations.commands_devices() != effectors) continue;
+        if (StopSignals::pending() == 0 && operations.open_devices(error)) continue;
+        if (error.empty())
+          error = fmt::format("{} while devices were opened", StopSignals::name(StopSignals::pending()));
+        close();
+        return false;
+      }
+    return true;
+  }
+
+  /// Returns what went wrong.
+  std::vector<std::string> close() {
+    open_ = false;
+    std::vector<std::string> wrong;
+    for (const bool effectors : {false, true})
+      for (auto executor = assembly_.executors.rbegin(); executor != assembly_.executors.rend(); ++executor) {
+        if ((*executor)->operations().commands_devices() != effectors) continue;
+        const std::vector<std::string> more = (*executor)->operations().close_devices();
+        wrong.insert(wrong.end(), more.begin(), more.end());
+      }
+    return wrong;
+  }
+
+ private:
+  Assembly& assembly_;
+  bool open_ = false;
+};
+
 /// Everything but what only the driver of the run knows.
 template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
@@ -58,6 +106,8 @@ template <class Run>
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
   RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
   UpperLayers upper(agents_of(assembly.system), lane);
+  OpenDevices devices(assembly);
+  if (!devices.open(error)) return std::nullopt;
   std::optional<LastChance> last_chance;
   last_chance.emplace(assembly, run.clock(), assembly.guardian);
   const std::int64_t start_ns = monotonic_ns();
@@ -66,6 +116,7 @@ template <class Run>
   last_chance.reset();
   if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
   ending.failed = ending.failed || !unsafe.empty();
+  const std::vector<std::string> unclosed = devices.close();
 
   std::string stuck;
   if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));
@@ -101,6 +152,7 @@ template <class Run>
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
   if (!stuck.empty()) warn(summary, stuck);
+  for (const std::string& complaint : unclosed) warn(summary, complaint);
   close_recording(assembly, summary);
   close_world(assembly, summary);
   return summary;

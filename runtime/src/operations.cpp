@@ -30,6 +30,10 @@ void assign(void* to, const void* from, std::size_t size, const ValueType* type)
 
 [[nodiscard]] std::vector<Effectors::Group> devices_of(const SubsystemParts& parts) {
   std::vector<Effectors::Group> devices;
+  for (const DriverInUse& driver : parts.drivers)
+    if (driver.effector) devices.push_back({driver.path, driver.first, driver.count});
+  if (!devices.empty()) return devices;
+  // No drivers of a robot's: what is recorded takes the commands.
   for (std::size_t index = 0; index < parts.effectors.size(); ++index)
     devices.push_back({fmt::format("{}.{}", parts.path, parts.bindings.real_outputs[index].name), index, 1});
   return devices;
@@ -39,6 +43,8 @@ void assign(void* to, const void* from, std::size_t size, const ValueType* type)
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
     : parts_(std::move(parts)),
+      devices_(parts_.drivers),
+      limits_(parts_.bindings, parts_.instance->period),
       context_(parts_.subsystem->context()),
       control_(control),
       clock_(clock),
@@ -159,6 +165,7 @@ void Operations::fail_late(std::uint64_t missed) {
 void Operations::finish_call(Time now) {
   // Real inputs stay fresh for the conditions of this iteration; the next one reads them again.
   for (const Bindings::Incoming& input : parts_.bindings.inputs) input.arrival->fresh = false;
+  beat(now, place_of_call(behaviour_));
   check_watchdog(now);
   check_outputs();
   if (!effectors_.none() && !failed_)
@@ -222,6 +229,7 @@ void Operations::write_effectors(Time now) {
     if (output.finite != nullptr && !output.finite(output.value)) return fail_not_finite(output);
   if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none)
     return hold(why, place_of_call(behaviour_));
+  if (!keep_limits(now)) return;
   const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
   switch (effectors_.command(now)) {
     case Effectors::Answer::withheld:
@@ -232,9 +240,30 @@ void Operations::write_effectors(Time now) {
       return fail(Fault::device, behaviour_, "a real effector refused its command");
     case Effectors::Answer::taken:
       refused_since_ = Time::max();
+      limits_.note_sent(now);
       effectors_.record(lane_);
       if (was_held) log(LogLevel::info, "commands go to the devices again");
   }
+}
+
+/// false: a command is beyond a limit for which that is a fault.
+bool Operations::keep_limits(Time now) {
+  const CommandLimits::Excess* const excess = limits_.apply(now);
+  if (excess == nullptr) return true;
+  std::array<char, 256> text;
+  const auto end = excess->fault
+                       ? fmt::format_to_n(text.data(), text.size(),
+                                          "the command {:.6g} to real output '{}' is beyond its limits",
+                                          excess->asked, excess->name)
+                       : fmt::format_to_n(text.data(), text.size(),
+                                          "real output '{}' is limited to {:.6g} ({:.6g} was asked for)",
+                                          excess->name, excess->sent, excess->asked);
+  const std::string_view line(text.data(), std::min(end.size, text.size()));
+  if (excess->fault)
+    fail(Fault::limit, behaviour_, line);
+  else
+    log(LogLevel::warning, line);
+  return !excess->fault;
 }
 
 // -------------------------------------------------------------------------------------------- channels
@@ -325,6 +354,7 @@ int Operations::route(std::uint16_t behaviour, Time now) {
 void Operations::give_safe_command(SafeReason why) {
   if (effectors_.none()) return;
   last_safe_ = why;
+  limits_.note_safe(clock_.now());
   const bool taken = effectors_.make_safe(why, Effectors::Busy::waits);
   effectors_.record(lane_);
   if (taken) {
@@ -357,6 +387,44 @@ void Operations::try_again(Time now) {
                                       "{}: a real effector refuses its safe command", parts_.path);
     control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
   }
+}
+
+bool Operations::open_devices(std::string& error) {
+  return devices_.open(
+      [this](const DriverInUse& driver) {
+        for (std::size_t index = driver.first; driver.effector && index < driver.first + driver.count;
+             ++index) {
+          const Bindings::RealOutgoing& output = parts_.bindings.real_outputs[index];
+          if (!parts_.effectors[index]->write(
+                  {static_cast<const std::byte*>(output.safe.get()), output.size}))
+            return false;
+        }
+        return true;
+      },
+      error);
+}
+
+/// A heart that fails is a device that fails; said once until it beats again.
+void Operations::beat(Time now, std::string_view place) {
+  if (devices_.next_beat() > now) return;
+  std::string text = "the heartbeat of a device: an exception that is no std::exception";
+  try {
+    devices_.beat(now, [this](const DriverInUse& driver, const std::function<void()>& call) {
+      if (driver.effector)
+        effectors_.alone_with(driver.first, call);
+      else
+        call();
+    });
+    heart_failed_ = false;
+    return;
+  } catch (const std::exception& exception) {
+    text = fmt::format("the heartbeat of a device: {}", exception.what());
+  } catch (const abi::__forced_unwind&) {
+    throw;
+  } catch (...) {
+  }
+  if (!std::exchange(heart_failed_, true)) report(Fault::device, place, text);
+  give_safe_command({SafeReason::Kind::fault});
 }
 
 SafeReason Operations::why_hold(Time now) const {
@@ -419,6 +487,7 @@ void Operations::report_hold(const SafeReason& why, std::string_view place) {
 }
 
 void Operations::guard_effectors(Time now, std::string_view place) {
+  beat(now, place);
   if (effectors_.none()) return;
   if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none && why != held_)
     hold(why, place);

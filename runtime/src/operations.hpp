@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "clock.hpp"
+#include "command_limits.hpp"
+#include "device_life.hpp"
 #include "effectors.hpp"
 #include "injection.hpp"
 #include "parameter_changes.hpp"
@@ -38,6 +40,7 @@ struct SubsystemParts {
   Bindings bindings;
   std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs
   std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
+  std::vector<DriverInUse> drivers;                      ///< behind receptors and effectors
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
   std::unique_ptr<ValueRecorder> values;                 ///< nullptr: they are not recorded
@@ -87,17 +90,28 @@ class Operations final : public ContextServices {
   /// The last transition function has failed for a reason that is not here, as in a recorded run.
   void fail_as_recorded(Fault fault, std::string_view what) { fail(fault, behaviour_, what); }
 
+  /// Opens the devices; an effector gets its safe command as soon as its device is open. false and `error`:
+  /// one could not be opened or refuses; what is open must still be closed. Threads: before the run.
+  [[nodiscard]] bool open_devices(std::string& error);
+  /// Closes those that are open and returns what went wrong. Threads: after the run.
+  std::vector<std::string> close_devices() { return devices_.close(); }
+
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port);
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port);
 
+  /// Calls the heartbeats that are due. place: where the token is.
+  void beat(Time now, std::string_view place);
+  /// When `beat` must be called next; Time::max(): no device wants heartbeats.
+  [[nodiscard]] Time next_beat() const { return devices_.next_beat(); }
   /// The safe command because the subsystem or the run ends.
   void leave() { give_safe_command({SafeReason::Kind::leaves}); }
   /// Tries again, for as long as Effectors::patience, where a device has not taken it.
   void insist();
-  /// Gives the safe command if an input is stale or its source has ended or stalls, and it has not been given
-  /// for that reason, and again where a device has refused it. place: where the token is.
+  /// Calls heartbeats that are due. Gives the safe command if an input is stale or its source has ended or
+  /// stalls, and it has not been given for that reason, and again where a device has refused it. place: where
+  /// the token is.
   void guard_effectors(Time now, std::string_view place);
   /// When guard_effectors must be called next if nothing else happens; Time::max(): never.
   [[nodiscard]] Time guard_deadline(Time now) const;
@@ -131,6 +145,8 @@ class Operations final : public ContextServices {
   }
   [[nodiscard]] bool has_inputs() const { return !inputs_.empty() || !parts_.bindings.real_inputs.empty(); }
   [[nodiscard]] bool commands_devices() const { return !parts_.effectors.empty(); }
+  /// Whether a device wants heartbeats, or commands can get stale.
+  [[nodiscard]] bool watches_time() const { return commands_devices() || devices_.beats(); }
   [[nodiscard]] bool ended_by_error() const { return erroneous_; }
   [[nodiscard]] std::uint64_t iterations() const { return calls_; }
   [[nodiscard]] std::uint64_t errors() const { return errors_; }
@@ -141,6 +157,7 @@ class Operations final : public ContextServices {
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void write_effectors(Time now);
   void fail_late(std::uint64_t missed);
+  [[nodiscard]] bool keep_limits(Time now);
   void check_watchdog(Time now);
   void check_outputs();
   void fail_not_finite(const Bindings::Outgoing& output);
@@ -160,6 +177,8 @@ class Operations final : public ContextServices {
   [[nodiscard]] bool survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code);
 
   SubsystemParts parts_;
+  DeviceLife devices_;
+  CommandLimits limits_;
   Context& context_;
   RunControl& control_;
   const Clock& clock_;
@@ -187,6 +206,7 @@ class Operations final : public ContextServices {
   std::uint16_t behaviour_ = 0;  // the last called
   bool failed_ = false;          // the last transition function
   bool erroneous_ = false;       // the last outcome was error
+  bool heart_failed_ = false;    // of a device
   SafeReason held_{};            // the safe command stands because of an input
 };
 

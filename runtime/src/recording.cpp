@@ -187,6 +187,8 @@ std::string_view name_of(Fault fault) {
       return "overrun";
     case Fault::crash:
       return "crash";
+    case Fault::limit:
+      return "limit";
   }
   return "";
 }

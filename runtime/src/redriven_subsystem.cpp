@@ -30,7 +30,7 @@ using Entry = Recording::Entry;
     if (entry->event.kind() != Event::Kind::fault) continue;
     const auto fault = static_cast<Fault>(entry->event.version);
     if (fault == Fault::exception || fault == Fault::not_finite || fault == Fault::device ||
-        fault == Fault::stall || fault == Fault::overrun)
+        fault == Fault::stall || fault == Fault::overrun || fault == Fault::limit)
       return entry;
   }
   return nullptr;

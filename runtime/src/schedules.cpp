@@ -36,6 +36,10 @@ void show_progress(const ScheduleReport& report) {
 
 std::optional<ScheduleReport> try_schedules(const System& system, RunOptions options, std::uint64_t count,
                                             std::string& error) {
+  if (!options.hardware.empty()) {
+    error = "schedules cannot be tried with hardware in the loop";
+    return std::nullopt;
+  }
   ScheduleReport report;
   report.first_seed = options.seed;
   report.asked = count;

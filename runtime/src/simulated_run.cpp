@@ -18,8 +18,9 @@ namespace {
 /// Keeps simulated time from running ahead of the wall clock; a signal or a command ends the wait.
 class Pace {
  public:
-  Pace(bool realtime, RemoteControl* remote, const StopSignals& signals)
-      : speed_(realtime ? 1 : 0), remote_(remote), signals_(signals) {}
+  /// hardware: time that was lost is not made up for, so that it never goes faster than the wall clock.
+  Pace(bool realtime, bool hardware, RemoteControl* remote, const StopSignals& signals)
+      : speed_(realtime || hardware ? 1 : 0), hardware_(hardware), remote_(remote), signals_(signals) {}
 
   /// From here time counts anew: it has stood still, or goes faster or slower now.
   void restart(Time now) {
@@ -36,7 +37,10 @@ class Pace {
     if (speed_ <= 0) return true;
     const auto after_ns = static_cast<std::int64_t>(static_cast<double>((time - start_).count()) / speed_);
     const std::int64_t left_ns = start_ns_ + after_ns - monotonic_ns();
-    if (left_ns <= 0) return true;
+    if (left_ns <= 0) {
+      if (hardware_) restart(time);
+      return true;
+    }
     if (recorder != nullptr) recorder->flush();  // there is time, and whoever watches sees what has happened
     if (remote_ != nullptr) return remote_->wait_for(Duration(left_ns), signals_);
     timespec left{.tv_sec = left_ns / 1'000'000'000, .tv_nsec = left_ns % 1'000'000'000};
@@ -47,6 +51,7 @@ class Pace {
 
  private:
   double speed_;
+  bool hardware_;
   RemoteControl* remote_;
   const StopSignals& signals_;
   Time start_{};
@@ -56,7 +61,12 @@ class Pace {
 }  // namespace
 
 SimulatedRun::SimulatedRun(std::uint32_t instances, std::uint64_t seed)
-    : random_(seed), is_ready_(instances), has_ended_(instances), deadlines_(instances), stuck_(instances) {
+    : random_(seed),
+      is_ready_(instances),
+      has_ended_(instances),
+      deadlines_(instances),
+      beats_(instances),
+      stuck_(instances) {
   ready_.reserve(instances);
 }
 
@@ -94,6 +104,7 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
   }
   deadlines_.set(instance,
                  progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
+  beats_.set(instance, progress.state == SubsystemExecutor::State::waiting ? progress.beat : Time::max());
   if (progress.state != SubsystemExecutor::State::ended) return;
   has_ended_[instance] = true;
   upper.subsystem_ended(instance, clock_.now());
@@ -205,7 +216,7 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
 
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   const std::optional<Duration> duration = assembly.options.duration;
-  Pace pace(assembly.options.realtime, remote_.get(), signals);
+  Pace pace(assembly.options.realtime, !assembly.options.hardware.empty(), remote_.get(), signals);
   ProgressLine progress(assembly.options.progress, duration);
   const auto ending = [&](std::string text, bool failed) {
     return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt};
@@ -230,6 +241,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
     if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
     stuck_.look(assembly, clock_.now());
+    if (!beats_.empty()) next = std::min(next, beats_.first_time());
     if (remote_ != nullptr) remote_->keep_recording_live();
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {
@@ -239,11 +251,12 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     move_to(assembly, next);
     assembly.signals.raise_due(next);
     progress.update(next);
-    while (!deadlines_.empty() && deadlines_.first_time() <= next) {
-      const std::uint32_t due = deadlines_.first();
-      deadlines_.set(due, Time::max());
-      wake(due);
-    }
+    for (DeadlineQueue* queue : {&deadlines_, &beats_})
+      while (!queue->empty() && queue->first_time() <= next) {
+        const std::uint32_t due = queue->first();
+        queue->set(due, Time::max());
+        wake(due);
+      }
   }
 }
 

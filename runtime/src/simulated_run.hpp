@@ -59,7 +59,7 @@ class SimulatedRun final : public Waker {
   std::vector<bool> is_ready_, has_ended_;
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn is not over
   std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
-  DeadlineQueue deadlines_;
+  DeadlineQueue deadlines_, beats_;
   EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   StuckWatch stuck_;

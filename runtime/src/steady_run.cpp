@@ -100,8 +100,20 @@ void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
     const std::uint32_t ticket = wakes.ticket();
     const SubsystemExecutor::Progress progress = executor.step();
     if (progress.state != SubsystemExecutor::State::waiting) break;
-    wakes.sleep(ticket, progress.deadline == Time::max() ? -1 : clock_.absolute_ns(progress.deadline));
+    sleep(executor, wakes, ticket, progress);
   }
+}
+
+/// Until there may be something to do. Heartbeats are no work of the net: a subsystem that does nothing else
+/// is at rest (Stillness).
+void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+                      const SubsystemExecutor::Progress& progress) const {
+  const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
+  if (progress.deadline != Time::max() || progress.beat == Time::max())
+    return wakes.sleep(ticket, limit(std::min(progress.deadline, progress.beat)));
+  Time beat = progress.beat;
+  for (bool again = false; !wakes.rest_until(ticket, limit(beat), again); again = true)
+    beat = executor.beat(clock_.now());
 }
 
 /// One warning a run: a thousand threads may be denied the same.

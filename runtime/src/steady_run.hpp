@@ -35,6 +35,8 @@ class SteadyRun final : public Waker {
  private:
   static void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control);
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
+  void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+             const SubsystemExecutor::Progress& progress) const;
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(World& world, RunControl& control);
   void say_world_is_slow();

@@ -32,7 +32,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
   marked_.reserve(plan_->places.size());
   const auto timed = [](const Plan::PlaceEntry& place) { return place.timed; };
   watches_time_ = simulated_ || operations_.parts().instance->period > Duration::zero() ||
-                  operations_.commands_devices() ||
+                  operations_.watches_time() ||
                   std::any_of(plan_->places.begin(), plan_->places.end(), timed);
 }
 
@@ -72,7 +72,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
     if (!register_waits()) continue;
     if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
     if (std::exchange(waits_after_, firings_) != firings_) waits_since_ = now();
-    return {State::waiting, next_deadline()};
+    return {State::waiting, next_deadline(), operations_.next_beat()};
   }
 }
 

@@ -51,6 +51,7 @@ class SubsystemExecutor {
   struct Progress {
     State state = State::waiting;
     Time deadline = Time::max();  ///< of waiting: step again then, or when woken
+    Time beat = Time::max();      ///< of waiting: when a device wants a heartbeat; nothing else happens then
   };
   /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
   /// most: how many firings and operations at most; ready: it could have gone on.
@@ -86,6 +87,11 @@ class SubsystemExecutor {
   void insist() { operations_.insist(); }
   /// Threads: as its members say.
   [[nodiscard]] Effectors& effectors() { return operations_.effectors(); }
+  /// Calls the heartbeats that are due, while it waits, and returns when the next one is.
+  Time beat(Time now) {
+    operations_.beat(now, name_of(marked_.front()));
+    return operations_.next_beat();
+  }
 
   /// Tokens of one channel that a transition lacks, which has everything else or needs only time.
   struct Lack {
@@ -107,7 +113,9 @@ class SubsystemExecutor {
 
   [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
   [[nodiscard]] const Operations& operations() const { return operations_; }
-  /// What has happened to the thread of the subsystem, for the recording. Threads: that one. Async-signal-safe.
+  [[nodiscard]] Operations& operations() { return operations_; }
+  /// What has happened to the thread of the subsystem, for the recording. Threads: that one.
+  /// Async-signal-safe.
   void record_death(std::string_view text) { operations_.record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
@@ -211,7 +219,7 @@ class SubsystemExecutor {
   std::size_t followed_ = 0;           // of the script
 
   std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
-  std::uint64_t missed_ = 0;           // instants that the next call has to fail for
+  std::uint64_t missed_ = 0;        // instants that the next call has to fail for
   std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
   Time returns_{};                  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();

@@ -30,6 +30,10 @@ class alignas(64) WakeWord {
   void wake();
   /// Until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
   void sleep(std::uint32_t ticket, std::int64_t until_ns);
+  /// As sleep without a limit for those who look (`rest`), but it returns at `until_ns` so that the sleeper
+  /// can do what is no work of the net. again: goes on with the rest of the call before, which was not woken.
+  /// Returns whether it has been woken.
+  [[nodiscard]] bool rest_until(std::uint32_t ticket, std::int64_t until_ns, bool again);
   /// While it sleeps without a limit: the number of that sleep, from 1; else 0. Threads: any.
   [[nodiscard]] std::uint64_t rest() const;
 

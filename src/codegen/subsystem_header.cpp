@@ -4,6 +4,7 @@
 #include <array>
 
 #include "codegen/cpp_text.hpp"
+#include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
 
 namespace tessera::codegen {
@@ -67,6 +68,7 @@ namespace {} {{
       if (empty && out.ends_with("{};\n\n")) out.pop_back();
       out += each + '\n';
     }
+    if (has_whole_driver(project_, unit_)) out += real() + '\n';
     return out;
   }
 
@@ -110,6 +112,15 @@ namespace {} {{
     return structure("Parameters", members);
   }
 
+  [[nodiscard]] std::string real() const {
+    std::vector<Declaration> members;
+    for (const spec::Field& field : subsystem_.real)
+      members.push_back(
+          {fmt::format("{} {}{{}};", type_name(project_.model, field.type, hidden_), field.name),
+           comment_text(field.type.unit)});
+    return "/// All real buffers, for the driver that serves them all.\n" + structure("Real", members);
+  }
+
   [[nodiscard]] std::string functions() const {
     std::string out;
     for (const spec::Behaviour& behaviour : subsystem_.behaviours)
@@ -123,7 +134,7 @@ namespace {} {{
   const spec::Subsystem& subsystem_;
   std::vector<const spec::Parameter*> parameters_;
   std::set<std::string> headers_{"<tessera/buffer.hpp>", "<tessera/context.hpp>"};
-  std::set<std::string_view> hidden_{"Inputs", "Outputs", "Memory", "Parameters", "Context"};
+  std::set<std::string_view> hidden_{"Inputs", "Outputs", "Memory", "Parameters", "Context", "Real"};
 };
 
 }  // namespace

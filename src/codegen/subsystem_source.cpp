@@ -5,6 +5,7 @@
 
 #include "codegen/conditions.hpp"
 #include "codegen/cpp_text.hpp"
+#include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
 #include "codegen/net_tables.hpp"
 
@@ -25,17 +26,35 @@ std::string bind_parameter(const spec::Parameter& parameter) {
   return fmt::format("bindings.parameter(\"{0}\", parameters.{0}{1});", parameter.name, range);
 }
 
-std::string bind_real(const Project& project, const spec::Subsystem& subsystem, std::size_t at) {
+/// whole: a driver serves all real buffers at once.
+std::string bind_real(const Project& project, const spec::Subsystem& subsystem, std::size_t at, bool whole) {
   const spec::Field& field = subsystem.real[at];
+  const std::string part = whole ? fmt::format(", &real.{}", field.name) : "";
   if (subsystem.kind == SubsystemKind::receptor)
-    return fmt::format("bindings.real_input(\"{0}\", in.{0});", field.name);
+    return fmt::format("bindings.real_input(\"{0}\", in.{0}{1});", field.name, part);
   // Qualified, since it stands in our namespace.
   std::set<std::string_view> hidden;
   if (field.type.kind == spec::Type::Kind::structure)
     hidden.insert(project.model.structures[field.type.structure].name);
   const std::string safe = at < subsystem.safe.size() ? subsystem.safe[at] : "";
-  return fmt::format("bindings.real_output(\"{0}\", out.{0}, {1}{{{2}}});", field.name,
-                     type_name(project.model, field.type, hidden), safe);
+  return fmt::format("bindings.real_output(\"{0}\", out.{0}, {1}{{{2}}}{3});", field.name,
+                     type_name(project.model, field.type, hidden), safe, part);
+}
+
+/// The number that is limited stands behind the payload of the buffer, whose members are those of the
+/// structure.
+std::string bind_limit(const spec::Subsystem& subsystem, const spec::Limit& limit) {
+  const std::string& buffer = subsystem.real[limit.real].name;
+  std::vector<std::string> members;
+  if (limit.minimum) members.push_back(fmt::format(".minimum = {}", *limit.minimum));
+  if (limit.maximum) members.push_back(fmt::format(".maximum = {}", *limit.maximum));
+  if (limit.per_second) members.push_back(fmt::format(".per_second = {}", *limit.per_second));
+  if (limit.fault) members.emplace_back(".fault = true");
+  const bool whole = limit.field.empty();
+  return fmt::format(
+      "bindings.limit(\"{}\", {}, {{{}}});", whole ? buffer : buffer + '.' + limit.field,
+      whole ? fmt::format("payload(out.{})", buffer) : fmt::format("out.{}.{}", buffer, limit.field),
+      fmt::join(members, ", "));
 }
 
 std::string bind(const Project& project, const Unit& unit) {
@@ -47,8 +66,13 @@ std::string bind(const Project& project, const Unit& unit) {
   };
   if (std::ranges::any_of(parameters, half_open))
     lines.emplace_back("constexpr double infinity = std::numeric_limits<double>::infinity();");
-  for (std::size_t at = 0; at < subsystem.real.size(); ++at)
-    lines.push_back(bind_real(project, subsystem, at));
+  const bool whole = has_whole_driver(project, unit);
+  if (whole) lines.emplace_back("yours::Real& real = bindings.all_real<yours::Real>();");
+  for (std::size_t at = 0; at < subsystem.real.size(); ++at) {
+    lines.push_back(bind_real(project, subsystem, at, whole));
+    for (const spec::Limit& limit : subsystem.limits)
+      if (limit.real == at) lines.push_back(bind_limit(subsystem, limit));
+  }
   for (const spec::Field& field : subsystem.inputs)
     lines.push_back(fmt::format("bindings.input(\"{0}\", in.{0});", field.name));
   for (const spec::Field& field : subsystem.outputs)

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "codegen/cpp_text.hpp"
+#include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
 #include "codegen/net_tables.hpp"
 
@@ -116,63 +117,6 @@ std::string verdict_rows(const verify::Report& report) {
   return rows;
 }
 
-/// The C++ drivers of the real robot, then those of the simulation for buffers that have no other.
-std::vector<std::pair<std::string, const spec::Driver*>> cpp_drivers(const spec::Model& model) {
-  std::vector<std::pair<std::string, const spec::Driver*>> drivers;
-  const auto add = [&](const std::vector<spec::Driver>& from) {
-    for (const spec::Driver& driver : from) {
-      if (driver.kind != "cpp") continue;
-      std::string path = model.instance_path(driver.instance) + '.' +
-                         model.subsystem(driver.instance).real[driver.real].name;
-      drivers.emplace_back(std::move(path), &driver);
-    }
-  };
-  add(model.drivers);
-  if (model.simulation) add(model.simulation->drivers);
-  std::ranges::stable_sort(drivers, {}, [](const auto& driver) { return driver.first; });
-  const auto repeated = std::ranges::unique(drivers, {}, [](const auto& driver) { return driver.first; });
-  drivers.erase(repeated.begin(), repeated.end());
-  return drivers;
-}
-
-/// How the generated code names a driver's class: by its place among the drivers.
-std::string alias_of(std::size_t driver) { return fmt::format("tessera_driver_{}", driver + 1); }
-
-/// The classes of the drivers as the specification names them: in the namespace of the system.
-std::string driver_classes(const spec::Model& model) {
-  std::string aliases;
-  for (std::size_t at = 0; const auto& [path, driver] : cpp_drivers(model))
-    aliases += fmt::format("using {} = {};  // {}\n", alias_of(at++), driver->target, path);
-  if (aliases.empty()) return aliases;
-  return fmt::format(R"(// The classes of the drivers, by the names that the specification gives them.
-namespace {0} {{
-namespace {{
-{1}}}  // namespace
-}}  // namespace {0}
-
-)",
-                     model.system, aliases);
-}
-
-std::string driver_rows(const spec::Model& model) {
-  std::string rows;
-  for (std::size_t at = 0; const auto& [path, driver] : cpp_drivers(model)) {
-    const bool reads = model.subsystem(driver->instance).kind == spec::SubsystemKind::receptor;
-    const std::string maker =
-        fmt::format("device<tessera::{}, ::{}::{}>", reads ? "RealReceptor" : "RealEffector", model.system,
-                    alias_of(at++));
-    rows += fmt::format("    {{\"{}\", {}}},\n", path, reads ? maker + ", nullptr" : "nullptr, " + maker);
-  }
-  return rows;
-}
-
-constexpr std::string_view device_maker = R"(
-template <class Base, class Device>
-std::unique_ptr<Base> device() {
-  return std::make_unique<Device>();
-}
-)";
-
 /// What stands in the namespace of the system.
 std::set<std::string> names_in_system(const spec::Model& model) {
   std::set<std::string> names;
@@ -233,12 +177,11 @@ namespace tessera_generated {{
 File system_source(const Project& project, const std::vector<ChannelPorts>& ports) {
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
-  const std::string drivers = driver_rows(model);
-  std::set<std::string> project_headers{quoted("subsystems.hpp")};
-  if (!drivers.empty()) project_headers.insert(quoted("drivers.hpp"));
-  return {
-      "system.cpp",
-      fmt::format(R"({0}#include "system.hpp"
+  const DriverTables drivers = driver_tables(project);
+  std::set<std::string> project_headers = drivers.headers;
+  project_headers.insert(quoted("subsystems.hpp"));
+  return {"system.cpp",
+          fmt::format(R"({0}#include "system.hpp"
 
 #include <chrono>
 #include <memory>
@@ -250,16 +193,17 @@ File system_source(const Project& project, const std::vector<ChannelPorts>& port
 namespace {{
 
 using namespace std::chrono_literals;
-{4}
+
 // clang-format off
-{11}{5}
+{4}{5}
 {6}
-{7}
-{8}
+{7}{8}
+{9}
 constexpr tessera::System whole{{
     .tables_version = {2}, .name = "{3}",
-    .net_hash = "{9}", .verification_hash = "{10}",
-    .verdicts = verdicts, .instances = instances, .channels = channels, .drivers = drivers}};
+    .net_hash = "{10}", .verification_hash = "{11}",
+    .verdicts = verdicts, .instances = instances, .channels = channels,
+    .real_drivers = real_drivers, .simulated_drivers = simulated_drivers}};
 // clang-format on
 
 }}  // namespace
@@ -268,12 +212,13 @@ const tessera::System& system() {{ return whole; }}
 
 }}  // namespace tessera_generated
 )",
-                  project.banner(), include_block(project_headers), tables_version_made, model.system,
-                  drivers.empty() ? "" : device_maker, table("Instance", "instances", instance_rows(project)),
-                  table("Channel", "channels", channel_rows(model, ports)),
-                  table("CppDriver", "drivers", drivers),
-                  table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
-                  report.verification_hash, models_table(model), driver_classes(model))};
+                      project.banner(), include_block(project_headers), tables_version_made, model.system,
+                      models_table(model), table("Instance", "instances", instance_rows(project)),
+                      table("Channel", "channels", channel_rows(model, ports)), drivers.options,
+                      table("CppDriver", "real_drivers", drivers.real) + "\n" +
+                          table("CppDriver", "simulated_drivers", drivers.simulated),
+                      table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
+                      report.verification_hash, drivers.classes)};
 }
 
 File main_source(const Project& project) {

@@ -17,7 +17,7 @@ using diagnostics::quoted;
 
 /// Names that stand beside the transition functions in the generated code.
 constexpr std::array generated =
-    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters"});
+    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
 
 constexpr const char* next_hint = "write a behaviour, or a list such as [{ to: search, when: error }, end]";
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/driver_options.hpp"
 #include "spec/names.hpp"
 #include "spec/paths.hpp"
 #include "spec/quantities.hpp"
@@ -41,15 +42,6 @@ bool is_plain_float(const Type& type) {
          (type.scalar == Scalar::float32 || type.scalar == Scalar::float64);
 }
 
-/// `text` with every {i} replaced by the number.
-std::string with_number(std::string text, Index number) {
-  constexpr std::string_view mark = "{i}";
-  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at)) {
-    text.replace(at, mark.size(), std::to_string(number));
-  }
-  return text;
-}
-
 /// A::B::C
 bool is_class_name(std::string_view text) {
   for (;;) {
@@ -80,50 +72,69 @@ class Reader {
     key.span = entry.span;
     key.text = entry.key;
     key.verbatim = entry.span.length == entry.key.size();
-    const auto path = split_path(key, 0, key.text.size(), out_);
+    const auto path = split_device_path(key, out_);
     Place place;
     Known known = Known::nothing;
     if (!path || !lookup_.find(*path, place, known, out_)) return;
-    driver.real = lookup_.find_buffer(*path, place, lookup_.subsystem(place).real, "real buffer", out_);
-    if (driver.real == none || kind == nullptr || !fits(*kind, place, driver)) return;
+    if (!find_real(*path, place, driver) || kind == nullptr || !fits(*kind, place, driver)) return;
     add(*path, place, driver);
   }
 
+  /// Which buffer, or all of them.
+  bool find_real(const BufferPath& path, const Place& place, Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(place);
+    if (!path.buffer.empty()) {
+      driver.real = lookup_.find_buffer(path, place, subsystem.real, "real buffer", out_);
+      return driver.real != none;
+    }
+    driver.real = none;
+    if (!subsystem.real.empty()) return true;
+    out_.error("E210", driver.span,
+               quoted(path.subsystem) + " has no real buffers that a driver could serve");
+    return false;
+  }
+
   const DriverKind* read_body(const Entry& entry, Driver& driver) {
-    const DriverKind* kind = nullptr;
-    const Entry* stranger = nullptr;
     if (!entry.value->is_map()) {
       out_.error("E104", entry.span, "a driver must be a map", driver_hint);
       return nullptr;
     }
+    const DriverKind* kind = nullptr;
     for (const Entry& key : entry.value->entries) {
-      if (const DriverKind* found = find_kind(key.key)) {
-        if (kind != nullptr)
-          out_.error("E107", key.span, "a driver has one kind",
-                     "keep one of " + driver.kind + ", " + key.key);
-        kind = found;
-        read_target(key, *found, driver);
-      } else if (key.value->is_scalar() && split_quantity(key.value->text)) {
-        read_option(key, driver);
-      } else {
-        stranger = &key;
-      }
+      const DriverKind* const found = find_kind(key.key);
+      if (found == nullptr) continue;
+      if (kind != nullptr)
+        out_.error("E107", key.span, "a driver has one kind", "keep one of " + driver.kind + ", " + key.key);
+      kind = found;
+      read_target(key, *found, driver);
     }
-    if (stranger != nullptr) complain_about(*stranger, kind != nullptr);
-    if (kind == nullptr && stranger == nullptr)
-      out_.error("E103", entry.span, "a driver needs a kind", driver_hint);
+    if (kind == nullptr) {
+      complain_of_kind(entry);
+      return nullptr;
+    }
+    for (const Entry& key : entry.value->entries) {
+      if (find_kind(key.key) != nullptr) continue;
+      if (const auto option =
+              kind->simulated_only ? read_world_option(key, out_) : read_class_option(key, out_))
+        driver.options.emplace(key.key, *option);
+    }
     return kind;
   }
 
-  void complain_about(const Entry& key, bool has_kind) {
-    if (has_kind) {
-      out_.error("E104", key.span, "option " + quoted(key.key) + " must be a number", driver_hint);
+  /// What is no number was probably meant to be the kind.
+  void complain_of_kind(const Entry& entry) {
+    const auto& entries = entry.value->entries;
+    const auto stranger = std::find_if(entries.begin(), entries.end(), [](const Entry& key) {
+      return !key.value->is_scalar() || !split_quantity(key.value->text);
+    });
+    if (stranger == entries.end()) {
+      out_.error("E103", entry.span, "a driver needs a kind", driver_hint);
       return;
     }
     std::vector<std::string> names;
     for (const DriverKind& kind : kinds) names.emplace_back(kind.name);
-    const std::string guess = diagnostics::did_you_mean(key.key, names);
-    out_.error("E101", key.span, "unknown driver " + quoted(key.key),
+    const std::string guess = diagnostics::did_you_mean(stranger->key, names);
+    out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
                guess.empty() ? "there are cpp, reflectance and velocity" : guess);
   }
 
@@ -139,16 +150,8 @@ class Reader {
     }
   }
 
-  void read_option(const Entry& key, Driver& driver) {
-    check_name(key.key, key.span, "option", out_);
-    if (const auto value = read_number(*key.value, key.span, "option " + quoted(key.key), out_)) {
-      driver.options.emplace(key.key, *value);
-    }
-  }
-
   bool fits(const DriverKind& kind, const Place& place, const Driver& driver) {
     const Subsystem& subsystem = lookup_.subsystem(place);
-    const Field& buffer = subsystem.real[driver.real];
     std::string problem;
     const bool right_side = subsystem.kind == SubsystemKind::effector ? kind.effectors : kind.receptors;
     if (devices_ == Devices::real && kind.simulated_only) {
@@ -156,7 +159,9 @@ class Reader {
     } else if (!right_side) {
       problem = "driver " + quoted(kind.name) + " does not fit " +
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
-    } else if (kind.simulated_only && !is_plain_float(buffer.type)) {
+    } else if (kind.simulated_only && driver.real == none) {
+      problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
+    } else if (kind.simulated_only && !is_plain_float(subsystem.real[driver.real].type)) {
       problem = "driver " + quoted(kind.name) + " needs a real buffer of type float64 or float32";
     } else {
       return true;
@@ -180,16 +185,33 @@ class Reader {
     for (Index number = first; number < last; ++number) {
       Driver one = driver;
       one.instance = lookup_.instance(place, number);
-      if (place.group->fleet) one.target = with_number(one.target, number);
-      const auto [taken, added] = lines_.emplace(std::pair(one.instance, one.real), driver.span.line);
-      if (!added) {
-        out_.error("E308", driver.span,
-                   "a second driver for " + lookup_.model().instance_path(one.instance) + "." + path.buffer,
-                   "the first is on line " + std::to_string(taken->second));
-        return;
-      }
+      if (place.group->fleet) put_number(one, number);
+      if (!is_first(one)) return;
       drivers_.push_back(std::move(one));
     }
+  }
+
+  static void put_number(Driver& driver, Index number) {
+    driver.target = with_number(driver.target, number);
+    for (auto& [name, option] : driver.options)
+      if (auto* const text = std::get_if<std::string>(&option.value)) *text = with_number(*text, number);
+  }
+
+  /// Each real buffer has one driver, its own or that of the whole subsystem.
+  bool is_first(const Driver& driver) {
+    const std::vector<Field>& real = lookup_.model().subsystem(driver.instance).real;
+    const Index first = driver.real == none ? 0 : driver.real;
+    const Index end = driver.real == none ? static_cast<Index>(real.size()) : driver.real + 1;
+    for (Index buffer = first; buffer < end; ++buffer) {
+      const auto [taken, added] = lines_.emplace(std::pair(driver.instance, buffer), driver.span.line);
+      if (added) continue;
+      out_.error(
+          "E308", driver.span,
+          "a second driver for " + lookup_.model().instance_path(driver.instance) + "." + real[buffer].name,
+          "the first is on line " + std::to_string(taken->second));
+      return false;
+    }
+    return true;
   }
 
   Devices devices_;

@@ -1,6 +1,8 @@
 #include "spec/model.hpp"
 
 #include <array>
+#include <set>
+#include <utility>
 
 namespace tessera::spec {
 
@@ -17,6 +19,25 @@ const Subsystem& Model::subsystem(Index instance) const {
 
 std::string Model::instance_path(Index instance) const {
   return agents[instances[instance].agent].path + "." + subsystem(instance).name;
+}
+
+std::string Model::driver_path(const Driver& driver) const {
+  const std::string path = instance_path(driver.instance);
+  return driver.real == none ? path : path + "." + subsystem(driver.instance).real[driver.real].name;
+}
+
+std::vector<std::string> Model::without_driver(const std::vector<Driver>& those) const {
+  std::set<std::pair<Index, Index>> driven;
+  for (const Driver& driver : those) driven.emplace(driver.instance, driver.real);
+  std::vector<std::string> missing;
+  for (Index instance = 0; instance < instances.size(); ++instance) {
+    if (driven.contains({instance, none})) continue;
+    const std::vector<Field>& real = subsystem(instance).real;
+    for (Index buffer = 0; buffer < real.size(); ++buffer)
+      if (!driven.contains({instance, buffer}))
+        missing.push_back(instance_path(instance) + "." + real[buffer].name);
+  }
+  return missing;
 }
 
 std::string Model::channel_name(const Channel& channel) const {

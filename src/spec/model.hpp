@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
@@ -143,6 +144,16 @@ struct RealTime {
   std::optional<std::uint32_t> cpu;
 };
 
+/// What a command to a real buffer, or to a number inside it, has to keep to.
+struct Limit {
+  Index real = 0;     ///< into Subsystem::real
+  std::string field;  ///< inside the buffer: "pose.x"; empty: the buffer itself. Of an array: each element
+  std::optional<double> minimum, maximum;
+  std::optional<double> per_second;  ///< the most that it may change in a second
+  bool fault = false;                ///< a command beyond is a fault; else the limit is sent in its place
+  Span span;
+};
+
 struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
@@ -152,6 +163,7 @@ struct Subsystem {
   std::vector<Parameter> parameters;
   std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
   std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
+  std::vector<Limit> limits;      ///< effector: of real buffers
   std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
   /// effector: a fault or a stale input begins an emergency stop, which an operator ends
   bool operator_resets = false;
@@ -252,13 +264,21 @@ struct Property {
 /// "always_reachable"
 [[nodiscard]] std::string_view name_of(Property::Kind kind);
 
-/// Which device stands behind a real buffer.
+/// What a driver is told: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
+struct DriverOption {
+  std::variant<bool, double, std::string> value;
+  std::string unit;  ///< of a number, as written; empty: none
+
+  bool operator==(const DriverOption&) const = default;
+};
+
+/// Which device stands behind a real buffer, or behind all real buffers of a subsystem.
 struct Driver {
   Index instance = 0;
-  Index real = 0;      ///< into Subsystem::real
+  Index real = 0;      ///< into Subsystem::real; none: all of them
   std::string kind;    ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
   std::string target;  ///< C++ class, or the name of an element of the world
-  std::map<std::string, double> options;  ///< e.g. noise
+  std::map<std::string, DriverOption> options;  ///< of the simulated world: numbers, in SI units
   Span span;
 };
 
@@ -271,7 +291,7 @@ struct Track {
 };
 
 struct Simulation {
-  std::string world;
+  std::string world;  ///< empty: none; the drivers are C++ classes
   Span world_span;
   std::optional<Track> track;
   std::vector<Driver> drivers;
@@ -298,6 +318,10 @@ struct Model {
   [[nodiscard]] const Subsystem& subsystem(Index instance) const;
   /// "robot[3].control"
   [[nodiscard]] std::string instance_path(Index instance) const;
+  /// "robot[3].motor.left", or "arm.joints" for a driver of all real buffers.
+  [[nodiscard]] std::string driver_path(const Driver& driver) const;
+  /// Paths of the real buffers behind which none of `those` stands.
+  [[nodiscard]] std::vector<std::string> without_driver(const std::vector<Driver>& those) const;
   /// "robot.control.motion->robot.motor.velocity": the name of the channel's fused places.
   [[nodiscard]] std::string channel_name(const Channel& channel) const;
   /// May who sends to or receives from the channel have to wait there?

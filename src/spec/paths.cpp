@@ -54,8 +54,10 @@ Index agent_number(const Selector& selector, const Group& group, std::int64_t i)
   return number < 0 || number >= count ? none : static_cast<Index>(number);
 }
 
-std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
-                                     Diagnostics& out) {
+namespace {
+
+std::optional<BufferPath> split(const Node& text, std::size_t offset, std::size_t length, bool needs_buffer,
+                                Diagnostics& out) {
   const std::string_view all = std::string_view(text.text).substr(offset, length);
   const auto span = [&](std::string_view part) {
     return text.part(static_cast<std::size_t>(part.data() - text.text.data()),
@@ -82,12 +84,13 @@ std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::
     rest.remove_prefix(close + 1);
   }
   const std::size_t dot = rest.empty() ? std::string_view::npos : rest.find('.', 1);
-  if (!rest.starts_with('.') || dot == std::string_view::npos) {
+  const bool has_buffer = dot != std::string_view::npos;
+  if (!rest.starts_with('.') || (needs_buffer && !has_buffer)) {
     return fail(all, quoted(all) + " does not name a buffer", path_hint);
   }
   const std::string_view subsystem = rest.substr(1, dot - 1);
-  const std::string_view buffer = rest.substr(dot + 1);
-  for (const std::string_view part : {agent, subsystem, buffer}) {
+  const std::string_view buffer = has_buffer ? rest.substr(dot + 1) : rest.substr(rest.size());
+  for (const std::string_view part : {agent, subsystem, has_buffer ? buffer : subsystem}) {
     if (!is_identifier(part)) return fail(all, quoted(all) + " does not name a buffer", path_hint);
   }
   path.agent = agent;
@@ -97,6 +100,17 @@ std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::
   path.subsystem_span = span(subsystem);
   path.buffer_span = span(buffer);
   return path;
+}
+
+}  // namespace
+
+std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
+                                     Diagnostics& out) {
+  return split(text, offset, length, /*needs_buffer=*/true, out);
+}
+
+std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out) {
+  return split(text, 0, text.text.size(), /*needs_buffer=*/false, out);
 }
 
 Lookup::Lookup(const Model& model, const Groups& groups) : model_(model), groups_(groups) {

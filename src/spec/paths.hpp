@@ -40,6 +40,10 @@ struct BufferPath {
 [[nodiscard]] std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
                                                    Diagnostics& out);
 
+/// The path of a real buffer, or of a subsystem (AGENT.SUBSYSTEM): then `buffer` is empty.
+/// Errors: E112 as for split_path.
+[[nodiscard]] std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out);
+
 /// A path whose agent and subsystem exist.
 struct Place {
   const Group* group = nullptr;

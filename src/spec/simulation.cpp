@@ -1,5 +1,7 @@
 #include "spec/simulation.hpp"
 
+#include <algorithm>
+
 #include "spec/drivers.hpp"
 #include "spec/quantities.hpp"
 #include "spec/section.hpp"
@@ -55,6 +57,14 @@ Track read_track(const Entry& entry, Diagnostics& out) {
   return track;
 }
 
+/// Simulated drivers that are C++ classes need no world; a part of one does, and a track is its floor.
+void require_world(const Section& section, const Simulation& simulation) {
+  const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
+                                    [](const Driver& driver) { return driver.kind != "cpp"; });
+  if (of_world || simulation.track || simulation.drivers.empty())
+    section.require("world", "for example world: line_world.xml");
+}
+
 }  // namespace
 
 std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const Groups& groups,
@@ -63,10 +73,10 @@ std::optional<Simulation> read_simulation(const Entry* entry, const Model& model
   const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "drivers"}, out);
   Simulation simulation;
   simulation.span = entry->span;
-  simulation.world = read_file_name(section.require("world", "for example world: line_world.xml"),
-                                    "the world", simulation.world_span, out);
+  simulation.world = read_file_name(section.find("world"), "the world", simulation.world_span, out);
   if (const Entry* track = section.find("track")) simulation.track = read_track(*track, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
+  if (section.find("world") == nullptr) require_world(section, simulation);
   return simulation;
 }
 

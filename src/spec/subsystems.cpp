@@ -7,6 +7,7 @@
 #include "spec/behaviours.hpp"
 #include "spec/buffers.hpp"
 #include "spec/flow.hpp"
+#include "spec/limits.hpp"
 #include "spec/literals.hpp"
 #include "spec/policies.hpp"
 #include "spec/quantities.hpp"
@@ -23,10 +24,10 @@ struct SpecialKey {
   bool receptors;
   std::string_view owners;
 };
-constexpr std::array special_keys = {SpecialKey{"real", true, "receptors and effectors"},
-                                     SpecialKey{"safe", false, "effectors"},
-                                     SpecialKey{"stale", false, "effectors"},
-                                     SpecialKey{"recovery", false, "effectors"}};
+constexpr std::array special_keys = {
+    SpecialKey{"real", true, "receptors and effectors"}, SpecialKey{"safe", false, "effectors"},
+    SpecialKey{"limits", false, "effectors"}, SpecialKey{"stale", false, "effectors"},
+    SpecialKey{"recovery", false, "effectors"}};
 
 void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
   for (const SpecialKey& key : special_keys) {
@@ -117,7 +118,8 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
                          Diagnostics& out) {
   const Section section(*entry.value, entry.span, "a subsystem",
                         {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real",
-                         "safe", "stale", "recovery", "overrun", "watchdog", "non_finite", "realtime"},
+                         "safe", "limits", "stale", "recovery", "overrun", "watchdog", "non_finite",
+                         "realtime"},
                         out);
   check_kind(section, kind, out);
   Subsystem subsystem;
@@ -137,6 +139,9 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
   check_shadowing(subsystem.parameters, around.parameters, out);
   subsystem.safe = read_safe(section.find("safe"), subsystem.real, around.types, out);
+  if (kind == SubsystemKind::effector)
+    subsystem.limits =
+        read_limits(section.find("limits"), section.find("safe"), subsystem.real, around.types, out);
   read_stale(section.find("stale"), subsystem, out);
   read_policies(section, subsystem, out);
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {

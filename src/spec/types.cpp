@@ -32,7 +32,7 @@ constexpr std::array synonyms = {
 constexpr std::array status_names =
     std::to_array<std::string_view>({"fresh", "age", "stamp", "timed_out", "valid"});
 constexpr std::array generated_types =
-    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters"});
+    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
 
 constexpr std::uint64_t largest_type = std::uint64_t{256} * 1024 * 1024;
 

@@ -118,7 +118,7 @@ void Api::get_project(Response& response) {
                {"examples_hint", (options_.share / "examples").string()}};
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
   if (analysis->model) project["name"] = analysis->model->system;
-  if (analysis->model && analysis->model->simulation) {
+  if (analysis->model && analysis->model->simulation && !analysis->model->simulation->world.empty()) {
     const spec::Simulation& simulation = *analysis->model->simulation;
     project["simulation"] = {{"world", simulation.world}, {"track", nullptr}};
     if (simulation.track)

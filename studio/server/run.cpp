@@ -152,6 +152,13 @@ std::optional<project::Controller> Run::make() {
     set_state(State::ended, "stopped");
     return std::nullopt;
   }
+  project::LaunchOptions launch;
+  launch.spec = place_.spec.string();
+  const bool simulated = request_.kind == RunRequest::Kind::simulate || !request_.world.empty();
+  if (!project::drivers_are_there(launch, simulated, teller)) {
+    set_state(State::failed, teller.error());
+    return std::nullopt;
+  }
   teller.line("verifying, generating and compiling the controller");
   project::BuildOptions options;
   options.stop = &stop_;
@@ -177,10 +184,9 @@ void Run::execute(const project::Controller& controller) {
   options.seed = request_.seed;
   options.base = controller.specification.project;
   options.folder = place_.folder.string();
-  const bool has_world = controller.specification.model.simulation.has_value();
   const bool simulated = request_.kind == RunRequest::Kind::simulate;
   project::Command command = project::controller_command(controller, options, name_of(request_.kind),
-                                                         has_world && (simulated || !request_.world.empty()));
+                                                         simulated || !request_.world.empty());
   if (simulated) {
     command.insert(command.end(), {"--controlled", fmt::format("--speed={}", request_.speed)});
     if (request_.paused) command.emplace_back("--paused");

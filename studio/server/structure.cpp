@@ -157,8 +157,10 @@ std::map<std::string, std::string> drivers_of(const spec::Model& model) {
   const auto add = [&](const std::vector<spec::Driver>& list) {
     for (const spec::Driver& driver : list)
       if (const Known known = instance(model, driver.instance); known.subsystem != nullptr)
-        drivers.emplace(known.path + "." + name_at(known.subsystem->real, driver.real),
-                        driver.kind + ": " + driver.target);
+        for (spec::Index buffer = 0; buffer < known.subsystem->real.size(); ++buffer)
+          if (driver.real == spec::none || driver.real == buffer)
+            drivers.emplace(known.path + "." + name_at(known.subsystem->real, buffer),
+                            driver.kind + ": " + driver.target);
   };
   if (model.simulation) add(model.simulation->drivers);
   add(model.drivers);

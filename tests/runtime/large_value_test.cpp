@@ -108,7 +108,7 @@ std::uint64_t copies_of_a_run(RunOptions::Clock clock) {
       {"robot", "viewer", Kind::control, &nets::b_receiver,
        []() -> std::unique_ptr<Subsystem> { return std::make_unique<Viewer>(); }}};
   const Channel channels[] = {{"robot.camera.x->robot.viewer.x", {0, "x"}, {1, "x"}, buffered}};
-  System system{tables_version, "images", "", "", {}, instances, channels, {}};
+  System system{tables_version, "images", "", "", {}, instances, channels, {}, {}};
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   RunOptions options = simulated(60s);

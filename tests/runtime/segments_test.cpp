@@ -210,8 +210,11 @@ TEST(Segments, AFiringWaitsForThoseItFollowsFromHoweverManyOthersComeMeanwhile) 
   EXPECT_FALSE(read_back.truncated);
   ASSERT_FALSE(read_back.entries.empty());
   EXPECT_EQ(read_back.entries.back().event.subject, 3U);
-  for (const Recording::Entry& entry : read_back.entries)
-    if (entry.event.kind() == Event::Kind::marking) EXPECT_EQ(entry.event.version, 0U);
+  for (const Recording::Entry& entry : read_back.entries) {
+    if (entry.event.kind() == Event::Kind::marking) {
+      EXPECT_EQ(entry.event.version, 0U);
+    }
+  }
 }
 
 TEST(Segments, WhatIsLostIsSaidAtTheEndAndTheMarkingIsNotKnownThen) {

@@ -30,7 +30,10 @@ class ScriptSubsystem final : public Subsystem {
     bindings.output("x", state_.out_x);
     bindings.output("y", state_.out_y);
     if (script_.senses) bindings.real_input("sensed", state_.sensed);
-    if (script_.acts) bindings.real_output("command", state_.command, script_.safe);
+    if (script_.acts) {
+      bindings.real_output("command", state_.command, script_.safe);
+      bindings.limit("command", payload(state_.command), script_.limits);
+    }
     bindings.parameter("gain", state_.gain, 0, 10);
     bindings.parameter("level", state_.level);
     bindings.parameter("flag", state_.flag);
@@ -79,13 +82,19 @@ class FakeEffector final : public Effector<double> {
   }
 
  private:
+  bool open() override { return opening_ = true; }
   bool write(const double& value) override {
     {
       const std::lock_guard lock(devices_mutex);
+      if (std::exchange(opening_, false)) {
+        devices_in_use->at_opening.push_back(value);
+        return true;
+      }
       devices_in_use->commands.push_back(value);
     }
     return !devices_in_use->accept || devices_in_use->accept(value);
   }
+  bool opening_ = false;
 };
 
 }  // namespace
@@ -105,12 +114,22 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
     return *names_.emplace_back(std::make_unique<std::string>(std::string(name) + buffer));
   };
   if (script.senses)
-    drivers_.push_back({driver(".sensed"),
-                        []() -> std::unique_ptr<RealReceptor> { return std::make_unique<FakeReceptor>(); },
-                        nullptr});
+    drivers_.push_back(
+        {driver(".sensed"),
+         "FakeReceptor",
+         "",
+         {},
+         [](const DriverSetup&) -> std::unique_ptr<RealReceptor> { return std::make_unique<FakeReceptor>(); },
+         nullptr});
   if (script.acts)
-    drivers_.push_back({driver(".command"), nullptr,
-                        []() -> std::unique_ptr<RealEffector> { return std::make_unique<FakeEffector>(); }});
+    drivers_.push_back({driver(".command"),
+                        "FakeEffector",
+                        "",
+                        {},
+                        nullptr,
+                        [](const DriverSetup&) -> std::unique_ptr<RealEffector> {
+                          return std::make_unique<FakeEffector>();
+                        }});
   scripts.at(index) = std::move(script);
   instances_.push_back(
       {name.substr(0, dot), name.substr(dot + 1), kind, &net, make_table.at(index), period, stale, policies});
@@ -130,7 +149,7 @@ void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uin
 }
 
 const System& TestSystem::system() {
-  system_ = {tables_version, "test", "", "verification", {}, instances_, channels_, drivers_};
+  system_ = {tables_version, "test", "", "verification", {}, instances_, channels_, drivers_, drivers_};
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

@@ -32,11 +32,13 @@ struct Script {
   std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
   bool senses = false, acts = false;  ///< has a real receptor, a real effector
   double safe = -1;
+  Bindings::Limits limits{};  ///< of the command
 };
 
 /// A device that remembers.
 struct Devices {
-  std::vector<double> commands;        ///< of effectors, in order
+  std::vector<double> commands;        ///< of effectors, in order, but for the first
+  std::vector<double> at_opening;      ///< the first commands of effectors, which they are given when opened
   std::function<bool(double&)> sense;  ///< of receptors
   std::function<bool(double)> accept;  ///< of effectors, from any thread; unset: yes
   std::function<void()> made;          ///< while an effector is made

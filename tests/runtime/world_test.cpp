@@ -106,12 +106,12 @@ TEST(Devices, ARealBufferWithoutADriverIsNamed) {
   script.senses = script.acts = true;
   system.add("robot.body", nets::alone, script, 10ms);
   System without = system.system();
-  without.drivers = {};
+  without.simulated_drivers = {};
   std::string error;
   EXPECT_FALSE(execute(without, simulated(1ms), error));
   EXPECT_EQ(
       error,
-      "the real buffer robot.body.sensed has no driver\nthe real buffer robot.body.command has no driver");
+      "the real buffer robot.body.sensed has no simulated driver\nthe real buffer robot.body.command has no simulated driver");
 }
 
 }  // namespace

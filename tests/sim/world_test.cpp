@@ -306,11 +306,34 @@ TEST(World, ATraceThatCannotBeWrittenIsSaidAtTheEnd) {
 TEST(World, ABufferOfAnotherSizeIsRefused) {
   const auto world = open({.world = line_world()});
   std::string error;
-  std::array<std::byte, 4> four{};
+  std::array<std::byte, 2> two{};
   const auto receptor = world->receptor(eye, error);
   const auto effector = world->effector(wheel, error);
-  EXPECT_THROW(static_cast<void>(receptor->read(four)), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(effector->write(four)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(receptor->read(two)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(effector->write(two)), std::invalid_argument);
+}
+
+TEST(World, DevicesConvertToAndFromFloat32) {
+  const auto read_single = [](tessera::RealReceptor& receptor) {
+    float value = 0;
+    EXPECT_TRUE(receptor.read(std::as_writable_bytes(std::span(&value, 1))));
+    return value;
+  };
+  std::string error;
+  const WorldOptions options{.world = line_world()};
+  const auto wide = open(options), narrow = open(options);
+  EXPECT_EQ(read_single(*narrow->receptor(eye, error)),
+            static_cast<float>(read(*wide->receptor(eye, error))));
+  const auto path = [&](const std::string& name, auto speed) {
+    const auto world = open({.world = line_world(), .track = {}, .trace = temporary(name)});
+    EXPECT_TRUE(world->effector(wheel, error)->write(std::as_bytes(std::span(&speed, 1))));
+    world->advance_to(Time(1s));
+    EXPECT_TRUE(world->finish(error)) << error;
+    return bytes_of(temporary(name));
+  };
+  const std::string of_single = path("single.csv", 2.5F);
+  EXPECT_EQ(of_single, path("double.csv", 2.5));
+  EXPECT_NE(of_single, path("still.csv", 0.0));
 }
 
 TEST(World, AWheelRefusesWhatIsNotFinite) {

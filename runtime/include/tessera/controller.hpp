@@ -40,6 +40,12 @@ struct RunOptions {
   } record_limit;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
+  /// Steady clock without a world: with the simulated C++ drivers of the System in place of the real ones. Under
+  /// the simulated clock and with a world it is always so.
+  bool simulated_drivers = false;
+  /// Hardware in the loop: paths of subsystems and real buffers that have their real drivers in a simulated run.
+  /// The simulated clock is then never faster than the wall clock, and the run cannot be paused.
+  std::vector<std::string> hardware;
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens it
   bool monitor = false;       ///< can be watched while it runs (tessera/monitor.hpp)

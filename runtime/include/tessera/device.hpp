@@ -10,14 +10,51 @@
 #include <string>
 #include <type_traits>
 
+#include "tessera/driver_setup.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
 
-/// A real receptor R: read before every transition function of its virtual receptor.
-class RealReceptor {
+/// What every driver has in common: the life of a device.
+///
+/// The order of a run is: every driver is made; `open` of every device, one after the other, effectors first;
+/// the run with its reads, writes and heartbeats; the last safe command; `close` of every opened device, the
+/// last first.
+///
+/// * The constructor only stores what it is told. It does not touch the device.
+/// * Each effector is given its safe command at once after its `open`, so every device of the system has got
+///   its safe command before the first transition fires.
+/// * If a device cannot be opened or refuses this first safe command, the run does not start. The devices
+///   that are open already are closed; the last thing that they were given is the safe command.
+/// * Signals are handled before the first device is opened.
+///
+/// Threads: constructor, `open`, `close` and destructor are called by the thread that starts the run;
+///          everything else by the thread of the subsystem. The safe command of a subsystem whose user code
+///          does not return may come from another thread. Two calls to one driver never overlap.
+class Device {
  public:
-  virtual ~RealReceptor() = default;
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  /// Connects to the device. false, or an exception: the run does not start. An exception says why.
+  [[nodiscard]] virtual bool open() { return true; }
+  /// Called after the last safe command on every orderly way out of the run. An exception becomes a warning.
+  virtual void close() {}
+  /// How often `heartbeat` is to be called; zero: never. Asked once, before `open`. Half of the device's own
+  /// timeout is a good choice, because a wake-up can come late.
+  [[nodiscard]] virtual Duration heartbeat_period() const { return Duration::zero(); }
+  /// Called by the subsystem's own thread from the start of the run to its end: while the subsystem waits,
+  /// and after every transition function. It is not called while user code runs. So the timer of a device
+  /// with a dead-man's switch expires when user code hangs, and when the process is gone. An exception is a
+  /// fault of the class `device`; the effectors of the subsystem get the safe command.
+  virtual void heartbeat() {}
+};
+
+/// A real receptor R: read before every transition function of its virtual receptor.
+class RealReceptor : public Device {
+ public:
   /// Fills `value` (the bytes of the real buffer's type, or where an object of it is if it is more than
   /// bytes). false: no value now; the buffer keeps the old one, not fresh.
   [[nodiscard]] virtual bool read(std::span<std::byte> value) = 0;
@@ -25,14 +62,13 @@ class RealReceptor {
 
 /// A real effector E: written after every transition function of its virtual effector, and with the safe
 /// command.
-class RealEffector {
+class RealEffector : public Device {
  public:
-  virtual ~RealEffector() = default;
   /// false: the device refused; the subsystem's error.
   [[nodiscard]] virtual bool write(std::span<const std::byte> value) = 0;
 };
 
-/// A device behind a real buffer, as specifications and command lines name it.
+/// A device of the simulated world behind a real buffer, as specifications and command lines name it.
 struct DriverRequest {
   std::string path;                       ///< "robot.sensor.left"
   std::string kind;                       ///< "reflectance"
@@ -70,10 +106,13 @@ class World {
 /// What the world's shared library exports as `tessera_open_world`.
 using OpenWorld = std::unique_ptr<World> (*)(const WorldOptions& options, std::string& error);
 
-/// A device written by the user in C++ (`cpp: Class`): derive from Receptor<T> or Effector<T>.
+/// A driver written by the user in C++ (`cpp: Class`) derives from Receptor<T> or Effector<T>, where T is the
+/// type of the real buffer, or the structure `Real` of the subsystem's header if the driver serves all its
+/// real buffers.
 template <class T>
 class Receptor : public RealReceptor {
  public:
+  using Value = T;
   /// nullopt: no value now. An exception is the subsystem's error.
   virtual std::optional<T> read() = 0;
   [[nodiscard]] bool read(std::span<std::byte> value) final {
@@ -89,6 +128,7 @@ class Receptor : public RealReceptor {
 template <class T>
 class Effector : public RealEffector {
  public:
+  using Value = T;
   /// false: the device refused.
   virtual bool write(const T& value) = 0;
   [[nodiscard]] bool write(std::span<const std::byte> bytes) final {
@@ -101,5 +141,30 @@ class Effector : public RealEffector {
     }
   }
 };
+
+/// Makes the user's driver `Class` behind a real buffer of type `Value`; generated controllers call this.
+/// Base: RealReceptor or RealEffector.
+///
+/// Errors: throws DriverError if options are given that the driver does not know; what its constructor
+/// throws.
+template <class Base, class Value, class Class>
+[[nodiscard]] std::unique_ptr<Base> make_driver(const DriverSetup& setup) {
+  static_assert(std::is_base_of_v<Base, Class>,
+                "the driver must derive from tessera::Receptor (receptors) or tessera::Effector (effectors)");
+  if constexpr (requires { typename Class::Value; })
+    static_assert(std::is_same_v<typename Class::Value, Value>,
+                  "the driver has another type than its real buffer");
+  constexpr bool takes_setup = std::is_constructible_v<Class, const DriverSetup&>;
+  static_assert(takes_setup || std::is_default_constructible_v<Class>,
+                "the driver needs a constructor without parameters, or one that takes a const "
+                "tessera::DriverSetup&");
+  std::unique_ptr<Base> made;
+  if constexpr (takes_setup)
+    made = std::make_unique<Class>(setup);
+  else
+    made = std::make_unique<Class>();
+  refuse_unknown_options(setup, takes_setup);
+  return made;
+}
 
 }  // namespace tessera

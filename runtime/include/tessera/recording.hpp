@@ -21,6 +21,7 @@ enum class Fault : std::uint8_t {
   stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
   stall = 7,       ///< a transition function takes longer than its watchdog
   overrun = 8,     ///< its work has made the subsystem miss instants, which Overrun::fault forbids
+  limit = 9,       ///< a command to a real effector is beyond its limits, which are said to be a fault
   crash = 10       ///< the process has died in the subsystem, or ended by exit
 };
 /// What has happened to the safe command of a device.

@@ -127,6 +127,7 @@ struct Bindings {
     Arrival* arrival;
     const ValueType* type;                    ///< nullptr: bytes
     const ValueEncoding* encoding = nullptr;  ///< nullptr: cannot be recorded
+    void* part = nullptr;                     ///< of a real buffer: its part of `real`, or nullptr
   };
   struct Outgoing {
     std::string_view name;
@@ -140,6 +141,30 @@ struct Bindings {
   };
   struct RealOutgoing : Outgoing {
     std::shared_ptr<const void> safe;  ///< the safe command, of the same type
+    void* part = nullptr;              ///< its part of `real`, or nullptr
+  };
+  /// What commands have to keep to.
+  struct Limits {
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    double minimum = -infinity, maximum = infinity;
+    double per_second = infinity;  ///< the most that a command may change in a second
+    bool fault = false;            ///< a command beyond is a fault; else the limit is sent in its place
+  };
+  /// Limits of a number in a real output, or of each element of an array there.
+  struct RealLimit {
+    std::string_view name;   ///< "left", "pose.x"
+    std::size_t output = 0;  ///< into real_outputs
+    std::size_t offset = 0;  ///< in the value, and in the safe command
+    std::size_t elements = 1;
+    bool whole = false;  ///< integers
+    double (*get)(const void* at, std::size_t element);
+    void (*set)(void* at, std::size_t element, double number);  ///< of integers: a whole number
+    Limits limits;
+  };
+  /// The structure of all real buffers, for a driver that serves all of them at once.
+  struct Real {
+    std::shared_ptr<void> value;  ///< nullptr: no driver does
+    std::size_t size = 0;
   };
   struct Parameter {
     std::string_view name;
@@ -152,23 +177,62 @@ struct Bindings {
   std::vector<Incoming> inputs, real_inputs;
   std::vector<Outgoing> outputs;
   std::vector<RealOutgoing> real_outputs;
+  std::vector<RealLimit> limits;
   std::vector<Parameter> parameters;
+  Real real;
 
+  /// Makes `real`; its members are the parts of the real buffers.
+  template <class T>
+  [[nodiscard]] T& all_real() {
+    auto made = std::make_shared<T>();
+    T& value = *made;
+    real = {std::move(made), sizeof(T)};
+    return value;
+  }
   template <class T>
   void input(std::string_view name, Input<T>& buffer) {
     inputs.push_back(incoming(name, buffer));
   }
   template <class T>
-  void real_input(std::string_view name, Input<T>& buffer) {
+  void real_input(std::string_view name, Input<T>& buffer, T* part = nullptr) {
     real_inputs.push_back(incoming(name, buffer));
+    real_inputs.back().part = part;
   }
   template <class T>
   void output(std::string_view name, Output<T>& buffer) {
     outputs.push_back(outgoing(name, buffer));
   }
   template <class T>
-  void real_output(std::string_view name, Output<T>& buffer, const T& safe) {
-    real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe)});
+  void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
+    real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
+  }
+  /// number: where it is in the real output that was bound last; an arithmetic type, or a std::array of one.
+  template <class T>
+  void limit(std::string_view name, T& number, const Limits& its) {
+    const auto offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
+                                                 static_cast<const std::byte*>(real_outputs.back().value));
+    RealLimit made{.name = name,
+                   .output = real_outputs.size() - 1,
+                   .offset = offset,
+                   .get = nullptr,
+                   .set = nullptr,
+                   .limits = its};
+    made.whole = !has_floats<T>();
+    if constexpr (std::is_arithmetic_v<T>) {
+      made.get = [](const void* at, std::size_t) { return static_cast<double>(*static_cast<const T*>(at)); };
+      made.set = [](void* at, std::size_t, double value) { *static_cast<T*>(at) = static_cast<T>(value); };
+    } else {
+      using Element = typename T::value_type;
+      static_assert(std::is_arithmetic_v<Element> && std::is_trivially_copyable_v<T>);
+      made.elements = number.size();
+      made.get = [](const void* at, std::size_t element) {
+        return static_cast<double>((*static_cast<const T*>(at))[element]);
+      };
+      made.set = [](void* at, std::size_t element, double value) {
+        (*static_cast<T*>(at))[element] = static_cast<Element>(value);
+      };
+    }
+    limits.push_back(made);
   }
   template <class T>
   void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),

@@ -14,7 +14,7 @@
 /// this and states which version it was made for.
 namespace tessera {
 
-inline constexpr int tables_version = 1;
+inline constexpr int tables_version = 2;
 
 /// What a token in a place starts. The last two are no operations of the net: they latch, when the token
 /// arrives, which of the conditional transitions behind the place may fire.
@@ -139,11 +139,14 @@ struct Channel {
   std::uint16_t slots{1};                        ///< values that the memory holds
 };
 
-/// A real buffer served by the user's C++; exactly one of the two is set.
+/// A driver that the user wrote in C++; exactly one of the two makers is set.
 struct CppDriver {
-  std::string_view path;  ///< "robot.sensor.left"
-  std::unique_ptr<RealReceptor> (*receptor)() = nullptr;
-  std::unique_ptr<RealEffector> (*effector)() = nullptr;
+  std::string_view path;  ///< "robot.sensor.left"; or "arm.joints": all real buffers of that subsystem
+  std::string_view class_name;
+  std::string_view place;  ///< in the specification: "spec.yaml:41"
+  std::span<const DriverOption> options;
+  std::unique_ptr<RealReceptor> (*receptor)(const DriverSetup&) = nullptr;
+  std::unique_ptr<RealEffector> (*effector)(const DriverSetup&) = nullptr;
 };
 
 struct VerifiedProperty {
@@ -159,7 +162,8 @@ struct System {
   std::span<const VerifiedProperty> verdicts;
   std::span<const Instance> instances;  ///< agent by agent
   std::span<const Channel> channels;
-  std::span<const CppDriver> drivers;
+  std::span<const CppDriver> real_drivers;       ///< of the robot's devices
+  std::span<const CppDriver> simulated_drivers;  ///< in place of them in a simulated run
 };
 
 }  // namespace tessera

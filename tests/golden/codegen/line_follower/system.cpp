@@ -7,7 +7,7 @@
 
 #include "subsystems.hpp"
 
-static_assert(tessera::tables_version == 1, "made for another version of Tessera: generate it again");
+static_assert(tessera::tables_version == 2, "made for another version of Tessera: generate it again");
 
 namespace tessera_generated {
 namespace {
@@ -26,16 +26,19 @@ constexpr tessera::Channel channels[] = {
     {"robot.control.motion->robot.motor.velocity", {0, "motion"}, {2, "velocity"}, tessera::buffered, 0s, 200ms},
 };
 
-constexpr std::span<const tessera::CppDriver> drivers;
+constexpr std::span<const tessera::CppDriver> real_drivers;
+
+constexpr std::span<const tessera::CppDriver> simulated_drivers;
 
 constexpr tessera::VerifiedProperty verdicts[] = {
     {"safe", "holds", "place invariants"},
 };
 
 constexpr tessera::System whole{
-    .tables_version = 1, .name = "line_follower",
+    .tables_version = 2, .name = "line_follower",
     .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "a0f23c76f7c77074507dc3f813a3536e",
-    .verdicts = verdicts, .instances = instances, .channels = channels, .drivers = drivers};
+    .verdicts = verdicts, .instances = instances, .channels = channels,
+    .real_drivers = real_drivers, .simulated_drivers = simulated_drivers};
 // clang-format on
 
 }  // namespace

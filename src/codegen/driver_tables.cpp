@@ -1,0 +1,135 @@
+#include "codegen/driver_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "codegen/cpp_text.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+const std::vector<spec::Driver>& simulated_drivers(const spec::Model& model) {
+  static const std::vector<spec::Driver> none;
+  return model.simulation ? model.simulation->drivers : none;
+}
+
+std::string option_text(const std::string& name, const spec::DriverOption& option) {
+  struct Text {
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(double value) const {
+      const std::string text = fmt::format("{}", value);
+      return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    }
+    std::string operator()(const std::string& value) const { return quoted(value); }
+  };
+  return fmt::format("{{\"{}\", {}{}}}", name, std::visit(Text{}, option.value),
+                     option.unit.empty() ? "" : ", " + quoted(option.unit));
+}
+
+/// Writes the rows; drivers with the same options share a table of them.
+class Writer {
+ public:
+  explicit Writer(const Project& project) : project_(project), model_(project.model) {}
+
+  std::string rows(const std::vector<spec::Driver>& drivers) {
+    std::vector<std::pair<std::string, const spec::Driver*>> sorted;
+    for (const spec::Driver& driver : drivers)
+      if (driver.kind == "cpp") sorted.emplace_back(model_.driver_path(driver), &driver);
+    std::ranges::stable_sort(sorted, {}, [](const auto& one) { return one.first; });
+    std::string rows;
+    for (const auto& [path, driver] : sorted) rows += row(path, *driver);
+    return rows;
+  }
+
+  DriverTables finish(std::string real, std::string simulated) {
+    if (!real.empty() || !simulated.empty()) headers_.insert(quoted("drivers.hpp"));
+    return {definitions_.empty() ? "" : definitions_ + '\n', std::move(real), std::move(simulated), classes(),
+            headers_};
+  }
+
+ private:
+  std::string row(const std::string& path, const spec::Driver& driver) {
+    const bool reads = model_.subsystem(driver.instance).kind == spec::SubsystemKind::receptor;
+    const std::string make =
+        fmt::format("tessera::make_driver<tessera::{}, {}, {}>", reads ? "RealReceptor" : "RealEffector",
+                    value(driver), driver.target);
+    return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target,
+                       quoted(project_.at(driver.span)), options(driver),
+                       reads ? make + ", nullptr" : "nullptr, " + make);
+  }
+
+  /// The type that the driver reads or writes.
+  std::string value(const spec::Driver& driver) {
+    const Unit& unit = unit_of(driver.instance);
+    headers_.insert(quoted(unit_header(unit)));
+    if (driver.real == spec::none) return fmt::format("::{}::Real", unit_namespace(model_, unit));
+    const spec::Type& type = unit.subsystem->real[driver.real].type;
+    std::set<std::string_view> hidden;  // qualified, since it stands in our namespace
+    if (type.kind == spec::Type::Kind::structure) hidden.insert(model_.structures[type.structure].name);
+    return type_name(model_, type, hidden);
+  }
+
+  const Unit& unit_of(spec::Index instance) const {
+    const spec::Subsystem* const subsystem = &model_.subsystem(instance);
+    return *std::ranges::find(project_.units, subsystem, &Unit::subsystem);
+  }
+
+  /// The specification names classes as they are seen from the namespace of the system.
+  std::string alias(const std::string& target) {
+    const auto [known, added] =
+        aliases_.emplace(target, fmt::format("tessera_driver_{}", aliases_.size() + 1));
+    if (added) using_ += fmt::format("using {} = {};\n", known->second, target);
+    return fmt::format("::{}::{}", model_.system, known->second);
+  }
+
+  [[nodiscard]] std::string classes() const {
+    if (using_.empty()) return using_;
+    return fmt::format(R"(// The classes of the drivers, by the names that the specification gives them.
+namespace {0} {{
+namespace {{
+{1}}}  // namespace
+}}  // namespace {0}
+
+)",
+                       model_.system, using_);
+  }
+
+  std::string options(const spec::Driver& driver) {
+    if (driver.options.empty()) return "{}";
+    std::vector<std::string> texts;
+    for (const auto& [name, option] : driver.options) texts.push_back(option_text(name, option));
+    const std::string all = fmt::to_string(fmt::join(texts, ", "));
+    const auto [known, added] = tables_.emplace(all, fmt::format("driver_options_{}", tables_.size()));
+    if (added)
+      definitions_ += fmt::format("constexpr tessera::DriverOption {}[] = {{{}}};\n", known->second, all);
+    return known->second;
+  }
+
+  const Project& project_;
+  const spec::Model& model_;
+  std::map<std::string, std::string> tables_;  ///< options as text -> name of their table
+  std::string definitions_;
+  std::map<std::string, std::string> aliases_;  ///< class -> what the rows call it
+  std::string using_;
+  std::set<std::string> headers_;
+};
+
+}  // namespace
+
+DriverTables driver_tables(const Project& project) {
+  Writer writer(project);
+  std::string real = writer.rows(project.model.drivers);
+  return writer.finish(std::move(real), writer.rows(simulated_drivers(project.model)));
+}
+
+bool has_whole_driver(const Project& project, const Unit& unit) {
+  const auto serves_unit = [&](const spec::Driver& driver) {
+    return driver.real == spec::none && &project.model.subsystem(driver.instance) == unit.subsystem;
+  };
+  return std::ranges::any_of(project.model.drivers, serves_unit) ||
+         std::ranges::any_of(simulated_drivers(project.model), serves_unit);
+}
+
+}  // namespace tessera::codegen

@@ -44,7 +44,11 @@ template <class Done>
 
 }  // namespace
 
-bool Guardian::is_needed(const System&, const RunOptions&) { return false; }  // TEMP
+bool Guardian::is_needed(const System& system, const RunOptions& options) {
+  if (!options.guardian || simulates_devices(options)) return false;
+  return std::any_of(system.real_drivers.begin(), system.real_drivers.end(),
+                     [](const CppDriver& driver) { return driver.guarded && driver.effector != nullptr; });
+}
 
 std::unique_ptr<Guardian> Guardian::start(const System& system, std::string& error) {
   void* const memory =
@@ -62,8 +66,9 @@ std::unique_ptr<Guardian> Guardian::start(const System& system, std::string& err
   auto* const shared = static_cast<Shared*>(memory);
   if (process == 0) live_as_guardian(system, *shared, news, controller);
   std::unique_ptr<Guardian> guardian(new Guardian(shared, news, process));
-  const bool answered =
-      await(longest_start_ns, [&] { return shared->stage.load() != Stage::starts || collect(process); });
+  const bool answered = await(longest_start_ns, [&] {
+    return shared->stage.load() != Stage::starts || collect(process);
+  });
   if (shared->stage.load() == Stage::ready) return guardian;
   if (shared->stage.load() == Stage::failed)
     error = fmt::format("the guardian of the devices cannot make its drivers: {}", shared->error);
@@ -113,8 +118,4 @@ void Guardian::tell() const {
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
 }
 
-}  // namespace tessera
-
-namespace tessera {
-void live_as_guardian(const System&, Guardian::Shared&, int, pid_t) { _exit(1); }  // TEMP
 }  // namespace tessera

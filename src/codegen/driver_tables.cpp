@@ -57,7 +57,8 @@ class Writer {
                     value(driver), driver.target);
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target,
                        quoted(project_.at(driver.span)), options(driver),
-                       reads ? make + ", nullptr" : "nullptr, " + make);
+                       reads ? make + ", nullptr"
+                             : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, driver.target));
   }
 
   /// The type that the driver reads or writes.

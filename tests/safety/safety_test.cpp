@@ -142,6 +142,28 @@ TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
   });
 }
 
+TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
+  const milliseconds stands_still(2600);
+  const std::string has_died = "the controller has died; the devices have got the safe command";
+  try_all({
+      {.name = "SIGKILL", .strike = sends(SIGKILL), .says = has_died},
+      {.name = "SIGKILL by itself", .strike = does(Harm::kill, Place::control), .says = has_died},
+      {.name = "_exit in control", .strike = does(Harm::underscore_exit, Place::control), .says = has_died},
+      {.name = "_exit in a driver", .strike = does(Harm::underscore_exit, Place::driver), .says = has_died},
+      {.name = "SIGSEGV with a guardian", .strike = does(Harm::segv, Place::motor), .says = has_died},
+      {.name = "SIGSTOP",
+       .strike = sends(SIGSTOP),
+       .after = After::halts,
+       .bar = stands_still,
+       .says = "the controller stands still, since it is stopped"},
+      {.name = "exec in control",
+       .strike = does(Harm::exec, Place::control),
+       .bar = stands_still,
+       .says = "the controller stands still, and is killed"},
+      {.name = "SIGTERM with a guardian", .strike = sends(SIGTERM)},
+  });
+}
+
 /// Without a terminal, so that nobody sends SIGHUP.
 TEST(Safety, ControllersDoNotOutliveTheirParent) {
   const std::vector<std::string> run{std::string(TESSERA_BINARY_DIR) + "/tessera", "run",

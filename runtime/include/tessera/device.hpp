@@ -68,6 +68,19 @@ class RealEffector : public Device {
   [[nodiscard]] virtual bool write(std::span<const std::byte> value) = 0;
 };
 
+/// The driver of an effector that derives from this too lets the guardian process give its device the safe
+/// command after the controller has died (docs/safety.md). The guardian makes a driver of its own from the same
+/// setup and calls `open`, `write` with the safe value, and `close`; if one of them fails, again, for a while.
+///
+/// So the driver has to work in another process: its device can be opened again after the process that had it
+/// open has died, and a second time while a controller that is only stopped still has it open.
+class Guarded {
+ public:
+  virtual ~Guarded() = default;
+};
+template <class Class>
+inline constexpr bool is_guarded = std::is_base_of_v<Guarded, Class>;
+
 /// A device of the simulated world behind a real buffer, as specifications and command lines name it.
 struct DriverRequest {
   std::string path;                       ///< "robot.sensor.left"

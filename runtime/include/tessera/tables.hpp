@@ -147,6 +147,7 @@ struct CppDriver {
   std::span<const DriverOption> options;
   std::unique_ptr<RealReceptor> (*receptor)(const DriverSetup&) = nullptr;
   std::unique_ptr<RealEffector> (*effector)(const DriverSetup&) = nullptr;
+  bool guarded = false;  ///< the class derives from Guarded
 };
 
 struct VerifiedProperty {

@@ -6,7 +6,7 @@
 
 /// Logs its commands; the first device may suffer harm inside its driver.
 template <unsigned Number>
-class Logged : public tessera::Effector<double> {
+class Logged : public tessera::Effector<double>, public tessera::Guarded {
  public:
   bool write(const double& value) override {
     command_log::Log* const log = command_log::own();

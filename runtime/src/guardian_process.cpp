@@ -39,7 +39,7 @@ struct Patient {
   std::string path;
   Bindings* bindings = nullptr;
   Device* device = nullptr;
-  std::vector<std::unique_ptr<RealEffector>> buffers;
+  std::vector<std::unique_ptr<RealEffector>> buffers{};
   std::size_t first = 0;  // of Bindings::real_outputs
 };
 

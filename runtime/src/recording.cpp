@@ -243,6 +243,15 @@ namespace {
   return std::move(reader.recording());
 }
 
+/// It was full, and the controller was killed before it began the next one.
+[[nodiscard]] bool is_full_segment(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Event last;
+  return file.seekg(-static_cast<std::streamoff>(sizeof last), std::ios::end) &&
+         file.read(reinterpret_cast<char*>(&last), sizeof last) && last.kind() == Event::Kind::end &&
+         last.version != 0;
+}
+
 /// What the headers of segments of one run have in common.
 [[nodiscard]] std::string_view without_segment(std::string_view header) {
   return header.substr(0, header.rfind(",\"segment\":"));
@@ -319,11 +328,11 @@ std::optional<Recording> read_recording(const std::string& path, std::string& er
   const bool folder = std::filesystem::is_directory(path);
   const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
   std::optional<Recording> newest = read_segment(file, error);
-  if (newest && (newest->segment.value_or(0) == 0 || !without_segment_number(file).empty())) return newest;
+  if (newest && (!newest->segment || !without_segment_number(file).empty())) return newest;
+  const bool newest_is_missing = !newest || is_full_segment(file);
   std::uint64_t number = newest ? *newest->segment : after_newest_number(file);
   std::vector<Recording> segments;
   if (newest) segments.push_back(std::move(*newest));
-  const bool newest_is_missing = !newest;
   while (number > 0) {
     std::string none;
     std::optional<Recording> before = read_segment(segment_path(file, --number), none);

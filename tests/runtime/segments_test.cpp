@@ -220,8 +220,7 @@ TEST(Segments, AFiringWaitsForThoseItFollowsFromHoweverManyOthersComeMeanwhile) 
 TEST(Segments, WhatIsLostIsSaidAtTheEndAndTheMarkingIsNotKnownThen) {
   const FlatNet net = three_in_turn();
   const auto recorder = recorder_of(net, 4000, {200'000, 1000});  // of so many, rings are short
-  std::uint64_t written = 0;
-  for (; recorder->lane(0)->lost() == 0; written += 2) {
+  while (recorder->lane(0)->lost() == 0) {
     recorder->lane(0)->firing(Time{}, 0, 0);
     recorder->lane(1)->firing(Time{}, 1, 0);
   }
@@ -246,6 +245,13 @@ TEST(Segments, AreReadWhenTheNewestIsNotThereOrNotBegun) {
     EXPECT_LT(left.entries.size(), all.entries.size());
     EXPECT_GT(left.entries.size(), all.entries.size() / 2);
   }
+}
+
+TEST(Segments, AreCutOffWhenTheLastOneSaysThatAnotherFollows) {
+  const Recorded limited = recorded(simulated(2s), 50'000, 4);
+  const std::uint64_t newest = *read(limited.file).segment + 3;
+  fs::rename(segment_path(limited.file, newest - 1), limited.file);
+  EXPECT_TRUE(read(limited.file).truncated);
 }
 
 TEST(Segments, FilesOfOthersAreNeitherRemovedNorWrittenOver) {

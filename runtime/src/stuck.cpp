@@ -123,7 +123,7 @@ void StuckWatch::look(Assembly& assembly, Time now) {
   next_ = now + patience;
   for (std::uint32_t instance = 0; instance < said_.size(); ++instance) {
     if (said_[instance] || assembly.control.has_ended(instance)) continue;
-    if (assembly.executors[instance]->waits_since() + patience > now) continue;
+    if (assembly.executors[instance]->waits_since() > now - patience) continue;
     const std::vector<std::uint32_t> stuck = stuck_for_good(assembly);
     // Somebody may wait for long and be freed in the end: that is asked less and less often.
     if (std::ranges::all_of(stuck, [&](std::uint32_t one) { return said_[one]; }))

@@ -205,7 +205,7 @@ void RobotProcess::kill_process(pid_t process, int signal) {
 bool RobotProcess::await_driving(unsigned commands) {
   const Clock::time_point end = Clock::now() + std::chrono::seconds(60);
   std::array<unsigned, command_log::devices> drove{};
-  std::uint64_t seen = 0;
+  std::uint64_t seen = std::min<std::uint64_t>(log_->count, log_->commands.size());
   const auto enough = [&] {
     return std::all_of(drove.begin(), drove.end(), [&](unsigned count) { return count >= commands; });
   };

@@ -39,7 +39,7 @@ class RobotProcess {
   /// Kills what is left of it.
   ~RobotProcess();
 
-  /// Until every device has had so many commands that drive. false: that did not happen in time.
+  /// Until every device has had so many more commands that drive. false: that did not happen in time.
   [[nodiscard]] bool await_driving(unsigned commands = 3);
   void do_harm(Harm harm, Place place);
   void send(int signal) const { kill_process(child_, signal); }

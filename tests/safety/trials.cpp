@@ -42,19 +42,30 @@ void pass_random_time(RobotProcess& robot, std::mt19937& random) {
   static_cast<void>(robot.await_end(time));
 }
 
+/// What is measured.
+struct Times {
+  std::int64_t event_ns = 0, safe_ns = 0;  // 0: not known yet
+};
+
 /// Empty, or what is wrong with how it went on.
-[[nodiscard]] std::string see_it_through(const Case& one, RobotProcess& robot, std::int64_t& event_ns) {
+[[nodiscard]] std::string see_it_through(const Case& one, RobotProcess& robot, Times& times) {
   using After = Case::After;
   if (one.after == After::goes_on) {
     if (!robot.await_driving(3)) return "it does not drive on";
     robot.read_again();
-    event_ns = command_log::now_ns();
+    times.event_ns = command_log::now_ns();
     robot.send(SIGTERM);
   }
-  if (one.after == After::hangs || one.after == After::halts)
-    if (!robot.await_safe(still, patience)) return "the devices did not become safe";
+  const bool stands = one.after == After::hangs || one.after == After::halts || one.after == After::pauses;
+  if (stands && !robot.await_safe(still, patience)) return "the devices did not become safe";
+  if (stands) times.safe_ns = robot.safe_since_ns();
   if (one.after == After::hangs) return "";
   if (one.after == After::halts) robot.send(SIGCONT);
+  if (one.after == After::pauses) {
+    robot.send(SIGCONT);
+    if (!robot.await_driving(3)) return "it does not drive on";
+    robot.send(SIGTERM);
+  }
   if (!robot.await_end(patience)) return "the controller did not end";
   if (!robot.await_nobody_left(patience)) return "somebody is left";
   return robot.is_safe() ? "" : "the last command is not the safe one";
@@ -67,14 +78,15 @@ void pass_random_time(RobotProcess& robot, std::mt19937& random) {
   RobotProcess robot(command, one.output, one.environment);
   if (!robot.await_driving()) return {"it does not drive" + description(robot)};
   pass_random_time(robot, random);
-  std::int64_t event_ns = one.strike(robot);
-  std::string failure = see_it_through(one, robot, event_ns);
-  if (event_ns == 0) event_ns = robot.struck_ns();
-  if (event_ns == 0) failure += " (the harm was not done)";
+  Times times{.event_ns = one.strike(robot)};
+  std::string failure = see_it_through(one, robot, times);
+  if (times.event_ns == 0) times.event_ns = robot.struck_ns();
+  if (times.event_ns == 0) failure += " (the harm was not done)";
+  if (times.safe_ns == 0) times.safe_ns = robot.safe_since_ns();
   if (failure.empty() && robot.text().find(one.says) == std::string::npos)
     failure = fmt::format("'{}' is not on the terminal", one.says);
   if (!failure.empty()) return {failure + description(robot)};
-  return {"", std::max(0.0, static_cast<double>(robot.safe_since_ns() - event_ns) * 1e-6)};
+  return {"", std::max(0.0, static_cast<double>(times.safe_ns - times.event_ns) * 1e-6)};
 }
 
 struct Figures {

@@ -18,8 +18,9 @@ struct Case {
   /// Makes it happen. Returns when (CLOCK_MONOTONIC), or 0: the log says it, since the robot does it itself.
   std::function<std::int64_t(RobotProcess&)> strike;
   /// ends: by itself. goes_on: it drives on until SIGTERM, and that is what is measured. hangs: the devices
-  /// are safe, and the test kills what is left. halts: it is stopped, and ends when it is continued.
-  enum class After : std::uint8_t { ends, goes_on, hangs, halts } after = After::ends;
+  /// are safe, and the test kills what is left. halts: it is stopped, and ends when it is continued. pauses:
+  /// it is stopped, and drives on when it is continued, until SIGTERM.
+  enum class After : std::uint8_t { ends, goes_on, hangs, halts, pauses } after = After::ends;
   RobotProcess::Output output = RobotProcess::Output::terminal;
   milliseconds bar{100};                 ///< declared time from the event to the last safe command
   std::string says{};                    ///< what must stand on the terminal then

@@ -107,8 +107,9 @@ bool times_are_times(const LaunchOptions& options) {
   if (!options.duration.empty() && !parse_duration(options.duration))
     return complain(fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", options.duration)),
            false;
-  if (!options.record_limit.empty() && !parse_record_limit(options.record_limit))
-    return complain(fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5",
+  if (!options.record_limit.empty() && options.record_limit != "none" &&
+      !parse_record_limit(options.record_limit))
+    return complain(fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5, or none",
                                 options.record_limit)),
            false;
   return true;

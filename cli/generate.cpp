@@ -5,8 +5,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/launch.hpp"
+#include "cli/outputs.hpp"
 #include "cli/terminal.hpp"
 #include "project/controller.hpp"
+#include "project/lock_file.hpp"
+#include "project/state_folder.hpp"
 
 namespace tessera::cli {
 
@@ -16,15 +19,24 @@ namespace {
 
 struct Options {
   std::string spec = ".", output, json;
-  bool stubs = false;
+  bool stubs = false, build = false;
   Gate gate;
 };
 
+Generated generate_alone(const Verified& verified, const Options& options) {
+  const std::optional<LockFile> lock =
+      options.output.empty()
+          ? take_build_lock(state_folder(verified.specification.project), terminal(), nullptr)
+          : std::nullopt;
+  return generate(verified, {options.stubs, options.output});
+}
+
 int generate_command(const Options& options) {
+  check_replaceable(options.json, "{");
   const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
   if (!verified) return refused();
   const Step step(terminal(), "generating");
-  const Generated generated = generate(*verified, {options.stubs, options.output});
+  const Generated generated = generate_alone(*verified, options);
   if (!options.json.empty()) {
     nlohmann::json verdicts = nlohmann::json::object();
     for (const verify::PropertyResult& property : verified->net.report().properties)
@@ -42,7 +54,13 @@ int generate_command(const Options& options) {
     fmt::print("{} files, {} lines in {} ({} changed)\n", generated.files, generated.lines,
                generated.folder.string(), generated.written);
   }
-  return report_missing(generated, terminal()) ? ok : failed;
+  if (!report_missing(generated, terminal())) return failed;
+  for (const codegen::Stub& stub : options.stubs ? generated.unclear : std::vector<codegen::Stub>())
+    fmt::print(stderr,
+               "note: whether {} has a function '{}' is for the compiler to say; nothing is written for it\n",
+               stub.subsystem, stub.function);
+  if (!options.build) return ok;
+  return make_controller(options.spec, {.gate = options.gate}, terminal()) ? ok : failed;
 }
 
 }  // namespace
@@ -55,7 +73,11 @@ void add_generate(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
                       "Folder for the generated files (default: .tessera/generated)");
-  command->add_flag("--stubs", options->stubs, "Append stubs of missing transition functions to your files");
+  command->add_flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
+  command
+      ->add_flag("--build", options->build,
+                 "Compile the controller too: then a copy that nobody can write to runs")
+      ->excludes("--output");
   declare_gate(*command, options->gate);
   command->add_option("--json", options->json, "Write what was done as JSON (- is standard output)");
   command->footer("Example: tessera generate --stubs");

@@ -21,10 +21,13 @@ void declare(CLI::App& command, project::LaunchOptions& options) {
       ->allow_extra_args(false);
   command.add_option("--parameters", options.parameters,
                      "YAML file of parameters (default: params.yaml of the project)");
-  command.add_option("--record", options.record, "Where to write the recording (default: .tessera/last/)");
+  command.add_option(
+      "--record", options.record,
+      "Where to write the recording (default: in the folder of the run, which .tessera/last shows)");
   command.add_option(
       "--record-limit", options.record_limit,
-      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB; "
+      "none: all of it (default: run 1GB, simulate none)");
   command
       .add_option("--record-values", options.record_values,
                   "Which values of buffers to record: none, small (up to 4 KiB; of larger ones a hash), all")

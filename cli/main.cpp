@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <exception>
 
 #include "cli/commands.hpp"
@@ -17,6 +18,12 @@ int main(int argc, char** argv) {
       "  tessera new rover && cd rover   a project with a simulated robot\n"
       "  tessera simulate --for 60s      build it and watch it drive\n"
       "`tessera COMMAND --help` shows the options of a command, with examples.");
+  app.fallthrough();
+  app.add_option_function<std::string>(
+         "--state", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
+         "Where Tessera keeps what it builds and records, instead of in .tessera of the project "
+         "(or TESSERA_STATE_DIR)")
+      ->option_text("DIR");
   int exit_code = cli::ok;
   for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export,
                     cli::add_generate, cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay,
@@ -28,6 +35,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? cli::ok : cli::usage;
   } catch (const std::exception& error) {
     return cli::complain(error.what());
+  } catch (...) {  // of a library: MuJoCo's is no std::exception
+    return cli::complain("a library failed without saying why");
   }
   return exit_code;
 }

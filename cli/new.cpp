@@ -1,5 +1,10 @@
+#include <fcntl.h>
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -46,14 +51,39 @@ void copy_tree(const fs::path& from, const fs::path& to, const std::string& name
     if (entry.is_regular_file()) copy_renamed(entry.path(), to / fs::relative(entry.path(), from), name);
 }
 
-// Left half written, a project would be in the way of the next try.
-struct RemoveUnlessDone {
-  fs::path folder;
-  bool done = false;
-  ~RemoveUnlessDone() {
-    std::error_code ignored;
-    if (!done) fs::remove_all(folder, ignored);
+/// A folder beside the project's, where the project is made: nobody sees half of one, and what fails leaves
+/// nothing behind and touches nothing that was there.
+class Workshop {
+ public:
+  explicit Workshop(const fs::path& project) {
+    const fs::path parent = fs::absolute(project).parent_path();
+    fs::create_directories(parent);
+    std::string pattern = parent / ".tessera-new-XXXXXX";
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error(fmt::format("cannot write to {}: {}", parent.string(), std::strerror(errno)));
+    folder_ = pattern;
+    fs::create_directory(folder_ / "project");  // with the usual mode
   }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  [[nodiscard]] fs::path folder() const { return folder_ / "project"; }
+  /// false: there is something of that name by now.
+  [[nodiscard]] bool move_to(const fs::path& project) const {
+    if (renameat2(AT_FDCWD, folder().c_str(), AT_FDCWD, project.c_str(), RENAME_NOREPLACE) == 0) return true;
+    if (errno == EEXIST) return false;
+    // A file system that does not know this kind of renaming.
+    if (errno == EINVAL && !fs::exists(fs::symlink_status(project)) &&
+        rename(folder().c_str(), project.c_str()) == 0)
+      return true;
+    throw std::runtime_error(fmt::format("cannot make {}: {}", project.string(), std::strerror(errno)));
+  }
+
+ private:
+  fs::path folder_;
 };
 
 /// In the words of `check`, which would refuse the specification that is to be made.
@@ -72,19 +102,21 @@ int new_command(const std::string& given) {
     return complain(fmt::format("'{}' cannot name a system: use lower-case letters, digits and _", name)),
            usage;
   if (!may_name_a_system(name)) return usage;
-  if (fs::exists(folder)) return complain(fmt::format("{} exists already", folder.string()));
+  if (fs::exists(fs::symlink_status(folder)))
+    return complain(fmt::format("{} exists already", folder.string()));
 
   const Installation installation = Installation::find();
   const fs::path example = installation.share / "examples/01_line_follower";
-  RemoveUnlessDone guard{folder};
-  copy_renamed(example / "spec.yaml", folder / "spec.yaml", name);
-  copy_tree(example / "src", folder / "src", name);
-  copy_tree(example / "test", folder / "test", name);
-  copy_tree(installation.share / "project", folder, name);
-  fs::rename(folder / "gitignore", folder / ".gitignore");
-  fs::copy_file(installation.share / "worlds/line_world.xml", folder / "line_world.xml");
-  fs::copy_file(installation.share / "tracks/oval.png", folder / "oval.png");
-  guard.done = true;
+  const Workshop workshop(folder);
+  const fs::path made = workshop.folder();
+  copy_renamed(example / "spec.yaml", made / "spec.yaml", name);
+  copy_tree(example / "src", made / "src", name);
+  copy_tree(example / "test", made / "test", name);
+  copy_tree(installation.share / "project", made, name);
+  fs::rename(made / "gitignore", made / ".gitignore");
+  fs::copy_file(installation.share / "worlds/line_world.xml", made / "line_world.xml");
+  fs::copy_file(installation.share / "tracks/oval.png", made / "oval.png");
+  if (!workshop.move_to(folder)) return complain(fmt::format("{} exists already", folder.string()));
   fmt::print(
       "{0} is ready: a robot that follows a line.\n\n"
       "  cd {0}\n"

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/terminal.hpp"
 
@@ -67,7 +68,7 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
 
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
   const Specification& specification = controller.specification;
-  const RunFiles files = run_files(specification, options);
+  const RunFiles files = run_files(options);
   RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}};
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
@@ -130,6 +131,7 @@ void print(const RunOutcome& outcome) {
 }
 
 void write_report(RunOutcome outcome, const verify::Report& verification, const fs::path& folder) {
+  check_report(folder.string());
   fs::create_directories(folder);
   for (const report::File& file : report::render(report_input(std::move(outcome), verification))) {
     write_output((folder / file.name).string(), file.bytes);

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/diagnostics.hpp"
+#include "project/state_folder.hpp"
 #include "project/walk.hpp"
 #include "replay/events.hpp"
 #include "replay/legality.hpp"
@@ -32,9 +33,10 @@ using replay::Distribution;
 using Legal = replay::Legality::Verdict;
 
 constexpr const char* all_values = "*";
+constexpr const char* usual_recording = ".tessera/last/recording.tsr";
 
 struct Options {
-  std::string recording = ".tessera/last/recording.tsr", spec, subsystem, transition, csv, perfetto, json;
+  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
   bool check = false, print = false;
@@ -236,7 +238,14 @@ bool known_values(const Recording& recording, const std::string& wanted) {
   return false;
 }
 
-int replay_command(const Options& options) {
+/// The last run of the project here, wherever its files are kept.
+std::string last_recording() {
+  const fs::path kept = state_folder(fs::canonical(".")) / "last/recording.tsr";
+  return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
+}
+
+int replay_command(Options options) {
+  if (options.recording == usual_recording) options.recording = last_recording();
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
   if (!recording) return complain(error);

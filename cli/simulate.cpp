@@ -8,9 +8,12 @@
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
+#include "cli/outputs.hpp"
 #include "cli/play_net.hpp"
 #include "cli/terminal.hpp"
 #include "project/death.hpp"
+#include "project/run_folder.hpp"
+#include "project/state_folder.hpp"
 
 namespace tessera::cli {
 
@@ -42,10 +45,8 @@ int print_debugger(const Command& command) {
 int launch(const Controller& controller, const LaunchOptions& options, const Command& command,
            const std::string& json, const std::string& report_folder) {
   if (options.debug) return print_debugger(command);
-  const RunFiles files = run_files(controller.specification, options);
+  const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
-  std::filesystem::remove(files.summary);
-  std::filesystem::remove(note);
   const Exit exit = run(attended(command, note));
   if (!std::filesystem::exists(files.summary)) {
     if (const std::string death = describe_death(exit, note); !death.empty()) complain(death);
@@ -77,11 +78,10 @@ std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
 }
 
 // The controller says what it found; how to look at it only this command knows.
-int launch_schedules(const Controller& controller, const SimulateOptions& options, Command command) {
+int launch_schedules(const SimulateOptions& options, Command command) {
   command.insert(command.end(), {"--schedules", std::to_string(options.schedules)});
   if (options.debug) return print_debugger(command);
-  const RunFiles files = run_files(controller.specification, options);
-  std::filesystem::remove(files.summary);
+  const RunFiles files = run_files(options);
   const Exit exit = run(command);
   nlohmann::json summary =
       nlohmann::json::parse(std::ifstream(files.summary), nullptr, /*allow_exceptions=*/false);
@@ -97,8 +97,7 @@ int launch_schedules(const Controller& controller, const SimulateOptions& option
 
 // User code again on what a recording says it was given: no world, no recording.
 int run_again(const Controller& controller, const SimulateOptions& options) {
-  const RunFiles files = run_files(controller.specification, options);
-  std::filesystem::remove(files.summary);
+  const RunFiles files = run_files(options);
   Command command{controller.program.string(),
                   "simulate",
                   "--from",
@@ -113,16 +112,37 @@ int run_again(const Controller& controller, const SimulateOptions& options) {
   return exit.code;
 }
 
+/// A folder for the run, and its controller there.
+RunFolder folder_for(Controller& controller, LaunchOptions& options, const char* mode, bool is_recorded) {
+  const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
+  RunFolder folder(state_folder(controller.specification.project), mode, shown, terminal());
+  options.folder = folder.path().string();
+  controller.program = folder.own(controller.program);
+  folder.goes_to_children();
+  return folder;
+}
+
+/// Before anything takes time.
+void check_outputs(const LaunchOptions& options, const std::string& json, const std::string& report) {
+  check_recording(options.record);
+  check_replaceable(json, "{");
+  check_report(report);
+}
+
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
   if (!can_run(options, options.from.empty())) return failed;
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
+  check_outputs(options, options.json, options.report);
   if (options.from.empty() && !drivers_are_there(options, /*simulated=*/true, terminal())) return failed;
-  const std::optional<Controller> controller =
+  std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();
+  const bool is_recorded = options.from.empty() && options.schedules == 0;
+  const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
+  const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
   if (!options.from.empty()) return run_again(*controller, options);
   if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
   Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
@@ -132,20 +152,22 @@ int simulate_command(SimulateOptions options) {
     command.emplace_back("--scenario");
     command.push_back(std::filesystem::absolute(options.scenario).string());
   }
-  if (options.schedules > 0) return launch_schedules(*controller, options, command);
+  if (options.schedules > 0) return launch_schedules(options, command);
   return launch(*controller, options, command, options.json, options.report);
 }
 
-int run_command(const RunCommandOptions& options) {
+int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (!can_run(options, options.world)) return failed;
   if (!drivers_are_there(options, options.world, terminal())) return failed;
-  const std::optional<Controller> controller =
+  check_outputs(options, options.json, "");
+  std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
+  const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
   return launch(*controller, options, controller_command(*controller, options, "run", options.world),
                 options.json, "");
 }

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "cli/outputs.hpp"
+
 namespace tessera::cli {
 
 bool colour() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
@@ -59,6 +61,7 @@ int complain(const std::string& text) {
 }
 
 void write_output(const std::string& file, std::string_view text) {
+  check_replaceable(file, text);
   std::FILE* stream = file == "-" ? stdout : std::fopen(file.c_str(), "wb");
   if (stream == nullptr)
     throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));

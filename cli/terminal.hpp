@@ -22,7 +22,8 @@ inline constexpr int ok = 0, failed = 1, usage = 2, unknown = 3, interrupted = 1
 /// "tessera: error: TEXT" to standard error; returns `failed`, so that a command can end with it.
 int complain(const std::string& text);
 
-/// Writes a file, or standard output for "-". Throws std::runtime_error with path and reason.
+/// Writes a file, or standard output for "-". Throws std::runtime_error with path and reason, also when
+/// something else than earlier output of that kind is there (check_replaceable).
 void write_output(const std::string& file, std::string_view text);
 
 /// Standard error. What goes on is one line that is written again and again, and nothing when standard error

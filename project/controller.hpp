@@ -2,31 +2,41 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "codegen/codegen.hpp"
+#include "project/transition_functions.hpp"
 #include "project/walk.hpp"
 
-/// The folder of a user's project: specification, src/, test/, and .tessera/ with what is generated and
-/// built.
+/// The folder of a user's project: specification, src/ and test/, which are the user's, and a state folder
+/// (project/state_folder.hpp) with what is generated, built and recorded.
 namespace tessera::project {
 
 struct GenerateOptions {
-  bool stubs = false;            ///< append stubs of missing functions to files that exist
-  std::filesystem::path output;  ///< instead of .tessera/generated; empty: there
+  bool stubs = false;            ///< write functions that are missing into src/
+  std::filesystem::path output;  ///< instead of the state folder's `generated`; empty: there
 };
 
 /// What generate did.
 struct Generated {
   std::filesystem::path folder;
   std::size_t files = 0, written = 0, lines = 0;
-  std::vector<std::filesystem::path> created;  ///< the user's files written for the first time or appended to
-  std::vector<codegen::Stub> missing;          ///< functions the user has yet to write
+  std::vector<std::filesystem::path> created;    ///< the user's files, made or added to
+  std::vector<std::filesystem::path> set_aside;  ///< generated files that were edited, where they are now
+  std::vector<codegen::Stub> missing;            ///< functions the user has yet to write
+  std::vector<codegen::Stub> unclear;            ///< that nobody but the linker can tell
+  std::shared_ptr<const TransitionFunctions> functions;
+  std::string identity;  ///< of all that the controller is made from, this command included
 };
 
-/// Generates the controller of a verified net: changed files only, so that little is compiled again; the
-/// user's files once. Throws std::runtime_error when a file cannot be written.
+/// Generates the controller of a verified net: changed files only, so that little is compiled again. Writes
+/// into src/ only with `stubs`. Throws std::runtime_error when a file cannot be written, and when one that is
+/// not Tessera's is in its place (write_generated).
+///
+/// Threads: one at a time for a project, over all processes (take_build_lock).
 [[nodiscard]] Generated generate(const Verified& verified, const GenerateOptions& options = {});
 
 /// Says what generate did to the user's files and what is missing. false: something is missing.
@@ -40,11 +50,18 @@ struct BuildOptions {
 };
 
 /// Builds with CMake. Tells the compiler's complaints, which name the user's files and, for conditions, the
-/// lines of the specification. Returns the program, or an empty path.
+/// lines of the specification; says of functions that are missing or there twice where they are. Returns the
+/// program, which no other build replaces, or an empty path.
+///
+/// Errors:  throws std::runtime_error when the path has a character that CMake cannot handle, or something
+///          that is not ours is in the place of the build folder.
+/// Threads: as generate.
 [[nodiscard]] std::filesystem::path compile(const Specification& specification, const Generated& generated,
                                             const BuildOptions& options, Listener& listener);
 
-/// walk, generate and compile in one; an empty program when anything failed and was said.
+/// walk, generate and compile in one, one at a time for a project; nullopt when anything failed and was said,
+/// or `stop` became true. Where nothing can be written in the project, a program that was built there from
+/// the same files is taken as it is.
 struct Controller {
   std::filesystem::path program;
   Specification specification;

@@ -16,10 +16,8 @@ namespace tessera::project {
 
 namespace fs = std::filesystem;
 
-RunFiles run_files(const Specification& specification, const LaunchOptions& options) {
-  const fs::path folder =
-      options.folder.empty() ? specification.project / ".tessera/last" : fs::absolute(options.folder);
-  fs::create_directories(folder);
+RunFiles run_files(const LaunchOptions& options) {
+  const fs::path folder = fs::absolute(options.folder);
   return {options.record.empty() ? folder / "recording.tsr" : fs::absolute(options.record),
           folder / "path.csv", folder / "summary.json"};
 }
@@ -120,7 +118,7 @@ void add_world(Command& command, const Specification& specification, const Launc
           "--world-library", Installation::find().world_library.string()});
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);
-  append(command, {"--trace", run_files(specification, options).trace.string()});
+  append(command, {"--trace", run_files(options).trace.string()});
   add_drivers(command, specification.model);
 }
 
@@ -199,7 +197,7 @@ bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& l
 Command controller_command(const Controller& controller, const LaunchOptions& options,
                            const std::string& mode, bool simulated) {
   const Specification& specification = controller.specification;
-  const RunFiles files = run_files(specification, options);
+  const RunFiles files = run_files(options);
   Command command{controller.program.string(),
                   mode,
                   "--record",
@@ -211,7 +209,9 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   "--seed",
                   std::to_string(options.seed)};
   if (options.progress) command.push_back("--progress");
-  if (!options.record_limit.empty()) append(command, {"--record-limit", options.record_limit});
+  const std::string limit =
+      options.record_limit.empty() && mode == "run" ? usual_record_limit : options.record_limit;
+  if (!limit.empty() && limit != "none") append(command, {"--record-limit", limit});
   if (options.accept_stuck) command.push_back("--accept-stuck");
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameter_values(specification, options)) append(command, {"--set", value});

@@ -18,7 +18,7 @@ struct LaunchOptions {
   std::vector<std::string> set, inject;
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
   std::string record, record_values = "small", record_limit;
-  std::string folder;                                            ///< of the run's files; empty: .tessera/last
+  std::string folder;                                            ///< of the run's files (RunFolder)
   std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
   bool accept_stuck = false;          ///< a subsystem that is stuck for good at the end is no failure
   std::vector<std::string> hardware;  ///< paths of what has its real drivers in a simulated run
@@ -35,7 +35,7 @@ struct LaunchOptions {
 struct RunFiles {
   std::filesystem::path recording, trace, summary;
 };
-[[nodiscard]] RunFiles run_files(const Specification& specification, const LaunchOptions& options);
+[[nodiscard]] RunFiles run_files(const LaunchOptions& options);
 
 /// The floor picture a run uses: of the command line, else of the specification.
 struct Floor {
@@ -49,6 +49,9 @@ struct Floor {
 /// Throws std::runtime_error when the file cannot be read.
 [[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
                                                         const LaunchOptions& options);
+
+/// The bound on the recording of `run`, unless `record_limit` says otherwise; "none" is no bound.
+inline constexpr const char* usual_record_limit = "1GB";
 
 /// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:
 /// of the simulated robot, but for the hardware that the options name. True, too, if the specification cannot

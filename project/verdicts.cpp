@@ -1,17 +1,17 @@
 #include "project/verdicts.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <charconv>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "layers/layers.hpp"
+#include "project/files.hpp"
 #include "project/listener.hpp"
 #include "project/run_files.hpp"
+#include "project/state_folder.hpp"
 
 namespace tessera::project {
 
@@ -68,12 +68,14 @@ verify::PropertyResult property_from(const json& kept) {
 class Kept {
  public:
   Kept(const Specification& specification, const std::string& hash)
-      : hash_(hash), file_(specification.project / ".tessera/verdicts" / (hash + ".json")) {}
+      : hash_(hash), name_(fs::path("verdicts") / (hash + ".json")), project_(specification.project) {}
 
   /// nullopt: none, or more time might decide what they leave unknown.
   [[nodiscard]] std::optional<verify::Report> read(double seconds) const try {
-    std::ifstream stream(file_);
-    const json kept = json::parse(stream);
+    const fs::path ours = state_folder(project_) / name_;
+    std::error_code ignored;
+    const json kept =
+        json::parse(content_of(fs::exists(ours, ignored) ? ours : own_folder(project_) / name_));
     verify::Report report;
     kept.at("net_hash").get_to(report.net_hash);
     kept.at("verification_hash").get_to(report.verification_hash);
@@ -88,7 +90,6 @@ class Kept {
     return std::nullopt;
   }
 
-  /// Written beside and renamed, so that nobody reads half of it.
   void write(const verify::Report& report, double seconds) const {
     json properties = json::array();
     for (const verify::PropertyResult& property : report.properties) properties.push_back(to_json(property));
@@ -96,17 +97,15 @@ class Kept {
                     {"verification_hash", report.verification_hash},
                     {"seconds", seconds},
                     {"properties", properties}};
-    std::error_code ignored;
-    fs::create_directories(file_.parent_path(), ignored);
-    fs::path beside = file_;
-    beside += fmt::format(".{}", getpid());
-    std::ofstream(beside) << kept.dump(1) << "\n";
-    fs::rename(beside, file_, ignored);
+    try {
+      write_file(state_folder(project_) / name_, kept.dump(1) + "\n");
+    } catch (const std::exception&) {  // they are found again next time
+    }
   }
 
  private:
   std::string hash_;
-  fs::path file_;
+  fs::path name_, project_;
 };
 
 std::string shown(const explore::Progress& progress) {

@@ -4,7 +4,7 @@
 
 #include "project/walk.hpp"
 
-/// The verdicts that a controller is made on: proved once, kept under .tessera/verdicts/ for the next time.
+/// The verdicts that a controller is made on: proved once, kept in the state folder for the next time.
 namespace tessera::project {
 
 /// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.

@@ -206,12 +206,13 @@ std::string page(const ReportInput& input) {
   const std::string name = escaped(input.recording.system.empty() ? "run" : input.recording.system);
   std::string html;
   put(html,
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{3}<meta name=\"viewport\" "
       "content=\"width=device-width,initial-scale=1\">"
       "<title>{0}</title><style>{1}</style></head>\n<body><main><h1>{0}</h1><p class=\"lead\">{2}</p>\n",
       name, style,
       headline(input) +
-          (input.ended.empty() ? "" : " \u00b7 ended: " + escaped(shortened(input.ended, 200, 1))));
+          (input.ended.empty() ? "" : " \u00b7 ended: " + escaped(shortened(input.ended, 200, 1))),
+      made_by);
   put_notices(html, input);
   put_figures(html, input);
   if (input.drive && !input.drive->trace.points.empty()) put_drive(html, *input.drive);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/trace.hpp"
@@ -41,6 +42,9 @@ struct ReportInput {
   std::vector<SubsystemFigures> subsystems;  ///< empty: counted from the recording, without overruns
   std::vector<Verdict> verdicts;
 };
+
+/// Near the beginning of every page, so that a page of somebody else's is told from one.
+inline constexpr std::string_view made_by = R"(<meta name="generator" content="Tessera">)";
 
 struct File {
   std::string name;  ///< "index.html", "path.png"

@@ -36,6 +36,8 @@ std::string complaint_of(Call&& call) {
     std::forward<Call>(call)();
   } catch (const std::exception& e) {
     text = e.what();
+  } catch (...) {  // the engine's own kind, which is in none of its headers
+    text = "the engine gave up without saying why";
   }
   warnings = nullptr;
   return text;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,18 @@
 namespace tessera::sim {
 namespace {
 
+/// What `make` returns; nullptr, and the reason in `error`, when it throws anything.
+template <class Make>
+auto without_exceptions(Make&& make, std::string& error) -> decltype(make()) try {
+  return make();
+} catch (const std::exception& thrown) {
+  error = thrown.what();
+  return nullptr;
+} catch (...) {
+  error = "the simulated world failed without saying why";
+  return nullptr;
+}
+
 class MujocoWorld final : public World {
  public:
   MujocoWorld(std::shared_ptr<Simulation> simulation, double footprint_m, std::uint64_t seed)
@@ -20,7 +33,11 @@ class MujocoWorld final : public World {
   [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
                                                        std::string& error) override {
     if (request.kind == "reflectance") {
-      return prefixed(request, light_sensor(simulation_, request, footprint_m_, seed_, error), error);
+      return prefixed(
+          request,
+          without_exceptions([&] { return light_sensor(simulation_, request, footprint_m_, seed_, error); },
+                             error),
+          error);
     }
     error = request.path + ": " + unknown_name("receptor", request.kind, {"reflectance"});
     return nullptr;
@@ -28,7 +45,9 @@ class MujocoWorld final : public World {
 
   [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                        std::string& error) override {
-    if (request.kind == "velocity") return prefixed(request, wheel(simulation_, request, error), error);
+    if (request.kind == "velocity")
+      return prefixed(request, without_exceptions([&] { return wheel(simulation_, request, error); }, error),
+                      error);
     error = request.path + ": " + unknown_name("effector", request.kind, {"velocity"});
     return nullptr;
   }
@@ -88,9 +107,9 @@ std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 
-/// Opens a MuJoCo world. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a site), effector
-/// `velocity` (target: an actuator).
+/// Opens a MuJoCo world; nothing is thrown. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
+/// site), effector `velocity` (target: an actuator).
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
     const tessera::WorldOptions& options, std::string& error) {
-  return tessera::sim::open(options, error);
+  return tessera::sim::without_exceptions([&] { return tessera::sim::open(options, error); }, error);
 }

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -108,8 +110,42 @@ Monitor::~Monitor() {
   unlink(socket_file_.c_str());
 }
 
+namespace {
+
+/// Of a process that was killed: it is gone, and nobody else (through a tunnel, from a container) listens.
+bool is_left_behind(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();  // SYSTEM.PID
+  const std::size_t dot = name.rfind('.');
+  if (file.extension() != ".sock" || dot == std::string::npos ||
+      file.native().size() >= sizeof(sockaddr_un::sun_path))
+    return false;
+  pid_t process = 0;
+  const auto [end, problem] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), process);
+  if (problem != std::errc{} || end != name.data() + name.size() || process <= 0) return false;
+  if (kill(process, 0) == 0 || errno != ESRCH) return false;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, file.c_str(), file.native().size() + 1);
+  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (made < 0) return false;
+  const bool refused = connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
+                       errno == ECONNREFUSED;
+  close(made);
+  return refused;
+}
+
+void remove_left_behind(const std::string& folder) {
+  std::error_code problem;
+  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem))
+    if (is_left_behind(entry->path())) unlink(entry->path().c_str());
+}
+
+}  // namespace
+
 bool Monitor::listen_in(const std::string& folder) {
   if (!own_folder(folder, failure_)) return false;
+  remove_left_behind(folder);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string file = fmt::format("{}/{}.{}.sock", folder, assembly_.system.name, getpid());

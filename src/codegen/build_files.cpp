@@ -7,10 +7,10 @@ namespace tessera::codegen {
 File cmake_lists(const Project& project) {
   std::string sources;
   for (const Unit& unit : project.units) sources += fmt::format("\n  {}", source_name(unit));
-  return {"CMakeLists.txt", fmt::format(R"({}cmake_minimum_required(VERSION 3.25)
+  return {"CMakeLists.txt", fmt::format(R"cmake({}cmake_minimum_required(VERSION 3.25)
 project(tessera_controller LANGUAGES CXX)
 
-set(TESSERA_PROJECT_DIR ${{CMAKE_CURRENT_SOURCE_DIR}}/../.. CACHE PATH "The folder of spec.yaml, src and test")
+set(TESSERA_PROJECT_DIR "${{CMAKE_CURRENT_SOURCE_DIR}}/../.." CACHE PATH "The folder of spec.yaml, src and test")
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo CACHE STRING "Debug steps better, RelWithDebInfo runs faster" FORCE)
 endif()
@@ -20,34 +20,50 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 find_package(tessera REQUIRED CONFIG)
 
-# Yours: the transition functions, as a library that the controller and the tests link.
-file(GLOB_RECURSE user_sources CONFIGURE_DEPENDS ${{TESSERA_PROJECT_DIR}}/src/*.cpp)
+# What CMake takes for a pattern is part of a name here.
+string(REGEX REPLACE "([*?])" "[\\1]" project_pattern "${{TESSERA_PROJECT_DIR}}")
+function(find_sources result folder)
+  set(patterns)
+  foreach(ending cpp cc cxx)
+    list(APPEND patterns "${{project_pattern}}/${{folder}}/*.${{ending}}")
+  endforeach()
+  file(GLOB_RECURSE found CONFIGURE_DEPENDS ${{patterns}})
+  list(FILTER found EXCLUDE REGEX "/\\.[^/]*$")  # what editors leave beside a file
+  set(${{result}} "${{found}}" PARENT_SCOPE)
+endfunction()
+
+add_library(headers INTERFACE)
+target_include_directories(headers INTERFACE "${{CMAKE_CURRENT_SOURCE_DIR}}" "${{TESSERA_PROJECT_DIR}}/src")
+target_link_libraries(headers INTERFACE tessera::runtime)
+
+# Yours: the transition functions, in every source of src/. Object files, not an archive: of a function that is there
+# twice, the linker would take one out of an archive and say nothing.
+find_sources(user_sources src)
 if(NOT user_sources)
   message(FATAL_ERROR "${{TESSERA_PROJECT_DIR}}/src has no transition functions: 'tessera generate --stubs' writes them")
 endif()
-add_library(functions STATIC ${{user_sources}})
-target_include_directories(functions PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}} ${{TESSERA_PROJECT_DIR}}/src)
+add_library(functions OBJECT ${{user_sources}})
 target_compile_options(functions PRIVATE -Wall -Wextra -Wno-unused-parameter)
-target_link_libraries(functions PUBLIC tessera::runtime)
+target_link_libraries(functions PUBLIC headers)
 
 # Tessera's: the net and what binds it to the functions.
 add_library(system STATIC
   system.cpp{})
 target_compile_options(system PRIVATE -Wall -Wextra -Werror)
-target_link_libraries(system PUBLIC functions)
+target_link_libraries(system PUBLIC headers)
 
 add_executable(controller main.cpp)
 target_compile_options(controller PRIVATE -Wall -Wextra -Werror)
-target_link_libraries(controller PRIVATE system)
+target_link_libraries(controller PRIVATE functions system)
 
-file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${{TESSERA_PROJECT_DIR}}/test/*.cpp)
+find_sources(test_sources test)
 find_package(GTest QUIET)
 if(test_sources AND GTest_FOUND)
   add_executable(tests EXCLUDE_FROM_ALL ${{test_sources}})
   target_compile_options(tests PRIVATE -Wall -Wextra)
-  target_link_libraries(tests PRIVATE system GTest::gtest_main)
+  target_link_libraries(tests PRIVATE functions system GTest::gtest_main)
 endif()
-)",
+)cmake",
                                         project.banner("#"), sources)};
 }
 

@@ -27,6 +27,8 @@ struct File {
 struct Stub {
   std::string file;       ///< relative to the project: "src/control.cpp"
   std::string function;   ///< "follow"
+  std::string subsystem;  ///< "robot.control"
+  std::string space;      ///< its namespace: "line_follower::robot::control"
   std::string signature;  ///< "void follow(Context& context, const Inputs& in, Memory& memory, Outputs& out)"
   std::string preamble;   ///< what a new file starts with: includes and the opening namespace
   std::string body;       ///< the whole definition, ready to paste into that namespace

@@ -36,6 +36,8 @@ std::vector<Stub> stubs(const spec::Model& model) {
       Stub stub;
       stub.file = user_file(units, unit);
       stub.function = behaviour.name;
+      stub.subsystem = unit_path(unit);
+      stub.space = space;
       stub.signature = fmt::format(
           "void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)", behaviour.name);
       stub.preamble = fmt::format("#include \"{}\"\n\nnamespace {} {{\n", unit_header(unit), space);

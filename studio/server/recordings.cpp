@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "project/state_folder.hpp"
 #include "replay/values.hpp"
 #include "server/growing_file.hpp"
 #include "server/json_text.hpp"
@@ -231,10 +232,14 @@ std::map<std::string, fs::path> Recordings::files() const {
     const bool is_part = !whole.empty() && is_plain(whole, fs::file_type::regular);
     if (file.extension() == ".tsr" && !is_part) add(file.filename().string(), file);
   }
-  if (!is_plain(kept, fs::file_type::directory)) return found;
-  if (is_plain(kept / "last", fs::file_type::directory)) add("last", kept / "last" / recording_of_a_run);
-  for (const fs::path& run : entries_of(kept / "runs"))
-    if (is_plain(run, fs::file_type::directory)) add(run.filename().string(), run / recording_of_a_run);
+  const fs::path state = project::state_folder(folder), elsewhere = state == kept ? fs::path() : state;
+  for (const fs::path& place : {kept, elsewhere}) {
+    if (place.empty() || !is_plain(place, fs::file_type::directory)) continue;
+    for (const fs::path& run : entries_of(place / "runs"))
+      if (is_plain(run, fs::file_type::directory)) add(run.filename().string(), run / recording_of_a_run);
+    // A link to one of the runs, or the folder of a version before this.
+    if (is_plain(place / "last", fs::file_type::directory)) add("last", place / "last" / recording_of_a_run);
+  }
   return found;
 }
 

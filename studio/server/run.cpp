@@ -11,6 +11,8 @@
 #include "project/launch.hpp"
 #include "project/listener.hpp"
 #include "project/process.hpp"
+#include "project/run_folder.hpp"
+#include "project/state_folder.hpp"
 #include "project/walk.hpp"
 #include "server/json_text.hpp"
 #include "tessera/monitor.hpp"
@@ -91,13 +93,12 @@ class Run::Teller final : public project::Listener {
   std::string error_;
 };
 
-Run::Run(std::string id, RunRequest request, Place place, std::shared_ptr<const Analysis> analysis,
-         std::mutex& building, Events& events)
+Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
+         std::shared_ptr<const Analysis> analysis, Events& events)
     : id_(std::move(id)),
       request_(std::move(request)),
-      place_(std::move(place)),
+      spec_(std::move(spec)),
       analysis_(std::move(analysis)),
-      building_(building),
       events_(events) {
   thread_ = std::thread([this] { make_and_run(); });
 }
@@ -137,23 +138,20 @@ void Run::set_state(State state, const std::string& why) {
 void Run::make_and_run() {
   try {
     if (request_.kind == RunRequest::Kind::attach) return attach();
-    const std::optional<project::Controller> controller = make();
-    if (controller) execute(*controller);
+    std::optional<project::Controller> controller = make();
+    if (controller) execute(std::move(*controller));
   } catch (const std::exception& error) {
     set_state(State::failed, error.what());
+  } catch (...) {  // of a library: MuJoCo's is no std::exception
+    set_state(State::failed, "a library failed without saying why");
   }
 }
 
 std::optional<project::Controller> Run::make() {
   Teller teller(*this);
   set_state(State::building);
-  const std::lock_guard lock(building_);
-  if (stop_) {
-    set_state(State::ended, "stopped");
-    return std::nullopt;
-  }
   project::LaunchOptions launch;
-  launch.spec = place_.spec.string();
+  launch.spec = spec_.string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate || !request_.world.empty();
   if (!project::drivers_are_there(launch, simulated, teller)) {
     set_state(State::failed, teller.error());
@@ -162,7 +160,7 @@ std::optional<project::Controller> Run::make() {
   teller.line("verifying, generating and compiling the controller");
   project::BuildOptions options;
   options.stop = &stop_;
-  std::optional<project::Controller> controller = project::make_controller(place_.spec, options, teller);
+  std::optional<project::Controller> controller = project::make_controller(spec_, options, teller);
   if (!controller && stop_)
     set_state(State::ended, "stopped");
   else if (!controller)
@@ -170,7 +168,11 @@ std::optional<project::Controller> Run::make() {
   return controller;
 }
 
-void Run::execute(const project::Controller& controller) {
+void Run::execute(project::Controller controller) {
+  Teller teller(*this);
+  const project::RunFolder folder(project::state_folder(controller.specification.project),
+                                  name_of(request_.kind), project::RunFolder::Shown::as_last, teller);
+  controller.program = folder.own(controller.program);
   {
     const std::lock_guard lock(mutex_);
     verdicts_ = json::object();
@@ -183,7 +185,7 @@ void Run::execute(const project::Controller& controller) {
   options.track = request_.track;
   options.seed = request_.seed;
   options.base = controller.specification.project;
-  options.folder = place_.folder.string();
+  options.folder = folder.path().string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate;
   project::Command command = project::controller_command(controller, options, name_of(request_.kind),
                                                          simulated || !request_.world.empty());
@@ -192,7 +194,7 @@ void Run::execute(const project::Controller& controller) {
     if (request_.paused) command.emplace_back("--paused");
   }
   set_state(request_.paused && simulated ? State::paused : State::running);
-  const std::filesystem::path note = place_.folder / "death.txt";
+  const std::filesystem::path note = folder.path() / "death.txt";
   const project::Exit exit = project::capture_apart(
       project::attended(command, note), stop_,
       [this](std::string_view line) {
@@ -205,7 +207,7 @@ void Run::execute(const project::Controller& controller) {
       });
   process_over_ = true;
   if (follower_.joinable()) follower_.join();
-  json summary = read_summary(place_.folder / "summary.json");
+  json summary = read_summary(folder.path() / "summary.json");
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
   std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
   if (!stop_ && !summary.is_object())
@@ -266,8 +268,9 @@ std::string Run::refused(const json& snapshot) const {
 std::filesystem::path Run::readable(const json& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);
-  const auto [end, ignored] = std::ranges::mismatch(place_.folder, file);
-  const bool within = !missing && end == place_.folder.end();
+  const std::filesystem::path folder = spec_.parent_path();
+  const auto [end, ignored] = std::ranges::mismatch(folder, file);
+  const bool within = !missing && end == folder.end();
   return within && link_.is_process(snapshot.value("pid", std::int64_t{-1})) ? file : std::filesystem::path();
 }
 

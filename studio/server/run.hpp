@@ -39,12 +39,9 @@ struct RunRequest {
 /// Threads: any.
 class Run {
  public:
-  struct Place {
-    std::filesystem::path spec, folder;  ///< the file, and where the run's files go, or are looked for
-  };
-  /// building: held while something is generated and compiled, of which there is one at a time.
-  Run(std::string id, RunRequest request, Place place, std::shared_ptr<const Analysis> analysis,
-      std::mutex& building, Events& events);
+  /// spec: the file. The run's files get a folder of their own (project::RunFolder).
+  Run(std::string id, RunRequest request, std::filesystem::path spec,
+      std::shared_ptr<const Analysis> analysis, Events& events);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -62,7 +59,7 @@ class Run {
   [[nodiscard]] bool is_building() const;
   void make_and_run();
   [[nodiscard]] std::optional<project::Controller> make();
-  void execute(const project::Controller& controller);
+  void execute(project::Controller controller);
   void attach();
   [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
   [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot);
@@ -73,9 +70,8 @@ class Run {
 
   const std::string id_;
   const RunRequest request_;
-  const Place place_;
+  const std::filesystem::path spec_;
   const std::shared_ptr<const Analysis> analysis_;
-  std::mutex& building_;
   Events& events_;
   ControllerLink link_;
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};

@@ -1,16 +1,10 @@
 #include "server/runs.hpp"
 
-#include <fmt/chrono.h>
-
 #include <algorithm>
 #include <charconv>
-#include <ctime>
-#include <filesystem>
 #include <utility>
 
 namespace tessera::server {
-
-namespace fs = std::filesystem;
 
 Runs::Started Runs::start(RunRequest request) {
   const SpecFile::Content content = file_.read();
@@ -28,12 +22,8 @@ Runs::Started Runs::start(RunRequest request) {
     runs_.erase(old);
   }
   const std::uint64_t number = ++last_;
-  const bool makes_files = request.kind != RunRequest::Kind::attach;
-  const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), number);
-  const fs::path folder = makes_files ? file_.folder() / ".tessera/runs" / name : file_.folder();
-  runs_[number] =
-      std::make_shared<Run>(std::to_string(number), std::move(request), Run::Place{file_.path(), folder},
-                            std::move(analysis), building_, events_);
+  runs_[number] = std::make_shared<Run>(std::to_string(number), std::move(request), file_.path(),
+                                        std::move(analysis), events_);
   return {std::to_string(number), 202, {}, {}};
 }
 

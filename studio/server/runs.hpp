@@ -14,7 +14,7 @@
 
 namespace tessera::server {
 
-/// The runs of this start of the studio. Their files stay in .tessera/runs/.
+/// The runs of this start of the studio. Their files stay in .tessera/runs/ (project::RunFolder).
 ///
 /// Threads: any.
 class Runs {
@@ -39,7 +39,6 @@ class Runs {
   SpecFile& file_;
   Analyses& analyses_;
   Events& events_;
-  std::mutex building_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, std::shared_ptr<Run>> runs_;
   std::uint64_t last_ = 0;

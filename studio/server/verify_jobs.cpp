@@ -101,6 +101,8 @@ void VerifyJobs::run(std::uint64_t id, Job& job, const Analysis& analysis, const
     result = text_of(result_json(analysis, report));
   } catch (const std::exception& error) {
     result = text_of(json{{"error", error.what()}});
+  } catch (...) {
+    result = text_of(json{{"error", "the verification failed without saying why"}});
   }
   const std::lock_guard lock(mutex_);
   job.result = std::move(result);

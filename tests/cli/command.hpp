@@ -45,7 +45,7 @@ class Command : public testing::Test {
     return shell(std::string(TESSERA_BINARY_DIR) + "/tessera " + arguments);
   }
   project::Exit shell(const std::string& line) const {
-    return project::capture({"sh", "-c", "cd '" + folder_.string() + "' && " + line});
+    return project::capture({"sh", "-c", "cd \"$0\" && " + line, folder_.string()});
   }
   /// Runs it with `--json FILE`, expects success and gives the JSON.
   nlohmann::json json(const std::string& arguments) const {

@@ -90,7 +90,7 @@ class Controllers : public Command {
  protected:
   void make(unsigned seed) {
     write(folder_ / "spec.yaml", RandomSpecification(seed).text());
-    const project::Exit made = tessera("generate --accept-violations");
+    const project::Exit made = tessera("generate --accept-violations --stubs");
     ASSERT_EQ(made.code, 0) << made.text;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "src"))
       if (entry.is_regular_file()) count_calls(entry.path());

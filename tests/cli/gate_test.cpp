@@ -46,7 +46,7 @@ TEST_F(Gate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
 
 TEST_F(Gate, AnAcceptedViolationIsWrittenIntoTheController) {
   write(folder_ / "p/spec.yaml", stuck);
-  const project::Exit done = tessera("generate p --accept-violations --json out.json");
+  const project::Exit done = tessera("generate p --accept-violations --stubs --json out.json");
   EXPECT_EQ(done.code, 0) << done.text;
   EXPECT_NE(done.text.find("warning: deadlock_free, goes_on"), std::string::npos) << done.text;
   const auto result = nlohmann::json::parse(content_of(folder_ / "out.json"));
@@ -123,6 +123,7 @@ TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
   EXPECT_NE(verified.text.find("tessera simulate p --scenario stuck.json"), std::string::npos)
       << verified.text;
   const auto traces = nlohmann::json::parse(content_of(folder_ / "run.json"));
+  ASSERT_EQ(tessera("generate p --accept-violations --stubs").code, 0);
   const project::Exit done = tessera("simulate p --scenario stuck.json --for 2s --record run.tsr");
   EXPECT_EQ(done.code, 1) << done.text;
   EXPECT_NE(done.text.find("(forced: terminal)"), std::string::npos) << done.text;

@@ -66,9 +66,10 @@ class Recordings : public Command {
  protected:
   Recordings() {
     write(folder_ / "spec.yaml", talkers);
+    EXPECT_EQ(tessera("generate --stubs").code, 0);
     const project::Exit made = tessera("run --for 100ms");
     EXPECT_EQ(made.code, 0) << made.text;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_ / ".tessera"))
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / ".tessera/build"))
       if (entry.path().filename() == "controller" && entry.is_regular_file()) controller_ = entry.path();
     const auto specification = project::read(folder_, cli::terminal());
     if (specification) nets_ = project::build(*specification, cli::terminal());

@@ -14,6 +14,8 @@ TEST(Stubs, OnePerBehaviourInTheFileOfItsSubsystem) {
   const codegen::Stub& follow = stubs[1];
   EXPECT_EQ(follow.file, "src/control.cpp");
   EXPECT_EQ(follow.function, "follow");
+  EXPECT_EQ(follow.subsystem, "robot.control");
+  EXPECT_EQ(follow.space, "line_follower::robot::control");
   EXPECT_EQ(follow.signature,
             "void follow(Context& context, const Inputs& in, Memory& memory, Outputs& out)");
   EXPECT_EQ(follow.preamble, "#include \"robot/control.hpp\"\n\nnamespace line_follower::robot::control {\n");

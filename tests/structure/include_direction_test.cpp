@@ -40,7 +40,7 @@ const std::map<std::string, Rooms> allowed{
 // "tessera/..." are the runtime's public headers. Those that the checker shares with the runtime:
 bool only_shared_definition(const std::string& room, const std::string& include) {
   if (room == "verify") return include == "tessera/net_hash.hpp";
-  if (room == "project") return include == "tessera/signals.hpp";
+  if (room == "project") return include == "tessera/signals.hpp" || include == "tessera/net_hash.hpp";
   return room != "explore" || include == "tessera/firing.hpp";
 }
 

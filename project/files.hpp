@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+/// Files, read and written as wholes.
+namespace tessera::project {
+
+/// Empty when it cannot be read.
+[[nodiscard]] std::string content_of(const std::filesystem::path& file);
+
+/// Replaces a file as a whole, and makes its folder: a reader sees the old text or the new one, and so does
+/// the disk when it is full. Follows a symbolic link; keeps the mode of a file that exists.
+///
+/// Errors:  throws std::runtime_error with the path and the reason.
+/// Threads: any.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// The identity of a text: 32 hexadecimal digits.
+[[nodiscard]] std::string hash_of(std::string_view text);
+
+/// Nothing in it is a symbolic link: from `folder`, which may be one, down to folder/relative.
+[[nodiscard]] bool is_inside(const std::filesystem::path& folder, const std::filesystem::path& relative);
+
+}  // namespace tessera::project

@@ -170,13 +170,18 @@ template <class Run>
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
   const auto instances = static_cast<std::uint32_t>(system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
-  // Before the first driver is made, until the last is gone.
-  const StopSignals signals(simulated ? StopSignals::Suspension::usual : StopSignals::Suspension::noted);
+  const bool nothing_real = simulated && options.hardware.empty();
+  // Before the first driver is made, until the last is gone. Only the steady clock can be suspended.
+  using Suspension = StopSignals::Suspension;
+  const StopSignals signals(nothing_real ? Suspension::usual
+                            : simulated  ? Suspension::ends_run
+                                         : Suspension::noted);
   // Before there are threads.
   Companions companions(system, options);
   if (!companions.start_guardian(error)) return std::nullopt;
-  // No simulated motor runs on because somebody reads slowly what is printed.
-  console::Session session(simulated ? console::Session::Overflow::waits : console::Session::Overflow::loses);
+  // Nothing real waits because somebody reads slowly what is printed.
+  using Overflow = console::Session::Overflow;
+  console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
   companions.watch();
   Assembly assembly(system, options);
   assembly.guardian = companions.guardian();

@@ -36,7 +36,7 @@ constexpr tessera::VerifiedProperty verdicts[] = {
 
 constexpr tessera::System whole{
     .tables_version = 2, .name = "line_follower",
-    .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "a0f23c76f7c77074507dc3f813a3536e",
+    .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "40c369e9218984d63a6e0a0e2df06673",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .real_drivers = real_drivers, .simulated_drivers = simulated_drivers};
 // clang-format on

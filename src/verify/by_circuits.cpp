@@ -99,8 +99,8 @@ Finding live_behaviours(const Case& given, std::vector<std::uint32_t> places) {
   constexpr const char* by_structure = "communication structure";
   Finding finding;
   if (std::vector<std::uint32_t> never = never_following(given, places); !never.empty()) {
-    finding = violated(behaviour_of(given.abstract, {never.front()}) + " follows no behaviour that can run",
-                       std::move(never));
+    const std::string first = behaviour_of(given.abstract, {never.front()});
+    finding = violated(first + " follows no behaviour that can run", std::move(never));
     finding.method = by_structure;
     return finding;
   }

@@ -161,8 +161,10 @@ class Checker {
       const std::string& peer = net_.subsystems[static_cast<std::size_t>(other)].path;
       if (!settled(other))
         complain("waits: the run stops before " + peer + " is stuck or has ended: " + text);
-      if (tail.starts_with(" from ") && !(tail.substr(6) == peer || tail.substr(6).starts_with(peer + ",") ||
-                                          tail.substr(6).starts_with(peer + " ")))
+      const bool itself = other == subsystem && tail.starts_with(" from itself");
+      if (tail.starts_with(" from ") && !itself &&
+          !(tail.substr(6) == peer || tail.substr(6).starts_with(peer + ",") ||
+            tail.substr(6).starts_with(peer + " ")))
         complain("waits: the wrong peer: " + text);
       // Who waits for itself is answered by nobody.
       if (tail.find("nobody") != std::string::npos && channel.sender != channel.receiver &&

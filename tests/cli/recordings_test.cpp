@@ -122,7 +122,9 @@ class Recordings : public Command {
     std::string error;
     if (!read_recording(file.string(), error)) return;  // killed before there was one
     const replay::Legality whole = check(file);
-    if (whole.verdict != or_else) EXPECT_EQ(whole.verdict, Verdict::incomplete) << whole.why;
+    if (whole.verdict != or_else) {
+      EXPECT_EQ(whole.verdict, Verdict::incomplete) << whole.why;
+    }
     expect_legal_segments(file.parent_path(), file);
   }
   void expect_legal_segments(const fs::path& folder, const fs::path& but = {}) {

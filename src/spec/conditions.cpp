@@ -62,6 +62,7 @@ void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
   if (condition.value->entries.empty()) {
     out.error("E104", condition.span, quoted(condition.key) + " needs at least one named expression",
               condition_hint);
+    result.expressions.push_back({{}, {}, condition.span});  // one that is not known: nothing follows from it
   }
   for (const Entry& entry : condition.value->entries) {
     check_name(entry.key, entry.span, "condition", out);

@@ -29,7 +29,7 @@ struct SimulateOptions : LaunchOptions {
 };
 
 struct RunCommandOptions : LaunchOptions {
-  std::string json;
+  std::string json, report;
   bool world = false;
 };
 
@@ -42,14 +42,17 @@ int print_debugger(const Command& command) {
 
 // The summary is written even by a run that failed, and says why; only a controller that could not start
 // leaves none.
-int launch(const Controller& controller, const LaunchOptions& options, const Command& command,
-           const std::string& json, const std::string& report_folder) {
+int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
+           const Command& command, const std::string& json, const std::string& report_folder) {
   if (options.debug) return print_debugger(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
   const Exit exit = run(attended(command, note));
   if (!std::filesystem::exists(files.summary)) {
-    if (const std::string death = describe_death(exit, note); !death.empty()) complain(death);
+    if (const std::string death = describe_death(exit, note); !death.empty())
+      complain(death);
+    else
+      folder.withdraw();
     return exit.code == 0 ? failed : exit.code;
   }
   const RunOutcome outcome = read_outcome(controller, options);
@@ -153,7 +156,7 @@ int simulate_command(SimulateOptions options) {
     command.push_back(std::filesystem::absolute(options.scenario).string());
   }
   if (options.schedules > 0) return launch_schedules(options, command);
-  return launch(*controller, options, command, options.json, options.report);
+  return launch(*controller, folder, options, command, options.json, options.report);
 }
 
 int run_command(RunCommandOptions options) {
@@ -161,15 +164,15 @@ int run_command(RunCommandOptions options) {
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (!can_run(options, options.world)) return failed;
   if (!drivers_are_there(options, options.world, terminal())) return failed;
-  check_outputs(options, options.json, "");
+  check_outputs(options, options.json, options.report);
   std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return refused();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
-  return launch(*controller, options, controller_command(*controller, options, "run", options.world),
-                options.json, "");
+  return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
+                options.json, options.report);
 }
 
 }  // namespace
@@ -228,6 +231,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--world", options->world,
                     "With the simulated drivers, in the simulated world if there is one, in real time");
   command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command->add_option("--report", options->report, "Folder for a page and a picture of the run");
   command->footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
   command->callback([options, &exit_code] { exit_code = run_command(*options); });
 }

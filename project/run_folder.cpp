@@ -76,22 +76,36 @@ std::vector<OldRun> runs_in(const fs::path& folder) {
   return runs;
 }
 
+void remove_files(const fs::path& folder) {
+  std::error_code problem;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  for (const fs::path& file : files)
+    if (is_ours(file.filename().string())) fs::remove(file, problem);
+  fs::remove(folder, problem);  // only if nothing is left in it
+}
+
 /// false: it is in use, or somebody wants it to stay.
 bool remove_run(const fs::path& folder) {
   std::error_code problem;
   if (fs::exists(fs::symlink_status(folder / "keep", problem))) return false;
   const std::optional<LockFile> lock = LockFile::try_take(folder / lock_name, LockFile::Mode::exclusive);
   if (!lock) return false;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
-  for (const fs::path& file : files)
-    if (is_ours(file.filename().string())) fs::remove(file, problem);
-  fs::remove(folder, problem);  // only if nothing is left in it
+  remove_files(folder);
   return true;
 }
 
-/// The newest ones stay, and one that takes all the room by itself does if it is the newest.
-void remove_old(const fs::path& folder, Listener& listener) {
+/// The run that `last` shows, "runs/20261122-091530-simulate-1"; empty: none.
+fs::path shown_in(const fs::path& state) {
+  std::error_code problem;
+  const fs::path shown = fs::read_symlink(state / "last", problem);
+  return problem ? fs::path() : shown;
+}
+
+/// The newest ones stay, and one that takes all the room by itself does if it is the newest; so does the one
+/// that `last` shows.
+void remove_old(const fs::path& state, Listener& listener) {
+  const fs::path folder = state / "runs", shown = shown_in(state).filename();
   const std::uint64_t runs_limit = limit_of("TESSERA_KEEP_RUNS", most_runs);
   const std::uint64_t bytes_limit = limit_of("TESSERA_KEEP_RUNS_SIZE", most_bytes);
   std::vector<OldRun> runs = runs_in(folder);
@@ -100,7 +114,7 @@ void remove_old(const fs::path& folder, Listener& listener) {
   for (std::size_t index = 0; index + 1 < runs.size(); ++index) {
     if (count < runs_limit && bytes <= bytes_limit) return;  // one more is about to begin
     try {
-      if (!remove_run(runs[index].folder)) continue;
+      if (runs[index].folder.filename() == shown || !remove_run(runs[index].folder)) continue;
     } catch (const std::exception& error) {
       listener.warn(fmt::format("an old run cannot be removed: {}", error.what()));
       return;
@@ -110,15 +124,25 @@ void remove_old(const fs::path& folder, Listener& listener) {
   }
 }
 
-fs::path make_folder(const fs::path& runs, const std::string& mode) {
-  const std::string time = fmt::format("{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr)));
-  fs::create_directories(runs);
-  for (int number = 1;; ++number) {
-    const fs::path folder = runs / fmt::format("{}-{}-{}", time, mode, number);
-    if (mkdir(folder.c_str(), 0777) == 0) return folder;
-    if (errno != EEXIST)
-      throw std::runtime_error(fmt::format("cannot make {}: {}", folder.string(), std::strerror(errno)));
+/// A name that no run has now, and none of this second had before: numbers count on.
+fs::path new_name(const fs::path& runs, const std::string& mode) {
+  const std::string start = fmt::format("{:%Y%m%d-%H%M%S}-{}-", fmt::localtime(std::time(nullptr)), mode);
+  std::uint64_t highest = 0;
+  std::error_code problem;
+  for (fs::directory_iterator entry(runs, problem), end; !problem && entry != end; entry.increment(problem)) {
+    const std::string name = entry->path().filename().string();
+    std::uint64_t number = 0;
+    if (!name.starts_with(start)) continue;
+    std::from_chars(name.data() + start.size(), name.data() + name.size(), number);
+    highest = std::max(highest, number);
   }
+  return runs / (start + std::to_string(highest + 1));
+}
+
+fs::path make_folder(const fs::path& folder) {
+  fs::create_directories(folder.parent_path());
+  if (mkdir(folder.c_str(), 0777) == 0) return folder;
+  throw std::runtime_error(fmt::format("cannot make {}: {}", folder.string(), std::strerror(errno)));
 }
 
 /// Versions before this had one folder `last`, which every run overwrote.
@@ -126,7 +150,7 @@ void move_old_last(const fs::path& state) {
   std::error_code problem;
   const fs::path last = state / "last";
   if (fs::symlink_status(last, problem).type() != fs::file_type::directory) return;
-  const fs::path folder = make_folder(state / "runs", "earlier");
+  const fs::path folder = make_folder(new_name(state / "runs", "earlier"));
   if (rename(last.c_str(), folder.c_str()) != 0)
     throw std::runtime_error(fmt::format("cannot move {}: {}", last.string(), std::strerror(errno)));
 }
@@ -141,6 +165,15 @@ void point_last_to(const fs::path& state, const fs::path& folder) {
   fs::create_symlink(fs::path("runs") / folder.filename(), beside, problem);
   if (!problem) fs::rename(beside, last, problem);
   if (problem) throw std::runtime_error(fmt::format("cannot write {}: {}", last.string(), problem.message()));
+}
+
+/// The run that `last` shows when the one that it shows has not begun; empty: there is none.
+fs::path shown_instead(const fs::path& state, const fs::path& before) {
+  std::error_code problem;
+  if (!before.empty() && fs::is_directory(state / before, problem)) return state / before;
+  std::vector<OldRun> runs = runs_in(state / "runs");
+  std::erase_if(runs, [&](const OldRun& run) { return !fs::exists(run.folder / "recording.tsr", problem); });
+  return runs.empty() ? fs::path() : runs.back().folder;
 }
 
 LockFile lock_of(const fs::path& folder) {
@@ -160,8 +193,9 @@ LockFile runs_lock(const fs::path& state) {
 
 fs::path begin(const fs::path& state, const std::string& mode, Listener& listener) {
   move_old_last(state);
-  remove_old(state / "runs", listener);
-  return make_folder(state / "runs", mode);
+  const fs::path folder = new_name(state / "runs", mode);  // not that of one that goes now
+  remove_old(state, listener);
+  return make_folder(folder);
 }
 
 }  // namespace
@@ -171,8 +205,20 @@ RunFolder::RunFolder(const fs::path& state, const std::string& mode, Shown shown
 
 RunFolder::RunFolder(const fs::path& state, const std::string& mode, Shown shown, Listener& listener,
                      const LockFile& /*held*/)
-    : path_(begin(state, mode, listener)), in_use_(lock_of(path_)) {
+    : path_(begin(state, mode, listener)), before_(shown_in(state)), in_use_(lock_of(path_)) {
   if (shown == Shown::as_last) point_last_to(state, path_);
+}
+
+void RunFolder::withdraw() const {
+  const fs::path state = path_.parent_path().parent_path();
+  const LockFile held = runs_lock(state);
+  const bool is_shown = shown_in(state).filename() == path_.filename();
+  remove_files(path_);
+  if (!is_shown) return;
+  if (const fs::path instead = shown_instead(state, before_); !instead.empty())
+    point_last_to(state, instead);
+  else
+    fs::remove(state / "last");
 }
 
 fs::path RunFolder::own(const fs::path& program) const {

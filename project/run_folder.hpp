@@ -14,8 +14,8 @@ namespace tessera::project {
 /// its lock), no other run removes it.
 ///
 /// When a run begins, old ones are removed until at most 100 are left that take at most 4 GB together:
-/// TESSERA_KEEP_RUNS=N and TESSERA_KEEP_RUNS_SIZE=2GB say otherwise (0: no limit). One stays if a file `keep`
-/// is in it, and so does everything that Tessera has not written.
+/// TESSERA_KEEP_RUNS=N and TESSERA_KEEP_RUNS_SIZE=2GB say otherwise (0: no limit). One stays if `last` shows
+/// it or a file `keep` is in it, and so does everything that Tessera has not written.
 ///
 /// Threads: each run has its own.
 class RunFolder {
@@ -30,11 +30,14 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path own(const std::filesystem::path& program) const;
   /// Programs that are started from now on keep it in use too.
   void goes_to_children() const { in_use_.goes_to_children(); }
+  /// The controller is over and has not begun to run: what it has left goes, and STATE/last shows the run
+  /// that it showed before.
+  void withdraw() const;
 
  private:
   RunFolder(const std::filesystem::path& state, const std::string& mode, Shown shown, Listener& listener,
             const LockFile& held);
-  std::filesystem::path path_;
+  std::filesystem::path path_, before_;  ///< before_: what STATE/last was then
   LockFile in_use_;
 };
 

@@ -210,8 +210,11 @@ void Run::execute(project::Controller controller) {
   json summary = read_summary(folder.path() / "summary.json");
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
   std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
-  if (!stop_ && !summary.is_object())
-    if (const std::string death = project::describe_death(exit, note); !death.empty()) why = death;
+  if (!summary.is_object()) {
+    const std::string death = project::describe_death(exit, note);
+    if (!stop_ && !death.empty()) why = death;
+    if (death.empty()) folder.withdraw();
+  }
   {
     const std::lock_guard lock(mutex_);
     outcome_ = summary.is_object() ? std::move(summary) : json(nullptr);

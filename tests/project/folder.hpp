@@ -41,7 +41,7 @@ class Folder : public testing::Test {
     std::set<std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_))
       if (!entry.is_directory() || entry.is_symlink())
-        all.insert(fs::relative(entry.path(), folder_).string());
+        all.insert(entry.path().lexically_relative(folder_).string());
     return all;
   }
 

@@ -91,6 +91,41 @@ TEST_F(RunFolders, TheOldestGoButNotThoseInUseOrKeptNorWhatOthersWrote) {
   EXPECT_FALSE(fs::exists(used));
 }
 
+TEST_F(RunFolders, ARunThatHasNotBegunIsNotTheLast) {
+  begin().withdraw();
+  EXPECT_FALSE(fs::exists(fs::symlink_status(folder_ / "last")));
+  const fs::path good = finished();
+  fs::path failed;
+  {
+    const RunFolder run = begin();
+    failed = run.path();
+    write(failed / "recording.tsr", "a header");
+    EXPECT_EQ(fs::canonical(folder_ / "last"), failed);
+    run.withdraw();
+  }
+  EXPECT_FALSE(fs::exists(failed));
+  EXPECT_EQ(fs::canonical(folder_ / "last"), good);
+
+  // Two at once: the second has seen the first, which is gone by then.
+  const RunFolder first = begin(), second = begin();
+  write(first.path() / "notes.txt", "mine");
+  first.withdraw();
+  EXPECT_EQ(fs::canonical(folder_ / "last"), second.path());
+  EXPECT_EQ(content_of(first.path() / "notes.txt"), "mine");
+  fs::remove_all(first.path());
+  second.withdraw();
+  EXPECT_EQ(fs::canonical(folder_ / "last"), good);
+}
+
+TEST_F(RunFolders, WhatLastShowsStays) {
+  setenv("TESSERA_KEEP_RUNS", "2", 1);
+  const fs::path shown = finished();
+  std::set<fs::path> names{shown};
+  for (int more = 0; more < 5; ++more) names.insert(begin(RunFolder::Shown::no).path());
+  EXPECT_EQ(fs::canonical(folder_ / "last"), shown);
+  EXPECT_EQ(names.size(), 6U);  // although most of them are gone
+}
+
 TEST_F(RunFolders, AreBoundBySizeToo) {
   setenv("TESSERA_KEEP_RUNS_SIZE", "1kB", 1);
   const fs::path first = finished(600), second = finished(300);

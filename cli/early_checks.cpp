@@ -14,9 +14,8 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/walk.hpp"
-#include "runtime/src/command_line.hpp"
-#include "runtime/src/parameters.hpp"
 #include "spec/parser.hpp"
+#include "tessera/given_values.hpp"
 
 namespace tessera::cli {
 

@@ -8,15 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/given_values.hpp"
 #include "tessera/subsystem.hpp"
 
 namespace tessera {
-
-/// The parameters of one subsystem, where they live.
-struct ParameterOwner {
-  std::string path;  ///< "robot[3].control"
-  std::span<const Bindings::Parameter> parameters;
-};
 
 /// A value that fits a parameter but has not been given to it.
 struct CheckedValue {
@@ -31,17 +26,6 @@ struct CheckedValue {
 /// and `checked` has one more entry for each of them.
 [[nodiscard]] std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
                                           const std::string& value, std::vector<CheckedValue>& checked);
-
-/// Gives parameters new values, in order. PATH is a name (every subsystem that has it), or a subsystem's path
-/// and a name;
-/// `[*]` in the path stands for any index.
-///
-/// Errors: a path that names nothing (with the nearest that does), a value of another kind or out of range.
-/// Reports all,
-///         one per line, then false; assignments that are right take place all the same.
-[[nodiscard]] bool set_parameters(std::span<const ParameterOwner> owners,
-                                  std::span<const std::pair<std::string, std::string>> values,
-                                  std::string& error);
 
 /// Reads "path = value" lines; '#' starts a comment. Appends to `values`. false and `error` naming file and
 /// line.

@@ -243,11 +243,11 @@ TEST(SafeCommand, IsGivenWhenNoFirstValueComes) {
   TestSystem system;
   const auto a = system.add("robot.silent", nets::alone, {}, 10ms);
   const auto b = system.add("robot.motor", nets::b_receiver, driver(), 0ms, 30ms, Kind::effector);
-  system.connect(a, "", b, "x", buffered);  // no behaviour of it sends
-  EXPECT_FALSE(run(system, simulated(25ms)).failed);
+  system.connect(a, "", b, "x", buffered);  // no behaviour of it sends: the motor is stuck for good
+  EXPECT_TRUE(run(system, simulated(25ms)).failed);
   EXPECT_EQ(system.devices.commands, (std::vector<double>{-1, -1})) << "the second because the run ends";
   system.devices.commands.clear();
-  EXPECT_FALSE(run(system, simulated(35ms)).failed);
+  EXPECT_TRUE(run(system, simulated(35ms)).failed);
   EXPECT_EQ(system.devices.commands, (std::vector<double>{-1, -1, -1}));
 }
 

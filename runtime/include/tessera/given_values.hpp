@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "tessera/controller.hpp"
+#include "tessera/subsystem.hpp"
+#include "tessera/time.hpp"
+
+/// Values as people write them on a command line. The controller reads them when it starts, `tessera` before
+/// it builds one.
+namespace tessera {
+
+/// "60s", "1.5 min", "200ms", "2h", "90" (seconds). nullopt: none of these, or negative.
+[[nodiscard]] std::optional<Duration> parse_duration(std::string text);
+
+/// "500MB" (in four segments), "100MBx5" (so many of that size); B, kB, MB, GB. nullopt: none of these.
+[[nodiscard]] std::optional<RunOptions::Limit> parse_record_limit(std::string text);
+
+/// The parameters of one subsystem, where they live.
+struct ParameterOwner {
+  std::string path;  ///< "robot[3].control"
+  std::span<const Bindings::Parameter> parameters;
+};
+
+/// Gives parameters new values, in order. PATH is a name (every subsystem that has it), or a subsystem's path
+/// and a name; `[*]` in the path stands for any index.
+///
+/// Errors: a path that names nothing (with the nearest that does), a value of another kind or out of range.
+/// Reports all, one per line, then false; assignments that are right take place all the same.
+[[nodiscard]] bool set_parameters(std::span<const ParameterOwner> owners,
+                                  std::span<const std::pair<std::string, std::string>> values,
+                                  std::string& error);
+
+}  // namespace tessera

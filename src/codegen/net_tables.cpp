@@ -83,6 +83,10 @@ std::string line(const Row& row, const Widths& widths) {
   return out += row.cells[last] + "},\n";
 }
 
+std::string list_of(const Row& row) {
+  return fmt::format("{{{}}}", fmt::join(std::span(row.cells).first(cells_used(row)), ", "));
+}
+
 /// Rows of a single cell share lines.
 std::string packed(const std::vector<Row>& rows) {
   std::string out, current;
@@ -127,7 +131,11 @@ std::string behaviours_table(const spec::Subsystem& subsystem) {
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
     rows.push_back(
         {"", {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
-  return fmt::format("constexpr tessera::Behaviour behaviours[] = {{\n{}}};\n", group_lines(rows));
+  const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
+  std::string short_form;
+  for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);
+  if (head.size() + short_form.size() + 2 <= column_limit) return head + short_form + "};\n";
+  return head + '\n' + group_lines(rows) + "};\n";
 }
 
 /// Which agents execute a variant: the first by name, the rest by number.
@@ -171,9 +179,8 @@ std::string net_definitions(const NetVariants& variants) {
   for (std::size_t variant = 0; variant < variants.nets.size(); ++variant) {
     const std::string suffix = variant_suffix(variant);
     const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
-    out += fmt::format(
-        "const tessera::SubsystemNet Part::net{0}{{behaviours, {1}, places{0}, transitions{0}}};\n", suffix,
-        ports);
+    out += fmt::format("const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}}};\n",
+                       suffix, ports);
   }
   return out;
 }

@@ -14,7 +14,7 @@ namespace tessera::codegen {
 /// tables, in columns. They stand in an anonymous namespace.
 [[nodiscard]] std::string net_tables(const Project& project, const Unit& unit, const NetVariants& variants);
 
-/// The definitions of Part::net, Part::net_2, ... over those tables.
+/// The definitions of net, net_2, ... over those tables.
 [[nodiscard]] std::string net_definitions(const NetVariants& variants);
 
 }  // namespace tessera::codegen

@@ -84,6 +84,10 @@ std::string bind(const Project& project, const Unit& unit) {
 }
 
 std::string call(const spec::Subsystem& subsystem) {
+  if (subsystem.behaviours.size() == 1)
+    return member_function(
+        "void call(std::uint16_t) override",
+        {fmt::format("yours::{}(context_, in, memory, out);", subsystem.behaviours[0].name)});
   std::string cases;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
     cases +=
@@ -147,7 +151,7 @@ namespace yours = ::{5};
 {8}
 }}  // namespace
 
-{9}std::unique_ptr<tessera::Subsystem> Part::make() {{ return std::make_unique<Subsystem>(); }}
+{9}std::unique_ptr<tessera::Subsystem> make() {{ return std::make_unique<Subsystem>(); }}
 
 }}  // namespace {4}
 {10})",

@@ -22,6 +22,11 @@ std::string table(std::string_view type, std::string_view name, const std::strin
   return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
 }
 
+/// Of the drivers in C++; many controllers have none.
+std::string driver_table(std::string_view name, const std::string& rows) {
+  return rows.empty() ? rows : table("CppDriver", name, rows) + '\n';
+}
+
 /// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
 std::string policies(const spec::Subsystem& subsystem) {
   std::vector<std::string> members;
@@ -45,7 +50,7 @@ std::string policies(const spec::Subsystem& subsystem) {
 std::string instance_row(const Project& project, const Unit& unit, spec::Index instance,
                          std::uint32_t variant) {
   const spec::Subsystem& subsystem = *unit.subsystem;
-  const std::string part = fmt::format("units::{}::{}::Part", unit.definition->name, subsystem.name);
+  const std::string space = fmt::format("units::{}::{}", unit.definition->name, subsystem.name);
   const std::string last = policies(subsystem);
   std::string times;
   if (subsystem.period || subsystem.stale || !last.empty())
@@ -54,7 +59,7 @@ std::string instance_row(const Project& project, const Unit& unit, spec::Index i
   times += last;
   return fmt::format("    {{\"{}\", \"{}\", tessera::Kind::{}, &{}::net{}, {}::make{}}},\n",
                      project.model.agents[project.model.instances[instance].agent].path, subsystem.name,
-                     kinds[static_cast<std::size_t>(subsystem.kind)], part, variant_suffix(variant), part,
+                     kinds[static_cast<std::size_t>(subsystem.kind)], space, variant_suffix(variant), space,
                      times);
 }
 
@@ -132,13 +137,11 @@ File subsystems_header(const Project& project) {
   for (std::size_t at = 0; at < project.units.size(); ++at) {
     std::string nets;
     for (std::size_t variant = 0; variant < project.nets[at].nets.size(); ++variant)
-      nets += fmt::format("  static const tessera::SubsystemNet net{};\n", variant_suffix(variant));
+      nets += fmt::format("extern const tessera::SubsystemNet net{};\n", variant_suffix(variant));
     const std::string space = generated_namespace(project.units[at]);
     parts += fmt::format(R"(
 namespace {0} {{
-struct Part {{
-{1}  static std::unique_ptr<tessera::Subsystem> make();
-}};
+{1}std::unique_ptr<tessera::Subsystem> make();
 }}  // namespace {0}
 )",
                          space, nets);
@@ -197,13 +200,12 @@ using namespace std::chrono_literals;
 // clang-format off
 {4}{5}
 {6}
-{7}{8}
-{9}
+{7}{8}{9}
 constexpr tessera::System whole{{
     .tables_version = {2}, .name = "{3}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
-    .real_drivers = real_drivers, .simulated_drivers = simulated_drivers}};
+    .real_drivers = {13}, .simulated_drivers = {14}}};
 // clang-format on
 
 }}  // namespace
@@ -215,10 +217,11 @@ const tessera::System& system() {{ return whole; }}
                       project.banner(), include_block(project_headers), tables_version_made, model.system,
                       models_table(model), table("Instance", "instances", instance_rows(project)),
                       table("Channel", "channels", channel_rows(model, ports)), drivers.options,
-                      table("CppDriver", "real_drivers", drivers.real) + "\n" +
-                          table("CppDriver", "simulated_drivers", drivers.simulated),
+                      driver_table("real_drivers", drivers.real) +
+                          driver_table("simulated_drivers", drivers.simulated),
                       table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
-                      report.verification_hash, drivers.classes)};
+                      report.verification_hash, drivers.classes, drivers.real.empty() ? "{}" : "real_drivers",
+                      drivers.simulated.empty() ? "{}" : "simulated_drivers")};
 }
 
 File main_source(const Project& project) {
@@ -226,9 +229,7 @@ File main_source(const Project& project) {
 
 #include "system.hpp"
 
-int main(int argc, char** argv) {{
-  return tessera::controller_main(tessera_generated::system(), argc, argv);
-}}
+int main(int argc, char** argv) {{ return tessera::controller_main(tessera_generated::system(), argc, argv); }}
 )",
                                   project.banner())};
 }

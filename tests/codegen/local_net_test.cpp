@@ -32,18 +32,18 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(LocalNet, AgentsOfARingShareOneNet) {
   const Generated generated = generate(fleet(7, true));
-  EXPECT_EQ(count(generated["walker.control.cpp"], "tessera::SubsystemNet Part::net"), 1U);
-  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::Part::net, "), 7U);
+  EXPECT_EQ(count(generated["walker.control.cpp"], "tessera::SubsystemNet net"), 1U);
+  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::net, "), 7U);
 }
 
 TEST(LocalNet, TheEndsOfARowDiffer) {
   const Generated generated = generate(fleet(7, false));
   const std::string& source = generated["walker.control.cpp"];
-  EXPECT_EQ(count(source, "tessera::SubsystemNet Part::net"), 3U);
+  EXPECT_EQ(count(source, "tessera::SubsystemNet net"), 3U);
   EXPECT_THAT(source, HasSubstr("// The net of robot[0].control.\n"));
   EXPECT_THAT(source, HasSubstr("// The net of robot[1].control and 4 more.\n"));
   EXPECT_THAT(source, HasSubstr("// The net of robot[6].control.\n"));
-  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::Part::net_2, "), 5U);
+  EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::net_2, "), 5U);
 }
 
 TEST(LocalNet, AnInputAndAnOutputOfOneNameAreDifferentPorts) {

@@ -56,12 +56,12 @@ void add_words(const std::string& code, Words& words) {
 /// What generated files say, and what C, C++ and their libraries do.
 const Words& words() {
   static const Words all = [] {
-    Words words{"main",    "errno",   "while",     "NULL",   "EOF",       "assert", "INT_MAX", "linux",
-                "unix",    "time",    "read",      "write",  "log",       "index",  "exit",    "abs",
-                "signal",  "remove",  "import",    "final",  "module",    "system", "types",   "all",
-                "test",    "tests",   "functions", "T",      "Type",      "Status", "Buffer",  "string",
-                "payload", "y0",      "gamma",     "printf", "value",     "it",     "sin",     "stdin",
-                "fmt",     "testing", "Part",      "robot",  "controller"};
+    Words words{"main",    "errno",   "while",     "NULL",   "EOF",    "assert", "INT_MAX",   "linux",
+                "unix",    "time",    "read",      "write",  "log",    "index",  "exit",      "abs",
+                "signal",  "remove",  "import",    "final",  "module", "system", "types",     "all",
+                "test",    "tests",   "functions", "T",      "Type",   "Status", "Buffer",    "string",
+                "payload", "y0",      "gamma",     "printf", "value",  "it",     "sin",       "stdin",
+                "fmt",     "testing", "Part",      "net",    "make",   "robot",  "controller"};
     for (const auto& spec : {features_spec, line_follower_spec})
       for (const codegen::File& file : generate_file(spec).files)
         if (file.path.ends_with("pp")) add_words(code_of(file.text), words);
@@ -93,7 +93,8 @@ std::string specification(Role role, const Words& words) {
     for (const std::string& word : words) out += text("'" + word + "'");
     return out;
   };
-  const std::string head = "tessera: 1\nsystem: zsystem\n";
+  // Of its own name, so that all roles fit into one program.
+  const std::string head = "tessera: 1\nsystem: zsystem" + std::to_string(static_cast<int>(role)) + '\n';
   const std::string control = "control: { rate: 9 Hz, behaviours: { zrun: {} } }";
   const std::string alone = "agents: { zagent: { " + control + " } }\n";
   const auto with_control = [&](const std::string& rest) {

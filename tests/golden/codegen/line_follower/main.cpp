@@ -3,6 +3,4 @@
 
 #include "system.hpp"
 
-int main(int argc, char** argv) {
-  return tessera::controller_main(tessera_generated::system(), argc, argv);
-}
+int main(int argc, char** argv) { return tessera::controller_main(tessera_generated::system(), argc, argv); }

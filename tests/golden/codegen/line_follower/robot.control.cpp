@@ -47,9 +47,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 };
 
 // clang-format off
-constexpr tessera::Behaviour behaviours[] = {
-    {"init"}, {"follow"},
-};
+constexpr tessera::Behaviour behaviours[] = {{"init"}, {"follow"}};
 constexpr tessera::Port ports[] = {
     {"motion", tessera::Side::send,    "motion"},
     {"line",   tessera::Side::receive, "line"},
@@ -104,7 +102,7 @@ const tessera::Transition transitions[] = {
 
 }  // namespace
 
-const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
-std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
+const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::control

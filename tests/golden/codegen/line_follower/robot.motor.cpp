@@ -27,12 +27,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
     bindings.parameter("b", parameters.b);
   }
 
-  void call(std::uint16_t behaviour) override {
-    switch (static_cast<Behaviour>(behaviour)) {
-      case Behaviour::drive:
-        return yours::drive(context_, in, memory, out);
-    }
-  }
+  void call(std::uint16_t) override { yours::drive(context_, in, memory, out); }
 
   tessera::Outcome decide(std::uint16_t, bool failed) override {
     return failed ? tessera::Outcome::error : tessera::Outcome::go_on;
@@ -42,9 +37,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 };
 
 // clang-format off
-constexpr tessera::Behaviour behaviours[] = {
-    {"drive"},
-};
+constexpr tessera::Behaviour behaviours[] = {{"drive"}};
 constexpr tessera::Port ports[] = {
     {"velocity", tessera::Side::receive, "velocity"},
 };
@@ -76,7 +69,7 @@ const tessera::Transition transitions[] = {
 
 }  // namespace
 
-const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
-std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
+const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::motor

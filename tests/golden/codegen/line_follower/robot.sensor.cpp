@@ -27,12 +27,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
     bindings.parameter("threshold", parameters.threshold);
   }
 
-  void call(std::uint16_t behaviour) override {
-    switch (static_cast<Behaviour>(behaviour)) {
-      case Behaviour::watch:
-        return yours::watch(context_, in, memory, out);
-    }
-  }
+  void call(std::uint16_t) override { yours::watch(context_, in, memory, out); }
 
   tessera::Outcome decide(std::uint16_t, bool failed) override {
     return failed ? tessera::Outcome::error : tessera::Outcome::go_on;
@@ -42,9 +37,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 };
 
 // clang-format off
-constexpr tessera::Behaviour behaviours[] = {
-    {"watch"},
-};
+constexpr tessera::Behaviour behaviours[] = {{"watch"}};
 constexpr tessera::Port ports[] = {
     {"line", tessera::Side::send, "line"},
 };
@@ -75,7 +68,7 @@ const tessera::Transition transitions[] = {
 
 }  // namespace
 
-const tessera::SubsystemNet Part::net{behaviours, ports, places, transitions};
-std::unique_ptr<tessera::Subsystem> Part::make() { return std::make_unique<Subsystem>(); }
+const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::sensor

@@ -7,22 +7,16 @@
 // What each subsystem executes, and how to make one: robot.control.cpp.
 
 namespace tessera_generated::units::robot::control {
-struct Part {
-  static const tessera::SubsystemNet net;
-  static std::unique_ptr<tessera::Subsystem> make();
-};
+extern const tessera::SubsystemNet net;
+std::unique_ptr<tessera::Subsystem> make();
 }  // namespace tessera_generated::units::robot::control
 
 namespace tessera_generated::units::robot::sensor {
-struct Part {
-  static const tessera::SubsystemNet net;
-  static std::unique_ptr<tessera::Subsystem> make();
-};
+extern const tessera::SubsystemNet net;
+std::unique_ptr<tessera::Subsystem> make();
 }  // namespace tessera_generated::units::robot::sensor
 
 namespace tessera_generated::units::robot::motor {
-struct Part {
-  static const tessera::SubsystemNet net;
-  static std::unique_ptr<tessera::Subsystem> make();
-};
+extern const tessera::SubsystemNet net;
+std::unique_ptr<tessera::Subsystem> make();
 }  // namespace tessera_generated::units::robot::motor

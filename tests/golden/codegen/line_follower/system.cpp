@@ -16,19 +16,15 @@ using namespace std::chrono_literals;
 
 // clang-format off
 constexpr tessera::Instance instances[] = {
-    {"robot", "control", tessera::Kind::control, &units::robot::control::Part::net, units::robot::control::Part::make, 50ms},
-    {"robot", "sensor", tessera::Kind::receptor, &units::robot::sensor::Part::net, units::robot::sensor::Part::make, 20ms},
-    {"robot", "motor", tessera::Kind::effector, &units::robot::motor::Part::net, units::robot::motor::Part::make, 20ms, 500ms},
+    {"robot", "control", tessera::Kind::control, &units::robot::control::net, units::robot::control::make, 50ms},
+    {"robot", "sensor", tessera::Kind::receptor, &units::robot::sensor::net, units::robot::sensor::make, 20ms},
+    {"robot", "motor", tessera::Kind::effector, &units::robot::motor::net, units::robot::motor::make, 20ms, 500ms},
 };
 
 constexpr tessera::Channel channels[] = {
     {"robot.sensor.line->robot.control.line", {1, "line"}, {0, "line"}, tessera::asynchronous},
     {"robot.control.motion->robot.motor.velocity", {0, "motion"}, {2, "velocity"}, tessera::buffered, 0s, 200ms},
 };
-
-constexpr std::span<const tessera::CppDriver> real_drivers;
-
-constexpr std::span<const tessera::CppDriver> simulated_drivers;
 
 constexpr tessera::VerifiedProperty verdicts[] = {
     {"safe", "holds", "place invariants"},
@@ -38,7 +34,7 @@ constexpr tessera::System whole{
     .tables_version = 2, .name = "line_follower",
     .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "40c369e9218984d63a6e0a0e2df06673",
     .verdicts = verdicts, .instances = instances, .channels = channels,
-    .real_drivers = real_drivers, .simulated_drivers = simulated_drivers};
+    .real_drivers = {}, .simulated_drivers = {}};
 // clang-format on
 
 }  // namespace

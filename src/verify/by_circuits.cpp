@@ -36,10 +36,15 @@ Finding deadlock_free(const Case& given) {
   return open(given, {});
 }
 
-/// One subsystem that is stuck is enough for a run.
+/// One subsystem that is stuck is enough for a run: the one that stuck_in_words names first.
 std::vector<std::uint32_t> first_stuck(const Case& given) {
-  for (const CircuitGroup& group : given.circuits->groups)
-    if (!group.stuck.empty()) return {given.communication.structure->subsystems[group.stuck.front()].id};
+  for (const CircuitGroup& group : given.circuits->groups) {
+    if (group.stuck.empty()) continue;
+    std::uint32_t first = group.stuck.front();
+    if (!group.circuit.empty() && std::ranges::count(group.stuck, group.circuit.front().subsystem) > 0)
+      first = group.circuit.front().subsystem;
+    return {given.communication.structure->subsystems[first].id};
+  }
   return {};
 }
 
@@ -57,15 +62,13 @@ Finding goes_on(const Case& given, std::vector<std::uint32_t> subjects) {
 
 Finding channels_flow(const Case& given, std::vector<std::uint32_t> subjects) {
   const std::vector<ChannelFlow>& channels = given.communication.structure->channels;
-  std::set<std::uint32_t> clear, dry;
+  if (!given.circuits->dry.empty()) {  // the run has to be of the channel that is named
+    const ChannelFlow& dry = channels[given.circuits->dry.front()];
+    return violated(dry.name + " can run dry for ever", {dry.id});
+  }
+  std::set<std::uint32_t> clear;
   for (const ChannelFlow& channel : channels) clear.insert(channel.id);
   for (const std::uint32_t channel : given.circuits->unclear) clear.erase(channels[channel].id);
-  for (const std::uint32_t channel : given.circuits->dry) dry.insert(channels[channel].id);
-  if (!dry.empty()) {
-    std::erase_if(subjects, [&](std::uint32_t channel) { return !dry.contains(channel); });
-    return violated(channels[given.circuits->dry.front()].name + " can run dry for ever",
-                    std::move(subjects));
-  }
   std::erase_if(subjects, [&](std::uint32_t channel) { return clear.contains(channel); });
   return subjects.empty() ? holds() : open(given, std::move(subjects));
 }

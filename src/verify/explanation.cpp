@@ -61,6 +61,7 @@ class Explainer {
     for (const std::uint32_t subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
     for (const std::uint32_t subsystem : concerned_)
       add_new(explanation.waits, lines(waits, subsystem, lacks));
+    if (explanation.waits.empty()) explanation.waits = taken_no_more(waits);
     return explanation;
   }
 
@@ -126,13 +127,22 @@ class Explainer {
     if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
     if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
     std::vector<std::string> texts;
-    if (subsystem == concerned_.front() && lacks.front().empty())
-      for (const net::Arc& arc : net_.preset(stuck_.front()))
-        if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
     for (std::size_t other = 0; other < lacks.size(); ++other)
       for (const std::uint32_t place : lacks[other])
-        if (waits.givers(place, concerned_[other]).contains(subsystem))
+        if (waits.givers(place, concerned_[other]).contains(subsystem) &&
+            !after_.can_fire(waits.giving(subsystem, place))[at_])
           add_new(texts, {waits.gives_no_more(subsystem, place)});
+    return texts;
+  }
+
+  /// Of who goes on though nobody is to blame: nobody can give what it lacks, or what is given is taken
+  /// elsewhere.
+  [[nodiscard]] std::vector<std::string> taken_no_more(const Waits& waits) const {
+    std::vector<std::string> texts;
+    const std::uint32_t subsystem = concerned_.front();
+    if (waits.has_ended(subsystem) || stuck_for_ever(waits, subsystem)) return texts;
+    for (const net::Arc& arc : net_.preset(stuck_.front()))
+      if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
     return texts;
   }
 

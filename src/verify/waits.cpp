@@ -52,9 +52,15 @@ std::set<std::uint32_t> Waits::lacking(std::uint32_t subsystem) const {
 
 std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
   std::vector<std::string> texts;
-  for (const std::uint32_t place : lacking(subsystem))
+  const std::set<std::uint32_t> lacks = lacking(subsystem);
+  const bool all_own =
+      std::ranges::all_of(lacks, [&](std::uint32_t place) { return is_own_memory(subsystem, place); });
+  for (const std::uint32_t place : lacks) {
+    // What it would have to give itself belongs to another branch than the one that waits for others.
+    if (!all_own && is_own_memory(subsystem, place)) continue;
     if (std::string text = line(subsystem, place); std::ranges::count(texts, text) == 0)
       texts.push_back(std::move(text));
+  }
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
         net_.places()[place].name.ends_with(".none"))
@@ -77,15 +83,23 @@ std::string Waits::line(std::uint32_t subsystem, std::uint32_t missing) const {
 std::set<std::uint32_t> Waits::givers(std::uint32_t place, std::uint32_t waiting) const {
   std::set<std::uint32_t> all;
   for (std::uint32_t subsystem = 0; subsystem < transitions_.size(); ++subsystem)
-    for (const TransitionId id : transitions_[subsystem]) {
-      const bool takes =
-          std::ranges::any_of(net_.preset(id), [&](const net::Arc& arc) { return arc.place.value == place; });
-      const bool gives = std::ranges::any_of(net_.postset(id),
-                                             [&](const net::Arc& arc) { return arc.place.value == place; });
-      if (gives && !takes) all.insert(subsystem);
-    }
+    if (!giving(subsystem, place).empty()) all.insert(subsystem);
   if (all.size() > 1) all.erase(waiting);
   return all;
+}
+
+std::vector<TransitionId> Waits::giving(std::uint32_t subsystem, std::uint32_t place) const {
+  const auto here = [&](const net::Arc& arc) { return arc.place.value == place; };
+  std::vector<TransitionId> all;
+  for (const TransitionId id : transitions_[subsystem])
+    if (std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here))
+      all.push_back(id);
+  return all;
+}
+
+bool Waits::is_own_memory(std::uint32_t subsystem, std::uint32_t place) const {
+  const std::string state = state_of(net_.places()[place].name);
+  return state != "full" && state != "ack" && givers(place, subsystem) == std::set{subsystem};
 }
 
 std::string Waits::takes_no_more(std::uint32_t reader, std::uint32_t place) const {

@@ -27,6 +27,8 @@ class Waits {
   [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const;
   /// Those who can put a token there, without the one who waits unless it is the only one.
   [[nodiscard]] std::set<std::uint32_t> givers(std::uint32_t place, std::uint32_t waiting) const;
+  /// The transitions of a subsystem that put a token there and take none from there.
+  [[nodiscard]] std::vector<net::TransitionId> giving(std::uint32_t subsystem, std::uint32_t place) const;
   /// "a.control goes on and receives ... no more", of a reader and a place that its reads need.
   [[nodiscard]] std::string takes_no_more(std::uint32_t reader, std::uint32_t place) const;
   /// What a giver does no more if it never gives the place: "a.control goes on and sends ... no more".
@@ -41,6 +43,8 @@ class Waits {
 
  private:
   [[nodiscard]] bool has(const net::Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
+  /// Is it a place of the memory of a channel into which nobody else can put a token?
+  [[nodiscard]] bool is_own_memory(std::uint32_t subsystem, std::uint32_t place) const;
   [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
 
   const net::Net& net_;

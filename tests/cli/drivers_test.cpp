@@ -1,7 +1,9 @@
 // examples/04_arm: `tessera run` opens its real drivers, and nothing else does; drivers get their options.
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
@@ -68,8 +70,9 @@ TEST_F(Drivers, NoSimulatedRunTouchesAReal) {
 
 TEST_F(Drivers, ARealRunTellsEachDriverWhoItIsAndEndsWithTheSafeCommand) {
   write(folder() / "arm_encoders.bus", "0.1 0.2 0.3 0.4 0.5 0.6\n");
-  const project::Exit done = tessera("run --for 1s");
+  const project::Exit done = tessera("run --for 1s --report page");
   ASSERT_EQ(done.code, 0) << done.text;
+  EXPECT_NE(content_of(folder() / "page/index.html").find("arm.encoders"), std::string::npos);
   EXPECT_EQ(touched(), device_files);
   for (const auto& [file, pin, sign] : {std::tuple("cart_0.pwm", "pin 4 duty ", ""),
                                         {"cart_1.pwm", "pin 17 duty ", ""},
@@ -95,11 +98,21 @@ TEST_F(Drivers, HardwareInTheLoopOpensWhatIsNamedOnly) {
 }
 
 TEST_F(Drivers, ADeviceThatIsNotThereKeepsTheRunFromStarting) {
+  ASSERT_EQ(tessera("simulate --for 100ms").code, 0);
+  const auto runs = [] {
+    std::set<fs::path> all;
+    for (const auto& entry : fs::directory_iterator(folder() / ".tessera/runs")) all.insert(entry.path());
+    return all;
+  };
+  const std::set<fs::path> before = runs();
+  const fs::path last = fs::read_symlink(folder() / ".tessera/last");
   const project::Exit done = tessera("run --for 100ms");
   EXPECT_EQ(done.code, 1) << done.text;
   EXPECT_NE(done.text.find("the device of arm.encoders cannot be opened"), std::string::npos) << done.text;
   for (const char* file : {"cart_0.pwm", "cart_1.pwm", "cart_2.pwm"})
     EXPECT_EQ(lines_of(file).size(), 1U) << "opened before: the safe command and nothing else, " << file;
+  EXPECT_EQ(fs::read_symlink(folder() / ".tessera/last"), last) << "it still shows what has run";
+  EXPECT_EQ(runs(), before);
 }
 
 /// In a folder of its own, which is never built.

@@ -16,7 +16,7 @@ class TraceWriter {
   /// An empty path: writes nothing. Whether the file can be written, finish() says.
   explicit TraceWriter(std::string path);
   [[nodiscard]] bool wanted() const { return !path_.empty(); }
-  /// Before the points; the first call counts. robots: bodies with devices; of more than one there are no points.
+  /// Before the points; the first call counts. robots: bodies with devices; of several there are no points.
   void begin(const std::vector<std::string>& robots);
   void add(const TracePoint& point);
   /// Flushes. false and `error` when any of it could not be written.

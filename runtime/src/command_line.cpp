@@ -92,11 +92,13 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   command.add_flag("--accept-stuck", options.accept_stuck,
                    "A subsystem that waits for ever, while others go on, is no failure");
   command.add_flag("--progress", options.progress, "Show progress on standard error");
-  command.add_option("--death-note", options.death_note,
-                     "Write to this file where and of what the process died, if it dies in the middle of the run");
+  command.add_option(
+      "--death-note", options.death_note,
+      "Write to this file where and of what the process died, if it dies in the middle of the run");
   command
-      .add_option("--parent", options.parent,
-                  "Number of the process that started the controller; when it has ended, the run stops safely")
+      .add_option(
+          "--parent", options.parent,
+          "Number of the process that started the controller; when it has ended, the run stops safely")
       ->check(CLI::PositiveNumber);
 }
 

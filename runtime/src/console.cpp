@@ -13,8 +13,8 @@
 
 #include "line_ring.hpp"
 #include "patient_output.hpp"
-#include "stop_signals.hpp"
 #include "service.hpp"
+#include "stop_signals.hpp"
 #include "waker.hpp"
 
 namespace tessera::console {

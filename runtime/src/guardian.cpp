@@ -66,9 +66,8 @@ std::unique_ptr<Guardian> Guardian::start(const System& system, std::string& err
   auto* const shared = static_cast<Shared*>(memory);
   if (process == 0) live_as_guardian(system, *shared, news, controller);
   std::unique_ptr<Guardian> guardian(new Guardian(shared, news, process));
-  const bool answered = await(longest_start_ns, [&] {
-    return shared->stage.load() != Stage::starts || collect(process);
-  });
+  const bool answered =
+      await(longest_start_ns, [&] { return shared->stage.load() != Stage::starts || collect(process); });
   if (shared->stage.load() == Stage::ready) return guardian;
   if (shared->stage.load() == Stage::failed)
     error = fmt::format("the guardian of the devices cannot make its drivers: {}", shared->error);

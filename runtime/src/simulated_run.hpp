@@ -9,8 +9,8 @@
 
 #include "assembly.hpp"
 #include "call_watch.hpp"
-#include "emergency_watch.hpp"
 #include "deadline_queue.hpp"
+#include "emergency_watch.hpp"
 #include "monitor.hpp"
 #include "remote_control.hpp"
 #include "stop_signals.hpp"

@@ -109,9 +109,9 @@ TEST(Devices, ARealBufferWithoutADriverIsNamed) {
   without.simulated_drivers = {};
   std::string error;
   EXPECT_FALSE(execute(without, simulated(1ms), error));
-  EXPECT_EQ(
-      error,
-      "the real buffer robot.body.sensed has no simulated driver\nthe real buffer robot.body.command has no simulated driver");
+  EXPECT_EQ(error,
+            "the real buffer robot.body.sensed has no simulated driver\nthe real buffer robot.body.command "
+            "has no simulated driver");
 }
 
 }  // namespace

@@ -60,8 +60,8 @@ class Context {
     if (services_ != nullptr) services_->stop(reason);
   }
 
-  /// Emergency stop: every device of the system gets its safe command at once, and nothing else until an operator
-  /// ends it (`tessera reset`). The system goes on otherwise: who reads sensors and computes does so.
+  /// Emergency stop: every device of the system gets its safe command at once, and nothing else until an
+  /// operator ends it (`tessera reset`). Otherwise the system goes on: it reads sensors and computes.
   void emergency_stop(std::string_view reason) {
     if (services_ != nullptr) services_->emergency_stop(reason);
   }

@@ -40,10 +40,10 @@ struct RunOptions {
   } record_limit;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
-  /// Steady clock without a world: with the simulated C++ drivers of the System in place of the real ones. Under
-  /// the simulated clock and with a world it is always so.
+  /// Steady clock without a world: with the simulated C++ drivers of the System in place of the real ones.
+  /// Under the simulated clock and with a world it is always so.
   bool simulated_drivers = false;
-  /// Hardware in the loop: paths of subsystems and real buffers that have their real drivers in a simulated run.
+  /// Hardware in the loop: paths of subsystems and real buffers with their real drivers in a simulated run.
   /// The simulated clock is then never faster than the wall clock, and the run cannot be paused.
   std::vector<std::string> hardware;
   std::optional<WorldOptions> world;
@@ -59,9 +59,9 @@ struct RunOptions {
   std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
   /// A subsystem that is stuck for good when the run ends is a warning, no failure.
   bool accept_stuck = false;
-  bool progress = false;            ///< a line on standard error that is rewritten
-  /// File that gets two lines if the process dies in the middle of the run: where it was ("robot.control.follow"),
-  /// and what has happened ("killed by SIGSEGV at address 0x0"). Empty: none.
+  bool progress = false;  ///< a line on standard error that is rewritten
+  /// File that gets two lines if the process dies in the middle of the run: where it was
+  /// ("robot.control.follow"), and what has happened ("killed by SIGSEGV at address 0x0"). Empty: none.
   std::string death_note;
   int parent = 0;        ///< process whose end ends the run, as SIGTERM does; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
@@ -72,8 +72,8 @@ struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
   double wall_s = 0;
   std::uint64_t firings = 0;
-  /// "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT". Followed by "; stuck for good:
-  /// ..." where subsystems can never fire again while others can, which is a failure.
+  /// "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT". Followed by
+  /// "; stuck for good: ..." where subsystems can never fire again while others can, which is a failure.
   std::string ended;
   bool failed = false;  ///< a fault ended it, or a device has not taken its safe command
   int signal = 0;       ///< that ended it; 0: none did
@@ -86,7 +86,7 @@ struct RunSummary {
   std::vector<PerSubsystem> subsystems;
   std::uint64_t lost_events = 0;        ///< of the recording
   std::uint64_t lines_not_printed = 0;  ///< the terminal did not take them
-  std::vector<std::string> warnings;  ///< e.g. the recording could not be written
+  std::vector<std::string> warnings;    ///< e.g. the recording could not be written
 };
 
 /// Builds the system, checks its hash against the net of its tables, runs it. nullopt and `error` when it

@@ -69,8 +69,8 @@ class RealEffector : public Device {
 };
 
 /// The driver of an effector that derives from this too lets the guardian process give its device the safe
-/// command after the controller has died (docs/safety.md). The guardian makes a driver of its own from the same
-/// setup and calls `open`, `write` with the safe value, and `close`; if one of them fails, again, for a while.
+/// command after the controller has died (docs/safety.md). The guardian makes a driver from the same setup
+/// and calls `open`, `write` with the safe value, and `close`; if one of them fails, again, for a while.
 ///
 /// So the driver has to work in another process: its device can be opened again after the process that had it
 /// open has died, and a second time while a controller that is only stopped still has it open.

@@ -10,10 +10,10 @@
 ///       TESSERA_FIELDS(Velocity, linear, angular)
 ///     };
 ///
-/// It defines `tessera_fields_of(const Type&)`, a std::tuple of pointers to members, and `tessera_field_names_of(const
-/// Type&)`, "linear, angular".
+/// It defines `tessera_fields_of(const Type&)`, a std::tuple of pointers to members, and
+/// `tessera_field_names_of(const Type&)`, "linear, angular".
 #define TESSERA_FIELDS(Type, ...)                                                           \
-  friend auto tessera_fields_of(const Type&) {                                                      \
+  friend auto tessera_fields_of(const Type&) {                                              \
     return std::tuple(__VA_OPT__(TESSERA_EXPAND_5(TESSERA_EACH_FIELD(Type, __VA_ARGS__)))); \
   }                                                                                         \
   friend auto tessera_field_names_of(const Type&) { return #__VA_ARGS__; }

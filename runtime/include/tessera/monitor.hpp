@@ -31,8 +31,8 @@
 /// These are taken by every run, and answered as those below:
 ///
 ///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   a parameter; as `--set v=0.3`
-///     {"command": "emergency_stop", "why": text}                 every device gets its safe command and nothing
-///                                                                else until
+///     {"command": "emergency_stop", "why": text}                 every device gets its safe command, and
+///                                                                nothing else until
 ///     {"command": "reset"}                                       the operator's
 ///
 /// Under the simulated clock only a run that was started with `--controlled` listens. It sends 25 lines a

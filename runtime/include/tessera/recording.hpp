@@ -56,7 +56,7 @@ struct Event {
     /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
     /// Not counted in `sequence`.
     marking = 8,
-    safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: the SafeEvent
+    safe = 9,        ///< like log: "DEVICE: what", of the safe command of a real effector; version: SafeEvent
     parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
     /// The last of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.

@@ -28,9 +28,9 @@ concept Sequence = requires(T& value) {
   value.begin();
   value.end();
 };
-/// A structure that says what it is made of: a function `tessera_fields_of(const T&)` beside it gives a std::tuple of
-/// pointers to members (tessera/fields.hpp makes one). Their names are numbers unless `tessera_field_names_of(const
-/// T&)` says otherwise.
+/// A structure that says what it is made of: a function `tessera_fields_of(const T&)` beside it gives a
+/// std::tuple of pointers to members (tessera/fields.hpp makes one). Their names are numbers unless
+/// `tessera_field_names_of(const T&)` says otherwise.
 template <class T>
 concept WithFields = std::is_class_v<T> && requires(T& value) {
   tessera_fields_of(value);

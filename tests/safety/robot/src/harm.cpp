@@ -49,32 +49,62 @@ void in_real_time() {
 void do_harm(Harm harm) {
   switch (harm) {
     case Harm::none:
-    case Harm::chatter: return;
-    case Harm::abort: std::abort();
-    case Harm::exit: std::exit(0);
-    case Harm::quick_exit: std::quick_exit(0);
-    case Harm::underscore_exit: _exit(0);
+    case Harm::chatter:
+      return;
+    case Harm::abort:
+      std::abort();
+    case Harm::exit:
+      std::exit(0);
+    case Harm::quick_exit:
+      std::quick_exit(0);
+    case Harm::underscore_exit:
+      _exit(0);
     case Harm::segv: {
       volatile int* volatile nowhere = nullptr;
       *nowhere = 1;
       return;
     }
-    case Harm::bus: return touch_beyond_a_file();
-    case Harm::fpe: raise(SIGFPE); return;
-    case Harm::ill: __builtin_trap();
-    case Harm::sys: raise(SIGSYS); return;
-    case Harm::trap: raise(SIGTRAP); return;
-    case Harm::terminate: std::terminate();
-    case Harm::throw_number: throw 42;
-    case Harm::pthread_exit: pthread_exit(nullptr);
-    case Harm::stack_overflow: sink = overflow(0); return;
-    case Harm::loop: return loop_for_ever();
-    case Harm::fifo_loop: in_real_time(); return loop_for_ever();
-    case Harm::out_of_memory: return allocate_for_ever();
-    case Harm::kill: kill(getpid(), SIGKILL); return;
-    case Harm::stop: kill(getpid(), SIGSTOP); return;
-    case Harm::exec: execlp("sleep", "sleep", "1000", nullptr); return;
-    case Harm::close_all: syscall(SYS_close_range, 3U, ~0U, 0U); return;
+    case Harm::bus:
+      return touch_beyond_a_file();
+    case Harm::fpe:
+      raise(SIGFPE);
+      return;
+    case Harm::ill:
+      __builtin_trap();
+    case Harm::sys:
+      raise(SIGSYS);
+      return;
+    case Harm::trap:
+      raise(SIGTRAP);
+      return;
+    case Harm::terminate:
+      std::terminate();
+    case Harm::throw_number:
+      throw 42;
+    case Harm::pthread_exit:
+      pthread_exit(nullptr);
+    case Harm::stack_overflow:
+      sink = overflow(0);
+      return;
+    case Harm::loop:
+      return loop_for_ever();
+    case Harm::fifo_loop:
+      in_real_time();
+      return loop_for_ever();
+    case Harm::out_of_memory:
+      return allocate_for_ever();
+    case Harm::kill:
+      kill(getpid(), SIGKILL);
+      return;
+    case Harm::stop:
+      kill(getpid(), SIGSTOP);
+      return;
+    case Harm::exec:
+      execlp("sleep", "sleep", "1000", nullptr);
+      return;
+    case Harm::close_all:
+      syscall(SYS_close_range, 3U, ~0U, 0U);
+      return;
   }
 }
 

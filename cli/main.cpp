@@ -25,9 +25,10 @@ int main(int argc, char** argv) {
          "(or TESSERA_STATE_DIR)")
       ->option_text("DIR");
   int exit_code = cli::ok;
-  for (auto* add : {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export,
-                    cli::add_generate, cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay,
-                    cli::add_top, cli::add_set, cli::add_emergency_stop, cli::add_reset, cli::add_studio, cli::add_completion})
+  for (auto* add :
+       {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export, cli::add_generate,
+        cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay, cli::add_top, cli::add_set,
+        cli::add_emergency_stop, cli::add_reset, cli::add_studio, cli::add_completion})
     add(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -110,7 +110,8 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
   if (recording.segment.value_or(0) > 0)
     fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
   if (recording.truncated)
-    fmt::print("its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
+    fmt::print(
+        "its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
   if (recording.lost > 0) fmt::print("{} events of the run are missing in it\n", recording.lost);
   fmt::print("net {}\n", recording.net_hash);
   for (const replay::SubsystemStatistics& one : all) {

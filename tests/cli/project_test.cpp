@@ -64,7 +64,9 @@ TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
   const std::string generate = "generate rover --accept-violations";
   const project::Exit missing = tessera(generate);
   EXPECT_EQ(missing.code, 1);
-  EXPECT_NE(missing.text.find("src/control.cpp: error: robot.control has no function 'rest'"), std::string::npos) << missing.text;
+  EXPECT_NE(missing.text.find("src/control.cpp: error: robot.control has no function 'rest'"),
+            std::string::npos)
+      << missing.text;
   EXPECT_NE(missing.text.find("void rest(Context&"), std::string::npos) << missing.text;
   EXPECT_EQ(tessera(generate + " --stubs").code, 0);
   EXPECT_EQ(tessera(generate).code, 0);

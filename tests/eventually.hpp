@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-/// How long a test waits for what must come: far longer than it takes on a busy machine, and an end all the same.
+/// How long a test waits for what must come: far longer than it takes on a busy machine, but not for ever.
 inline constexpr std::chrono::seconds test_patience{120};
 
 /// Looks until `look` holds. false: it did not within `test_patience`, or `hopeless` held first.

@@ -116,11 +116,11 @@ std::string_view name_of(SubsystemKind kind) {
 
 Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
                          Diagnostics& out) {
-  const Section section(*entry.value, entry.span, "a subsystem",
-                        {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real",
-                         "safe", "limits", "stale", "recovery", "overrun", "watchdog", "non_finite",
-                         "realtime"},
-                        out);
+  const Section section(
+      *entry.value, entry.span, "a subsystem",
+      {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real", "safe", "limits",
+       "stale", "recovery", "overrun", "watchdog", "non_finite", "realtime"},
+      out);
   check_kind(section, kind, out);
   Subsystem subsystem;
   subsystem.kind = kind;

@@ -87,13 +87,15 @@ TEST(Conditions, OfABlockTextKeepTheirLines) {
 TEST(Conditions, ErrorIsAskedBeforeTerminalAndNamedOnesAreRemembered) {
   const Generated generated = generate(lonely);
   const std::string& source = generated["robot.control.cpp"];
-  EXPECT_THAT(source, HasSubstr(R"(        if (conditions_.tessera_work_error()) return tessera::Outcome::error;
+  EXPECT_THAT(source,
+              HasSubstr(R"(        if (conditions_.tessera_work_error()) return tessera::Outcome::error;
         held_.tessera_work_terminal_tired = conditions_.tessera_work_terminal_tired();
         if (conditions_.tessera_work_terminal_done()) return tessera::Outcome::terminal;
         if (held_.tessera_work_terminal_tired) return tessera::Outcome::terminal;
         return tessera::Outcome::go_on;
 )"));
-  EXPECT_THAT(source, HasSubstr(R"(        if (!failed && held_.tessera_work_terminal_tired) return 0;  // work
+  EXPECT_THAT(source,
+              HasSubstr(R"(        if (!failed && held_.tessera_work_terminal_tired) return 0;  // work
         if (conditions_.tessera_work_next_2()) return 1;             // end
         return 2;                                                    // work
 )"));

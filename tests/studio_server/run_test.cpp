@@ -13,7 +13,8 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   EXPECT_FALSE(firings.at("firings").empty());
   // The first values are those of the beginning, when no receptor has read anything.
   const json value = events_->next("values", [](const json& data) {
-    return data.at("values").contains("robot.sensor.line") && data.at("values").contains("robot.control.motion");
+    return data.at("values").contains("robot.sensor.line") &&
+           data.at("values").contains("robot.control.motion");
   });
   ASSERT_FALSE(value.is_null());
   EXPECT_TRUE(value.at("values").at("robot.sensor.line").at("middle").is_boolean()) << value;

@@ -39,8 +39,8 @@ class Elsewhere {
   std::thread running_;  // the last: it uses the others
 };
 
-/// `tessera studio` itself, because controllers are built with what is installed beside it. The tests share one
-/// folder, one after the other, in which the controller is built once.
+/// `tessera studio` itself, because controllers are built with what is installed beside it. The tests share
+/// one folder, one after the other, in which the controller is built once.
 class RunOfTheStudio : public Served {
  protected:
   RunOfTheStudio() : Served(fs::path(TESSERA_BINARY_DIR) / "tests/studio_runs") {
@@ -106,7 +106,7 @@ class RunOfTheStudio : public Served {
     EXPECT_TRUE(eventually([&] { return !(names = get("/api/controllers").json()).empty(); }));
     return names.empty() ? "" : names.at(0).get<std::string>();
   }
-  /// What the server says of a run, once `wanted` holds of it. null: the run has ended first, or it takes too long.
+  /// What the server says of a run, once `wanted` holds of it. null: the run ends first, or takes too long.
   json await_info(const std::string& run, const std::function<bool(const json&)>& wanted) {
     json now;
     const auto look = [&] { return wanted(now = info(run)); };

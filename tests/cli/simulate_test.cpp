@@ -89,7 +89,7 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   EXPECT_EQ(made.code, 1) << made.text;
   EXPECT_NE(made.text.find("blind in iteration 1"), std::string::npos) << made.text;
   const project::Exit printed =
-      tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 3");
+      tessera("replay 01_line_follower/.tessera/last/recording.tsr --print --last 12");
   EXPECT_NE(printed.text.find("fault (assertion): robot.control.follow.in: blind in iteration 1"),
             std::string::npos)
       << printed.text;

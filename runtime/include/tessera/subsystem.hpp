@@ -45,7 +45,8 @@ template <class T>
   } else if constexpr (Sequence<T>) {
     return std::all_of(value.begin(), value.end(), [](const auto& element) { return all_finite(element); });
   } else {
-    return std::apply([&](auto... member) { return (all_finite(value.*member) && ...); }, tessera_fields_of(value));
+    return std::apply([&](auto... member) { return (all_finite(value.*member) && ...); },
+                      tessera_fields_of(value));
   }
 }
 

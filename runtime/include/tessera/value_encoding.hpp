@@ -154,7 +154,8 @@ template <class T>
     return type_text<Element<T>>() + "[" + std::to_string(extent<T>()) + "]";
   } else if constexpr (WithFields<T>) {
     std::string_view names;
-    if constexpr (requires(const T& value) { tessera_field_names_of(value); }) names = tessera_field_names_of(T{});
+    if constexpr (requires(const T& value) { tessera_field_names_of(value); })
+      names = tessera_field_names_of(T{});
     std::string text;
     std::size_t number = 0;
     const auto add = [&](const std::string& type) {

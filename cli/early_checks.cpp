@@ -116,15 +116,15 @@ bool times_are_times(const LaunchOptions& options) {
 
 }  // namespace
 
-bool can_run(const LaunchOptions& options, bool with_world) {
-  if (!times_are_times(options)) return false;
+int check_run(const LaunchOptions& options, bool with_world) {
+  if (!times_are_times(options)) return usage;
   const std::optional<Specification> specification = read_quietly(options.spec);
-  if (!specification) return true;
-  if (!parameters_fit(*specification, options)) return false;
-  if (!with_world || !specification->model.simulation) return true;
-  if (!files_are_there(*specification, terminal())) return false;
+  if (!specification) return ok;
+  if (!parameters_fit(*specification, options)) return failed;
+  if (!with_world || !specification->model.simulation) return ok;
+  if (!files_are_there(*specification, terminal())) return failed;
   static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
-  return true;
+  return ok;
 }
 
 }  // namespace tessera::cli

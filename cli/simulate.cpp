@@ -135,7 +135,7 @@ void check_outputs(const LaunchOptions& options, const std::string& json, const 
 int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
-  if (!can_run(options, options.from.empty())) return failed;
+  if (const int code = check_run(options, options.from.empty()); code != ok) return code;
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   check_outputs(options, options.json, options.report);
@@ -162,7 +162,7 @@ int simulate_command(SimulateOptions options) {
 int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
-  if (!can_run(options, options.world)) return failed;
+  if (const int code = check_run(options, options.world); code != ok) return code;
   if (!drivers_are_there(options, options.world, terminal())) return failed;
   check_outputs(options, options.json, options.report);
   std::optional<Controller> controller =

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,7 +48,11 @@ class Teller final : public Effector<double> {
   void heartbeat() override { tell("beat"); }
 
  private:
-  void tell(const std::string& what) const { story().push_back(name_ + " " + what); }
+  void tell(const std::string& what) const {
+    static std::mutex mutex;  // two motors have a thread each
+    const std::lock_guard lock(mutex);
+    story().push_back(name_ + " " + what);
+  }
   std::string name_;
   bool refuses_open_, refuses_safe_;
   Duration beats_;

@@ -59,7 +59,7 @@ TEST_F(Simulate, WrongParametersAndTracksAreNamedBeforeAnythingIsBuilt) {
   const project::Exit nowhere = tessera("simulate 01_line_follower --for 1s --track nowhere.png");
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_NE(nowhere.text.find("nowhere.png"), std::string::npos) << nowhere.text;
-  EXPECT_EQ(tessera("simulate 01_line_follower --for soon").code, 1);
+  EXPECT_EQ(tessera("simulate 01_line_follower --for soon").code, 2);
   replace(project / "spec.yaml", "world: line_world.xml", "world: line_wrold.xml");
   const project::Exit no_world = tessera("simulate 01_line_follower --for 1s");
   EXPECT_EQ(no_world.code, 1);

@@ -12,7 +12,7 @@ void EmergencyWatch::say(News news, const RunControl& control, Time now, Recordi
   if (news == News::none) return;
   const bool begins = news == News::begins;
   const std::string text =
-      begins ? fmt::format("EMERGENCY STOP: {}; the devices have their safe commands until `tessera reset`",
+      begins ? fmt::format("EMERGENCY STOP: {}; the devices get their safe commands until `tessera reset`",
                            control.emergency_reason())
              : "the emergency stop is over; each effector waits for new values";
   const LogLevel level = begins ? LogLevel::error : LogLevel::info;

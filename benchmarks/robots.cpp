@@ -142,7 +142,7 @@ void Robot::connect(std::uint32_t from, std::string_view out, std::uint32_t to, 
 RunSummary Robot::run(RunOptions options) {
   made = 0;
   options.clock = RunOptions::Clock::steady;
-  System system{tables_version, "measured", "", "", {}, instances_, channels_, {}};
+  System system{tables_version, "measured", "", "", {}, instances_, channels_, {}, {}};
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   std::string error;

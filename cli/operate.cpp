@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -21,18 +23,32 @@ struct Options {
   std::string which, why;
 };
 
-/// What the controller answers: what is wrong; empty: nothing.
-std::string ask(RunningController& controller, json command) {
-  static int last = 0;
-  command["id"] = ++last;
+constexpr std::chrono::seconds patience{2};
+constexpr int question = 1;
+
+bool tell(RunningController& controller, json command) {
+  controller.be_patient_for(patience);
+  command["id"] = question;
   // Text that is not UTF-8 names nothing: the controller says so.
-  const std::string line = command.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-  if (!controller.send(line)) return "the controller has ended";
-  while (const std::optional<std::string> said = controller.line()) {
+  return controller.send(command.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+/// What the controller answers: what is wrong; empty: nothing.
+std::string answer_of(RunningController& controller) {
+  // Beside answers it sends what it does, several times a second: lines come as long as it lives.
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (std::chrono::steady_clock::now() < end) {
+    const std::optional<std::string> said = controller.line();
+    if (!said) break;
     const json answer = json::parse(*said, nullptr, /*allow_exceptions=*/false);
-    if (answer.is_object() && answer.value("answer", 0) == last) return answer.value("error", "");
+    if (answer.is_object() && answer.value("answer", 0) == question) return answer.value("error", "");
   }
-  return "the controller has ended";
+  return controller.name() + " has ended, or does not answer";
+}
+
+std::string ask(RunningController& controller, json command) {
+  tell(controller, std::move(command));
+  return answer_of(controller);
 }
 
 int set_command(const Options& options) {
@@ -49,17 +65,33 @@ int set_command(const Options& options) {
   return code;
 }
 
-int plain_command(const Options& options, const char* name) {
+/// All controllers unless one is named: who asks for it has no time to look up names.
+int emergency_stop_command(const Options& options) {
+  std::vector<RunningController> controllers = find_controllers(options.which);
+  json command{{"command", "emergency_stop"}};
+  if (!options.why.empty()) command["why"] = options.why;
+  // All are told before one is waited for.
+  for (RunningController& one : controllers) tell(one, command);
+  int code = controllers.empty() ? failed : ok;
+  for (RunningController& one : controllers) {
+    if (const std::string wrong = answer_of(one); wrong.empty())
+      fmt::print("{}: emergency stop\n", one.name());
+    else
+      code = complain(wrong + ": nobody knows whether its devices are safe");
+  }
+  return code;
+}
+
+int reset_command(const Options& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
-  json command{{"command", name}};
-  if (!options.why.empty()) command["why"] = options.why;
-  const std::string wrong = ask(*controller, command);
+  const std::string wrong = ask(*controller, {{"command", "reset"}});
   return wrong.empty() ? ok : complain(wrong);
 }
 
-void declare_controller(CLI::App& command, Options& options) {
-  command.add_option("--controller", options.which, "Its system or its process; needed if several run");
+void declare_controller(CLI::App& command, Options& options,
+                        const char* meaning = "Its system or its process; needed if several run") {
+  command.add_option("--controller", options.which, meaning);
 }
 
 }  // namespace
@@ -79,14 +111,15 @@ void add_set(CLI::App& app, int& exit_code) {
 
 void add_emergency_stop(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "emergency-stop", "Give all devices of a running controller their safe command until `tessera reset`");
+      "emergency-stop",
+      "Give all devices of all running controllers their safe command until `tessera reset`");
   auto options = std::make_shared<Options>();
-  declare_controller(*command, *options);
+  declare_controller(*command, *options, "Only those of this system, or this process");
   command->add_option("--why", options->why, "Said on its terminal and in its recording");
   command->footer(
       "This is no substitute for an emergency stop in hardware: it needs the controller, this computer and\n"
       "the connection between them.");
-  command->callback([options, &exit_code] { exit_code = plain_command(*options, "emergency_stop"); });
+  command->callback([options, &exit_code] { exit_code = emergency_stop_command(*options); });
 }
 
 void add_reset(CLI::App& app, int& exit_code) {
@@ -94,7 +127,7 @@ void add_reset(CLI::App& app, int& exit_code) {
       app.add_subcommand("reset", "End the emergency stop of a running controller: its devices move again");
   auto options = std::make_shared<Options>();
   declare_controller(*command, *options);
-  command->callback([options, &exit_code] { exit_code = plain_command(*options, "reset"); });
+  command->callback([options, &exit_code] { exit_code = reset_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -33,33 +33,31 @@ class Writer {
  public:
   void begin(Session::Overflow overflow) {
     waits_ = overflow == Session::Overflow::waits;
-    ending_ = false;
     lost_ = 0;
     given_up_ = false;
-    if (left_behind_ && !ended_) {  // it goes on for this session
-      runs_ = true;
-      return;
-    }
-    ended_ = false;
+    Stage left_behind = Stage::ending;
+    runs_ = stage_.compare_exchange_strong(left_behind, Stage::writing);  // it goes on for this session
+    if (runs_) return;
+    stage_ = Stage::writing;
     try {
       thread_ = std::thread([this] { run(); });
       runs_ = true;
     } catch (const std::system_error&) {  // lines are written by who prints them, then
+      stage_ = Stage::none;
     }
   }
 
   void end() {
     if (!runs_.exchange(false)) return;
-    ending_ = true;
+    stage_ = Stage::ending;
     wakes_.wake();
     const std::int64_t until_ns = monotonic_ns() + 2 * patience_ns;
-    while (!ended_ && monotonic_ns() < until_ns) pause();
-    left_behind_ = !ended_;
+    while (stage_ != Stage::none && monotonic_ns() < until_ns) pause();
     if (!thread_.joinable()) return;
-    if (left_behind_)
-      thread_.detach();
-    else
+    if (stage_ == Stage::none)
       thread_.join();
+    else
+      thread_.detach();
   }
 
   [[nodiscard]] std::uint64_t settle() {
@@ -105,16 +103,16 @@ class Writer {
     std::uint64_t told = 0;
     for (;;) {
       const std::uint32_t ticket = wakes_.ticket();
-      const bool last = ending_;
+      const bool last = stage_ == Stage::ending;
       while (!ring_.front().empty()) {
         if (!write_out(ring_.front(), output)) ++lost_;
         ring_.pop();
       }
       if (lost_ != told) told = tell_lost(output);
-      if (last) break;
+      Stage expected = Stage::ending;
+      if (last && stage_.compare_exchange_strong(expected, Stage::none)) return;
       wakes_.sleep(ticket, -1);
     }
-    ended_ = true;
   }
 
   [[nodiscard]] std::uint64_t tell_lost(PatientOutput& output) const {
@@ -140,7 +138,7 @@ class Writer {
           break;
       }
       const std::int64_t now_ns = monotonic_ns();
-      if (line.size() != before || !ending_) stuck_ns = 0;
+      if (line.size() != before || stage_ != Stage::ending) stuck_ns = 0;
       if (stuck_ns == 0) stuck_ns = now_ns;
       if (given_up_ || now_ns - stuck_ns > patience_ns) {
         given_up_ = true;
@@ -152,9 +150,11 @@ class Writer {
 
   LineRing<most_lines, longest_line> ring_;
   WakeWord wakes_;
-  std::atomic<bool> runs_{false}, waits_{false}, ending_{false}, ended_{false};
+  /// Of the thread. One that is still `ending` when the next session begins was left behind.
+  enum class Stage : std::uint8_t { none, writing, ending };
+  std::atomic<Stage> stage_{Stage::none};
+  std::atomic<bool> runs_{false}, waits_{false};
   mutable std::atomic<bool> given_up_{false};
-  bool left_behind_ = false;  // a thread that did not end in time
   std::atomic<std::uint64_t> lost_{0};
   std::thread thread_;
 };
@@ -218,7 +218,7 @@ void say(std::string_view text) {
 
 void progress(std::string_view text) {
   if (to_journal.load(std::memory_order_relaxed)) return;
-  std::array<char, 256> line;
+  std::array<char, longest_line> line;
   progress_shown.store(true, std::memory_order_relaxed);
   writer().put_progress(cut(line, fmt::format_to_n(line.data(), line.size(), "\r{}\x1b[K", text).size));
 }

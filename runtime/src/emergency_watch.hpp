@@ -13,14 +13,21 @@ class EmergencyWatch {
  public:
   enum class News : std::uint8_t { none, begins, ends };
   [[nodiscard]] News look(const RunControl& control) {
-    if (control.emergency() == stands_) return News::none;
-    stands_ = !stands_;
-    return stands_ ? News::begins : News::ends;
+    // Counted: one may end, and another begin, between two looks.
+    if (const std::uint32_t begun = control.emergencies(); begun != begun_) {
+      begun_ = begun;
+      stands_ = true;
+      return News::begins;
+    }
+    if (!stands_ || control.emergency()) return News::none;
+    stands_ = false;
+    return News::ends;
   }
   /// After the safe commands were given. lane: the calling thread's; nullptr: nothing is recorded.
   static void say(News news, const RunControl& control, Time now, RecordingLane* lane);
 
  private:
+  std::uint32_t begun_ = 0;
   bool stands_ = false;
 };
 

@@ -22,6 +22,7 @@ void RunControl::begin_emergency(std::string_view why) {
     emergency_length_ = std::min(why.size(), emergency_reason_.size());
     std::copy_n(why.data(), emergency_length_, emergency_reason_.data());
     emergency_.store(true, std::memory_order_seq_cst);
+    emergencies_.fetch_add(1, std::memory_order_seq_cst);
   }
   tell();
 }

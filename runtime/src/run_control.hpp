@@ -53,6 +53,8 @@ class RunControl {
   /// An operator ends it. valid_from: as of resume. false: there was none.
   bool end_emergency(Time valid_from);
   [[nodiscard]] bool emergency() const { return emergency_.load(std::memory_order_seq_cst); }
+  /// How many have begun so far.
+  [[nodiscard]] std::uint32_t emergencies() const { return emergencies_.load(std::memory_order_seq_cst); }
   /// Why it stands, or stood last.
   [[nodiscard]] std::string emergency_reason() const;
   /// An eventfd that is written to when an emergency stop begins or ends; -1: none.
@@ -72,7 +74,7 @@ class RunControl {
  private:
   void tell() const;
 
-  std::atomic<std::uint32_t> state_{0};
+  std::atomic<std::uint32_t> state_{0}, emergencies_{0};
   std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
   std::atomic<int> news_{-1};
   mutable std::mutex emergency_mutex_;  // of what follows; nobody holds it for longer than a copy takes

@@ -118,11 +118,13 @@ void SimulatedRun::move_to(Assembly& assembly, Time time) {
 
 /// All devices at this instant, not when their subsystems have their next turn.
 void SimulatedRun::follow_emergency(Assembly& assembly) {
-  const EmergencyWatch::News news = emergencies_.look(assembly.control);
-  if (news == EmergencyWatch::News::none) return;
-  for (const auto& executor : assembly.executors) executor->guard();
-  EmergencyWatch::say(news, assembly.control, clock_.now(),
-                      assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+  using News = EmergencyWatch::News;
+  const RunControl& control = assembly.control;
+  for (News news = emergencies_.look(control); news != News::none; news = emergencies_.look(control)) {
+    for (const auto& executor : assembly.executors) executor->guard();
+    EmergencyWatch::say(news, control, clock_.now(),
+                        assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+  }
 }
 
 /// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.

@@ -258,11 +258,13 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
 /// Devices first; subsystems whose user code runs long do not look for themselves.
 void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
                                  RecordingLane* lane) const {
-  const EmergencyWatch::News news = emergencies.look(control);
-  if (news == EmergencyWatch::News::begins)
-    for (std::uint32_t instance = 0; instance < started_; ++instance)
-      securing.secure(instance, {SafeReason::Kind::emergency});
-  EmergencyWatch::say(news, control, clock_.now(), lane);
+  using News = EmergencyWatch::News;
+  for (News news = emergencies.look(control); news != News::none; news = emergencies.look(control)) {
+    if (news == News::begins)
+      for (std::uint32_t instance = 0; instance < started_; ++instance)
+        securing.secure(instance, {SafeReason::Kind::emergency});
+    EmergencyWatch::say(news, control, clock_.now(), lane);
+  }
 }
 
 /// Safe commands first; then the process stops until somebody continues it, and the clock of the run with it.

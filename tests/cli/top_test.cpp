@@ -4,7 +4,7 @@ namespace tessera::cli_test {
 
 using Top = Command;
 
-TEST_F(Top, ShowsWhatEverySubsystemOfARunningControllerDoes) {
+TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   example("01_line_follower");
   fs::create_directories(folder_ / "runtime");
   fs::permissions(folder_ / "runtime", fs::perms::owner_all);
@@ -26,6 +26,31 @@ TEST_F(Top, ShowsWhatEverySubsystemOfARunningControllerDoes) {
   ASSERT_TRUE(line.is_object());
   EXPECT_EQ(line.at("subsystems").size(), 3U);
   EXPECT_EQ(line.at("channels").size(), 2U);
+
+  // One of two controllers hangs: the other is stopped all the same, and the first as soon as it goes on.
+  const project::Exit stopped = shell(
+      watch +
+      "$T run 01_line_follower --world --for 60s >a.txt 2>&1 & "
+      "$T run 01_line_follower --world --for 60s >b.txt 2>&1 & "
+      "until [ $(ls runtime/tessera | wc -l) = 2 ]; do sleep 0.05; done; "
+      "set -- $(ls runtime/tessera | sed 's/[^.]*[.]//; s/[.]sock//'); "
+      "until $T top --controller $1 --once && $T top --controller $2 --once; do sleep 0.05; done >none.txt 2>&1; "
+      "kill -STOP $2; $T emergency-stop --why smoke; echo code $?; kill -CONT $2; "
+      "for p in $1 $2; do until $T top --controller $p --once | grep -i smoke; do sleep 0.05; done; done; "
+      "$T reset; for p in $1 $2; do $T reset --controller $p; kill -INT $p; done; wait; cat a.txt b.txt");
+  const auto times = [&](std::string_view what) {
+    std::size_t count = 0;
+    for (std::size_t at = stopped.text.find(what); at != std::string::npos;
+         at = stopped.text.find(what, at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(times(": emergency stop\n"), 1U) << stopped.text;
+  EXPECT_EQ(times("nobody knows whether its devices are safe"), 1U) << stopped.text;
+  EXPECT_EQ(times("code 1"), 1U) << stopped.text;
+  EXPECT_EQ(times("several controllers are running"), 1U) << stopped.text;
+  EXPECT_EQ(times("EMERGENCY STOP: smoke"), 2U) << stopped.text;
+  EXPECT_EQ(times("the emergency stop is over"), 2U) << stopped.text;
 }
 
 }  // namespace tessera::cli_test

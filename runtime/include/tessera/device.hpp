@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <optional>
@@ -132,7 +133,7 @@ class Receptor : public RealReceptor {
     const std::optional<T> now = read();
     if (!now) return false;
     if constexpr (std::is_trivially_copyable_v<T>)
-      std::copy_n(reinterpret_cast<const std::byte*>(&*now), sizeof(T), value.data());
+      std::memcpy(value.data(), &*now, std::min(sizeof(T), value.size()));
     else
       *reinterpret_cast<T*>(value.data()) = *now;
     return true;

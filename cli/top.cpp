@@ -99,7 +99,8 @@ int top_command(const Options& options) {
 void add_top(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("top", "Watch a controller that runs in real time");
   auto options = std::make_shared<Options>();
-  command->add_option("controller", options->which, "Its system or its process; needed if several run");
+  command->add_option("controller,--controller", options->which,
+                      "Its system or its process; needed if several run");
   command->add_flag("--once", options->once, "Print one table and end");
   command->add_flag("--json", options->lines, "Print the lines of JSON that the controller sends");
   command->footer(

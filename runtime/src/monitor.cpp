@@ -245,11 +245,27 @@ void Monitor::hear(Client& client) {
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   client.gone = count <= 0;
   if (client.gone) return;
-  client.said.append(bytes.data(), static_cast<std::size_t>(count));
+  obey_all(client, {bytes.data(), static_cast<std::size_t>(count)});
+  client.gone = client.gone || client.said.size() > longest_command || client.waiting.size() > most_waiting;
+}
+
+/// Who asks and goes without waiting for the answer is obeyed: it may be an emergency stop, sent while this
+/// process did not get on.
+void Monitor::hear_the_rest(Client& client) {
+  std::array<char, 4096> bytes{};
+  ssize_t count = 0;
+  for (std::size_t heard = 0; heard < longest_command; heard += static_cast<std::size_t>(count)) {
+    count = recv(client.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (count <= 0) return;
+    obey_all(client, {bytes.data(), static_cast<std::size_t>(count)});
+  }
+}
+
+void Monitor::obey_all(Client& client, std::string_view heard) {
+  client.said.append(heard);
   for (std::size_t end = 0; (end = client.said.find('\n')) != std::string::npos;
        client.said.erase(0, end + 1))
     obey(client, client.said.substr(0, end));
-  client.gone = client.gone || client.said.size() > longest_command || client.waiting.size() > most_waiting;
 }
 
 void Monitor::obey(Client& client, const std::string& line) {
@@ -318,8 +334,9 @@ void Monitor::say_goodbye(Client& client) {
 }
 
 void Monitor::drop_the_gone() {
-  std::erase_if(clients_, [&](const Client& client) {
+  std::erase_if(clients_, [&](Client& client) {
     if (!client.gone) return false;
+    hear_the_rest(client);
     if (client.owner && remote_ != nullptr) remote_->abandon();
     close(client.socket);
     return true;

@@ -46,6 +46,8 @@ class Monitor {
   void send_to_all();
   static void deliver(Client& client);
   void hear(Client& client);
+  void hear_the_rest(Client& client);
+  void obey_all(Client& client, std::string_view heard);
   void obey(Client& client, const std::string& line);
   [[nodiscard]] std::string carry_out(const nlohmann::json& command);
   [[nodiscard]] std::string answer_to(const nlohmann::json& command);

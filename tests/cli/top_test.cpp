@@ -28,15 +28,19 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   EXPECT_EQ(line.at("channels").size(), 2U);
 
   // One of two controllers hangs: the other is stopped all the same, and the first as soon as it goes on.
+  // Nothing is waited for without end: `await` tries for 20 s.
   const project::Exit stopped = shell(
       watch +
+      "await() { for i in $(seq 400); do if \"$@\"; then return; fi; sleep 0.05; done; echo WAITED IN VAIN: "
+      "$*; }; "
+      "two() { test $(ls runtime/tessera | wc -l) = 2; }; "
+      "shown() { $T top $1 --once 2>>none.txt | grep -q \"$2\"; }; "
       "$T run 01_line_follower --world --for 60s >a.txt 2>&1 & "
       "$T run 01_line_follower --world --for 60s >b.txt 2>&1 & "
-      "until [ $(ls runtime/tessera | wc -l) = 2 ]; do sleep 0.05; done; "
-      "set -- $(ls runtime/tessera | sed 's/[^.]*[.]//; s/[.]sock//'); "
-      "until $T top --controller $1 --once && $T top --controller $2 --once; do sleep 0.05; done >none.txt 2>&1; "
+      "await two; set -- $(ls runtime/tessera | sed 's/[^.]*[.]//; s/[.]sock//'); "
+      "await shown $1 robot; await shown $2 robot; "
       "kill -STOP $2; $T emergency-stop --why smoke; echo code $?; kill -CONT $2; "
-      "for p in $1 $2; do until $T top --controller $p --once | grep -i smoke; do sleep 0.05; done; done; "
+      "await shown $1 smoke; await shown $2 smoke; "
       "$T reset; for p in $1 $2; do $T reset --controller $p; kill -INT $p; done; wait; cat a.txt b.txt");
   const auto times = [&](std::string_view what) {
     std::size_t count = 0;

@@ -509,6 +509,24 @@ TEST_F(Controlled, EndsWithItsOwner) {
   return -1;
 }
 
+TEST_F(Controlled, ObeysWhoHasGoneBeforeItIsHeard) {
+  start();
+  rest(1);
+  const std::size_t before = firings_in(options_.recording), asked = 50;
+  const std::string file = monitor_folder() + "/" + std::string(made_->name) + "." +
+                           std::to_string(getpid()) + ".sock",
+                    line = "{\"command\":\"step_firing\"}\n";
+  for (std::size_t sent = 0; sent < asked;) {
+    const int client = another_client(file);
+    if (client < 0) continue;  // it has not got round to the last ones
+    EXPECT_EQ(send(client, line.data(), line.size(), MSG_NOSIGNAL), static_cast<ssize_t>(line.size()));
+    close(client);
+    ++sent;
+  }
+  EXPECT_TRUE(eventually([&] { return firings_in(options_.recording) == before + asked; }));
+  finish();
+}
+
 TEST_F(Controlled, HostileClientsDoNoHarm) {
   start();
   rest(1);

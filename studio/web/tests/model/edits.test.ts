@@ -39,7 +39,7 @@ describe("readStructure", () => {
   it("says what is on a line", () => {
     expect(thingAt(structure, 19)).toBe("robot.control.follow");
     expect(thingAt(structure, 22)).toBe("robot.sensor");
-    expect(thingAt(structure, 38)).toBe("channel:0");
+    expect(thingAt(structure, 39)).toBe("channel:0");
   });
   it("shows what there is of a broken file", () => {
     const broken = readStructure(example.replace("      outputs: { motion: Velocity }", "      outputs: { motion: Velocity"));
@@ -105,8 +105,8 @@ describe("changing", () => {
   const control = subsystem(structure, "robot.control");
   it("keeps spaces and comments around a value", () => {
     expect(changed(edits.setField(structure, subsystem(structure, "robot.motor").yaml, "stale", "1 s"))).toEqual([
-      "-        stale:   500 ms",
-      "+        stale:   1 s",
+      "-        stale:    500 ms                                              # no velocity for so long: safe",
+      "+        stale:    1 s                                              # no velocity for so long: safe",
     ]);
     expect(changed(edits.setField(structure, control.yaml, "rate", "25 Hz"))).toEqual([
       "-      rate: 20 Hz",
@@ -204,8 +204,8 @@ describe("renaming changes the name wherever it stands, and nothing else", () =>
       "port",
     );
     expect(changed(after).filter((line) => line.startsWith("+"))).toEqual([
-      "+        real:    { port: float64 rad/s, right: float64 rad/s }",
-      "+        safe:    { port: 0, right: 0 }",
+      "+        real:     { port: float64 rad/s, right: float64 rad/s }",
+      "+        safe:     { port: 0, right: 0 }",
       "+    robot.motor.port:    { velocity: wheel_left }",
     ]);
   });

@@ -11,6 +11,8 @@ TEST_F(Install, PrefixWorksWhereverItIsMoved) {
       shell("cmake --install '" TESSERA_BINARY_DIR "' --prefix '" + folder_.string() + "/here'");
   ASSERT_EQ(installed.code, 0) << installed.text;
   fs::rename(folder_ / "here", folder_ / "there");
+  for (const char* file : {"LICENSE", "THIRD_PARTY.md"})
+    EXPECT_TRUE(fs::exists(folder_ / "there/share/doc/tessera" / file)) << file;
   const project::Exit made = shell("there/bin/tessera new rover");
   ASSERT_EQ(made.code, 0) << made.text;
   const project::Exit run = shell("there/bin/tessera simulate rover --for 5s --json run.json");

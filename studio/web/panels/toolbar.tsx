@@ -1,5 +1,6 @@
 import { useStore, useStudio } from "../app/use";
 import type { View } from "../live/studio";
+import { About } from "./about";
 import { Icon, IconButton } from "./icons";
 
 export function Toolbar() {
@@ -11,9 +12,7 @@ export function Toolbar() {
   const choose = (next: View) => studio.view.set({ view: next });
   return (
     <header className="toolbar">
-      <span className="brand">
-        <Icon name="logo" /> Tessera
-      </span>
+      <About />
       <h1 className="project" title={project ? `${project.folder}/${project.file}` : ""}>
         {project?.name ?? "…"}
         {dirty && <span className="unsaved" title="Not saved yet" aria-label="not saved" role="img" />}

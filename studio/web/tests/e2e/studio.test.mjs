@@ -307,10 +307,28 @@ test("axe finds nothing to object to, light and dark, in every view and panel", 
       await page.getByRole("combobox", { name: "Path" }).waitFor();
       await judge(`${theme} search`);
       await page.keyboard.press("Escape");
+      await button(page, "About Tessera").click();
+      await judge(`${theme} about`);
+      await button(page, "Close").click();
       await tab(page, "Net").click();
       await button(page, "Dark colours").click();
     }
     assert.deepEqual(found, []);
+  }));
+
+test("what is under other licences is said, with their texts", () =>
+  onPage(lineFollower, async (page) => {
+    await button(page, "About Tessera").click();
+    for (const [name, text] of [
+      ["Licence of Tessera", "Apache License"],
+      ["Software of others", "Eclipse Public License"],
+    ]) {
+      const opened = page.waitForEvent("popup");
+      await page.getByRole("link", { name }).click();
+      const other = await opened;
+      await other.getByText(text).first().waitFor();
+      await other.close();
+    }
   }));
 
 test("without a mouse: a behaviour is added, the text verified, undone and saved", () =>

@@ -43,7 +43,7 @@ constexpr tessera::Port ports[] = {
 };
 constexpr tessera::Place places[] = {
     {"in"}, {"out"},
-    // drive, spec.yaml:35
+    // drive, spec.yaml:36
     {"drive.in",             tessera::calls("drive")},
     {"drive.2",              tessera::counts()},
     {"drive.rcv.velocity.2", tessera::reads("velocity")},
@@ -53,7 +53,7 @@ constexpr tessera::Place places[] = {
 const tessera::Transition transitions[] = {
     {"t_in",      {"in"},        {"drive.in"}},
     {"t_drive_1", {"drive.out"}, {"out"}},
-    // drive, spec.yaml:35
+    // drive, spec.yaml:36
     {"drive.t1",                   {"drive.in"},                       {"drive.snd.in"}},
     {"drive.t2",                   {"drive.snd.out"},                  {"drive.2"}},
     {"drive.t3",                   {"drive.2"},                        {"drive.rcv.in"}},

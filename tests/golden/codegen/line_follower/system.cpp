@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr tessera::Instance instances[] = {
     {"robot", "control", tessera::Kind::control, &units::robot::control::net, units::robot::control::make, 50ms},
     {"robot", "sensor", tessera::Kind::receptor, &units::robot::sensor::net, units::robot::sensor::make, 20ms},
-    {"robot", "motor", tessera::Kind::effector, &units::robot::motor::net, units::robot::motor::make, 20ms, 500ms},
+    {"robot", "motor", tessera::Kind::effector, &units::robot::motor::net, units::robot::motor::make, 20ms, 500ms, {.watchdog = 500ms}},
 };
 
 constexpr tessera::Channel channels[] = {

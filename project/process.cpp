@@ -23,9 +23,10 @@ namespace tessera::project {
 
 namespace {
 
-volatile std::sig_atomic_t child_pid = 0;
+volatile std::sig_atomic_t child_pid = 0, asked_to_suspend = 0;
 
 extern "C" void pass_on(int signal) {
+  if (signal == SIGTSTP) asked_to_suspend = 1;
   if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
 }
 
@@ -55,6 +56,7 @@ class SignalsToChild {
   SignalsToChild& operator=(const SignalsToChild&) = delete;
 
   void are_for(pid_t child) {
+    asked_to_suspend = 0;
     child_pid = static_cast<std::sig_atomic_t>(child);
     for_handled_signals([&](int signal, SignalUse use) {
       Before before{signal, {}};
@@ -156,13 +158,17 @@ class Output {
   std::size_t line_start_ = 0;
 };
 
-/// Where it stops for a while (Ctrl-Z), so do we, and it goes on with us.
+/// After Ctrl-Z we stop when it has stopped, and it goes on with us. Where it alone is stopped (kill -STOP, a
+/// debugger) we wait: whoever continues it knows nothing of us.
 int wait_for(pid_t child) {
   int status = 0;
-  for (;;) {
-    const pid_t changed = waitpid(child, &status, WUNTRACED);
-    if (changed < 0 && errno == EINTR) continue;
-    if (changed < 0 || !WIFSTOPPED(status)) break;
+  for (bool stopped = false;;) {
+    const pid_t changed = waitpid(child, &status, WUNTRACED | WCONTINUED);
+    if (changed < 0 && errno != EINTR) break;
+    if (changed > 0 && !WIFSTOPPED(status) && !WIFCONTINUED(status)) break;
+    if (changed > 0) stopped = WIFSTOPPED(status);
+    if (!stopped || asked_to_suspend == 0) continue;
+    asked_to_suspend = 0;
     raise(SIGSTOP);
     kill(child, SIGCONT);
   }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <thread>
@@ -93,6 +94,19 @@ TEST_F(Starter, StopsWithItsChildAndGoesOnWithIt) {
   ASSERT_EQ(wait(), 2000 + SIGSTOP);
   tell(SIGCONT);
   tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+TEST_F(Starter, WaitsForAChildThatSomebodyElseStopsAndContinues) {
+  start("trap 'exit 42' TERM; echo $$ >" + ready() + "; while :; do sleep 0.02; done");
+  pid_t child = 0;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (child == 0 && std::chrono::steady_clock::now() < until) std::ifstream(ready()) >> child;
+  ASSERT_GT(child, 0);
+  kill(child, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time to do the wrong thing
+  kill(child, SIGCONT);
+  kill(child, SIGTERM);
   EXPECT_EQ(wait(), 42);
 }
 

@@ -54,16 +54,15 @@ int check_command(const Options& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("check", "Read a specification and report every mistake in it");
+void add_check(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("check", "Read a specification and report every mistake in it");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command->add_option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
-  command->footer(
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
+  command.footer(
       "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"
       "Example: tessera check robot/spec.yaml");
-  command->callback([options, &exit_code] { exit_code = check_command(*options); });
+  command.callback([options, &exit_code] { exit_code = check_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -8,18 +8,13 @@ namespace tessera::cli {
 namespace {
 
 // The words come from the options themselves, so that completion never lags behind.
-std::string words_of(const CLI::App& command) {
-  std::string words;
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) words += " --" + name;
-  return words;
-}
-
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion(const CommandLine& line) {
   std::string names, cases;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    names += " " + command->get_name();
-    cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_of(*command));
+  for (const CommandLine::Words& words : line.words()) {
+    names += " " + words.command;
+    std::string options;
+    for (const std::string& option : words.options) options += " --" + option;
+    cases += fmt::format("    {}) words=\"{}\" ;;\n", words.command, options);
   }
   return fmt::format(R"(# bash completion of tessera: source this, or put it into /etc/bash_completion.d
 _tessera() {{
@@ -40,11 +35,10 @@ complete -o filenames -F _tessera tessera
 
 }  // namespace
 
-void add_completion(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("completion", "Print a script that completes commands and options in bash");
-  command->footer("Example: tessera completion > /etc/bash_completion.d/tessera");
-  command->callback([&app, &exit_code] {
+void add_completion(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("completion", "Print a script that completes commands and options in bash");
+  command.footer("Example: tessera completion > /etc/bash_completion.d/tessera");
+  command.callback([&app, &exit_code] {
     fmt::print("{}", bash_completion(app));
     exit_code = ok;
   });

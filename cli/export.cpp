@@ -30,21 +30,19 @@ int export_command(const Options& options) {
 
 }  // namespace
 
-void add_export(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("export", "Write the flat net for other tools");
+void add_export(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("export", "Write the flat net for other tools");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command
-      ->add_option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
-      ->required();
-  command->add_flag("--abstract", options->abstract,
-                    "The net that `verify` judges: without what never fires, and with what happens where no "
-                    "condition holds");
-  command->footer(
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
+      .required();
+  command.flag("--abstract", options->abstract,
+               "The net that `verify` judges: without what never fires, and with what happens where no "
+               "condition holds");
+  command.footer(
       "Examples: tessera export --pnml net.pnml\n"
       "          tessera export --abstract --pnml net.pnml && tessera verify net.pnml");
-  command->callback([options, &exit_code] { exit_code = export_command(*options); });
+  command.callback([options, &exit_code] { exit_code = export_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -65,23 +65,21 @@ int generate_command(const Options& options) {
 
 }  // namespace
 
-void add_generate(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("generate", "Write the C++ controller that executes the verified net");
+void add_generate(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for the generated files (default: .tessera/generated)");
-  command->add_flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("-o,--output", options->output,
+                 "Folder for the generated files (default: .tessera/generated)");
+  command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
   command
-      ->add_flag("--build", options->build,
-                 "Compile the controller too: then a copy that nobody can write to runs")
-      ->excludes("--output");
-  declare_gate(*command, options->gate);
-  command->add_option("--json", options->json, "Write what was done as JSON (- is standard output)");
-  command->footer("Example: tessera generate --stubs");
-  command->callback([options, &exit_code] { exit_code = generate_command(*options); });
+      .flag("--build", options->build,
+            "Compile the controller too: then a copy that nobody can write to runs")
+      .excludes(command.declared("--output"));
+  declare_gate(command, options->gate);
+  command.option("--json", options->json, "Write what was done as JSON (- is standard output)");
+  command.footer("Example: tessera generate --stubs");
+  command.callback([options, &exit_code] { exit_code = generate_command(*options); });
 }
 
 }  // namespace tessera::cli

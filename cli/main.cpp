@@ -1,39 +1,32 @@
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/terminal.hpp"
 
 int main(int argc, char** argv) {
   namespace cli = tessera::cli;
-  CLI::App app(
-      "Tessera: robot controllers from hierarchical Petri nets.\n"
-      "From one file to a proved net, a C++ controller and a simulated robot.");
-  app.name("tessera");
-  app.set_version_flag("--version", TESSERA_VERSION);
-  app.require_subcommand(1);
-  app.footer(
+  cli::CommandLine line("tessera", TESSERA_VERSION,
+                        "Tessera: robot controllers from hierarchical Petri nets.\n"
+                        "From one file to a proved net, a C++ controller and a simulated robot.");
+  line.footer(
       "First steps:\n"
       "  tessera new rover && cd rover   a project with a simulated robot\n"
       "  tessera simulate --for 60s      build it and watch it drive\n"
       "`tessera COMMAND --help` shows the options of a command, with examples.");
-  app.fallthrough();
-  app.add_option_function<std::string>(
-         "--state", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
-         "Where Tessera keeps what it builds and records, instead of in .tessera of the project "
-         "(or TESSERA_STATE_DIR)")
-      ->option_text("DIR");
+  line.option(
+      "--state", "DIR", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
+      "Where Tessera keeps what it builds and records, instead of in .tessera of the project "
+      "(or TESSERA_STATE_DIR)");
   int exit_code = cli::ok;
   for (auto* add :
        {cli::add_new, cli::add_check, cli::add_show, cli::add_verify, cli::add_export, cli::add_generate,
         cli::add_test, cli::add_simulate, cli::add_run, cli::add_replay, cli::add_top, cli::add_set,
         cli::add_emergency_stop, cli::add_reset, cli::add_studio, cli::add_completion})
-    add(app, exit_code);
+    add(line, exit_code);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::ok : cli::usage;
+    if (const std::optional<int> decided = line.read(argc, argv)) return *decided;
   } catch (const std::exception& error) {
     return cli::complain(error.what());
   } catch (...) {  // of a library: MuJoCo's is no std::exception

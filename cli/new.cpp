@@ -130,12 +130,12 @@ int new_command(const std::string& given) {
 
 }  // namespace
 
-void add_new(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("new", "Make a project with a simulated robot that runs at once");
+void add_new(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("new", "Make a project with a simulated robot that runs at once");
   auto name = std::make_shared<std::string>();
-  command->add_option("name", *name, "Folder to make; its last part names the system")->required();
-  command->footer("Example: tessera new rover && cd rover && tessera simulate --for 60s");
-  command->callback([name, &exit_code] { exit_code = new_command(*name); });
+  command.option("name", *name, "Folder to make; its last part names the system").required();
+  command.footer("Example: tessera new rover && cd rover && tessera simulate --for 60s");
+  command.callback([name, &exit_code] { exit_code = new_command(*name); });
 }
 
 }  // namespace tessera::cli

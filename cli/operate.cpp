@@ -89,45 +89,45 @@ int reset_command(const Options& options) {
   return wrong.empty() ? ok : complain(wrong);
 }
 
-void declare_controller(CLI::App& command, Options& options,
+void declare_controller(Subcommand& command, Options& options,
                         const char* meaning = "Its system or its process; needed if several run") {
-  command.add_option("--controller", options.which, meaning);
+  command.option("--controller", options.which, meaning);
 }
 
 }  // namespace
 
-void add_set(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("set", "Change parameters of a controller that runs in real time");
+void add_set(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("set", "Change parameters of a controller that runs in real time");
   auto options = std::make_shared<Options>();
-  command->add_option("values", options->values, "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3")
-      ->required();
-  declare_controller(*command, *options);
-  command->footer(
+  command.option("values", options->values, "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3")
+      .required();
+  declare_controller(command, *options);
+  command.footer(
       "A value that does not fit the parameter's type and range is refused. A subsystem takes the new value\n"
       "just before it calls a transition function, and the recording says when.\n"
       "Example: tessera set v=0.15 robot.control.w=1");
-  command->callback([options, &exit_code] { exit_code = set_command(*options); });
+  command.callback([options, &exit_code] { exit_code = set_command(*options); });
 }
 
-void add_emergency_stop(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "emergency-stop",
-      "Give all devices of all running controllers their safe command until `tessera reset`");
+void add_emergency_stop(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("emergency-stop",
+              "Give all devices of all running controllers their safe command until `tessera reset`");
   auto options = std::make_shared<Options>();
-  declare_controller(*command, *options, "Only those of this system, or this process");
-  command->add_option("--why", options->why, "Said on its terminal and in its recording");
-  command->footer(
+  declare_controller(command, *options, "Only those of this system, or this process");
+  command.option("--why", options->why, "Said on its terminal and in its recording");
+  command.footer(
       "This is no substitute for an emergency stop in hardware: it needs the controller, this computer and\n"
       "the connection between them.");
-  command->callback([options, &exit_code] { exit_code = emergency_stop_command(*options); });
+  command.callback([options, &exit_code] { exit_code = emergency_stop_command(*options); });
 }
 
-void add_reset(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("reset", "End the emergency stop of a running controller: its devices move again");
+void add_reset(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("reset", "End the emergency stop of a running controller: its devices move again");
   auto options = std::make_shared<Options>();
-  declare_controller(*command, *options);
-  command->callback([options, &exit_code] { exit_code = reset_command(*options); });
+  declare_controller(command, *options);
+  command.callback([options, &exit_code] { exit_code = reset_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -284,28 +284,27 @@ int replay_command(Options options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "replay", "Read a recording: what ran when, how regularly, and whether it was legal");
+void add_replay(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
   auto options = std::make_shared<Options>();
-  command->add_option("recording", options->recording, "Recording of a run")->capture_default_str();
-  command->add_flag("--check", options->check,
-                    "Play it on the net of its specification: is it a legal firing sequence?");
-  command->add_option("--spec", options->spec, "That specification (default: beside the recording or above)");
-  command->add_flag("--print", options->print, "Print the events");
-  command->add_flag("--values{*}", options->values,
-                    "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
-                    "--csv a row per change and a column per field");
-  command->add_option("--from", options->from_s, "Events from this time on, in seconds");
-  command->add_option("--to", options->to_s, "Events up to this time, in seconds");
-  command->add_option("--last", options->last, "The last so many of the events");
-  command->add_option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
-  command->add_option("--containing", options->transition,
-                      "Events whose text contains this: t6, .snd.motion");
-  command->add_option("--csv", options->csv, "Write the events as CSV (- is standard output)");
-  command->add_option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
-  command->add_option("--json", options->json, "Write summary and check as JSON (- is standard output)");
-  command->footer(
+  command.option("recording", options->recording, "Recording of a run").shows_default();
+  command.flag("--check", options->check,
+               "Play it on the net of its specification: is it a legal firing sequence?");
+  command.option("--spec", options->spec, "That specification (default: beside the recording or above)");
+  command.flag("--print", options->print, "Print the events");
+  command.flag("--values", options->values, all_values,
+               "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
+               "--csv a row per change and a column per field");
+  command.option("--from", options->from_s, "Events from this time on, in seconds");
+  command.option("--to", options->to_s, "Events up to this time, in seconds");
+  command.option("--last", options->last, "The last so many of the events");
+  command.option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
+  command.option("--containing", options->transition, "Events whose text contains this: t6, .snd.motion");
+  command.option("--csv", options->csv, "Write the events as CSV (- is standard output)");
+  command.option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
+  command.option("--json", options->json, "Write summary and check as JSON (- is standard output)");
+  command.footer(
       "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 3 if "
       "events\n"
       "are missing.\n"
@@ -313,7 +312,7 @@ void add_replay(CLI::App& app, int& exit_code) {
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"
       "         tessera replay --to-perfetto run.json");
-  command->callback([options, &exit_code] { exit_code = replay_command(*options); });
+  command.callback([options, &exit_code] { exit_code = replay_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -95,34 +95,31 @@ int show_command(const Options& options) {
 
 }  // namespace
 
-void add_show(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
+void add_show(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command->add_option("--page", options->page,
-                      "Path of one page, e.g. robot.control.follow (default: the whole system)");
-  command->add_option("--svg", options->svg, "Draw to this file (- is standard output)");
-  command->add_option("--dot", options->dot, "Draw for graphviz to this file");
-  command
-      ->add_option("--layer", options->layer, "How deep: system, agent, subsystem, behaviour, communication")
-      ->check(CLI::IsMember({"system", "agent", "subsystem", "behaviour", "communication"}));
-  command->add_option("--levels", options->levels, "How many levels of pages below the drawn one to open");
-  command->add_flag("--flat", options->flat, "Replace every page by its net");
-  command->add_option("--notation", options->notation, "Labels: paths, or the paper's symbols")
-      ->check(CLI::IsMember({"paths", "paper"}))
-      ->capture_default_str();
-  command->add_flag("--counts", options->counts, "Numbers of places, transitions, pages and arcs");
-  command->add_option("--json", options->json,
-                      "The net, or with --counts the numbers, as JSON (- is standard output)");
-  command->footer(
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--page", options->page,
+                 "Path of one page, e.g. robot.control.follow (default: the whole system)");
+  command.option("--svg", options->svg, "Draw to this file (- is standard output)");
+  command.option("--dot", options->dot, "Draw for graphviz to this file");
+  command.option("--layer", options->layer, "How deep: system, agent, subsystem, behaviour, communication")
+      .one_of({"system", "agent", "subsystem", "behaviour", "communication"});
+  command.option("--levels", options->levels, "How many levels of pages below the drawn one to open");
+  command.flag("--flat", options->flat, "Replace every page by its net");
+  command.option("--notation", options->notation, "Labels: paths, or the paper's symbols")
+      .one_of({"paths", "paper"})
+      .shows_default();
+  command.flag("--counts", options->counts, "Numbers of places, transitions, pages and arcs");
+  command.option("--json", options->json,
+                 "The net, or with --counts the numbers, as JSON (- is standard output)");
+  command.footer(
       "Examples:\n"
       "  tessera show                                         the tree of pages\n"
       "  tessera show --page robot.control.follow --svg follow.svg\n"
       "  tessera show --flat --svg net.svg --notation paper\n"
       "  tessera show --counts --json -");
-  command->callback([options, &exit_code] { exit_code = show_command(*options); });
+  command.callback([options, &exit_code] { exit_code = show_command(*options); });
 }
 
 }  // namespace tessera::cli

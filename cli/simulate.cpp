@@ -177,63 +177,61 @@ int run_command(RunCommandOptions options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("simulate", "Build the controller and run it in its simulated world");
+void add_simulate(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
   auto options = std::make_shared<SimulateOptions>();
-  declare(*command, *options);
-  declare_world(*command, *options);
+  declare(command, *options);
+  declare_world(command, *options);
   command
-      ->add_option("--scenario", options->scenario,
-                   "Drive the controller through this run first (tessera verify --scenario)")
-      ->check(CLI::ExistingFile);
-  CLI::Option* from =
+      .option("--scenario", options->scenario,
+              "Drive the controller through this run first (tessera verify --scenario)")
+      .existing_file();
+  Option from =
       command
-          ->add_option(
-              "--from", options->from,
-              "Run the code again on what this recording says it was given, and compare what it does")
-          ->check(CLI::ExistingFile);
-  CLI::Option* schedules = command->add_option(
+          .option("--from", options->from,
+                  "Run the code again on what this recording says it was given, and compare what it does")
+          .existing_file();
+  Option schedules = command.option(
       "--schedules", options->schedules,
       "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
       "that breaks an assertion, ends with an error or hangs");
-  command->add_flag("--interleave", options->interleave,
-                    "Subsystems take turns after every firing, as in --schedules, which this makes one of");
-  command->add_flag("--realtime", options->realtime, "Not faster than the wall clock");
-  command->add_option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
-      ->capture_default_str();
-  command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
-  command->add_option("--report", options->report, "Folder for a page and a picture of the run")
-      ->excludes(schedules);
-  command->get_option("--record")->excludes(schedules);
+  command.flag("--interleave", options->interleave,
+               "Subsystems take turns after every firing, as in --schedules, which this makes one of");
+  command.flag("--realtime", options->realtime, "Not faster than the wall clock");
+  command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
+      .shows_default();
+  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command.option("--report", options->report, "Folder for a page and a picture of the run")
+      .excludes(schedules);
+  command.declared("--record").excludes(schedules);
   for (const char* other :
        {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
         "--scenario", "--schedules", "--interleave", "--realtime", "--report", "--hardware"})
-    from->excludes(command->get_option(other));
+    from.excludes(command.declared(other));
   for (const char* other : {"--schedules", "--scenario"})
-    command->get_option("--hardware")->excludes(command->get_option(other));
-  command->footer(
+    command.declared("--hardware").excludes(command.declared(other));
+  command.footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
       "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
       "  tessera simulate --from field.tsr               would this code have done the same there?\n"
       "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
-  command->callback([options, &exit_code] { exit_code = simulate_command(*options); });
+  command.callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 
-void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("run", "Build the controller and run it on the steady clock with real drivers");
+void add_run(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("run", "Build the controller and run it on the steady clock with real drivers");
   auto options = std::make_shared<RunCommandOptions>();
-  declare(*command, *options);
-  declare_world(*command, *options);
-  command->add_flag("--world", options->world,
-                    "With the simulated drivers, in the simulated world if there is one, in real time");
-  command->add_option("--json", options->json, "Write the outcome as JSON (- is standard output)");
-  command->add_option("--report", options->report, "Folder for a page and a picture of the run");
-  command->footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
-  command->callback([options, &exit_code] { exit_code = run_command(*options); });
+  declare(command, *options);
+  declare_world(command, *options);
+  command.flag("--world", options->world,
+               "With the simulated drivers, in the simulated world if there is one, in real time");
+  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command.option("--report", options->report, "Folder for a page and a picture of the run");
+  command.footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
+  command.callback([options, &exit_code] { exit_code = run_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -82,21 +82,19 @@ int studio_command(const Options& options) {
 
 }  // namespace
 
-void add_studio(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("studio", "See, edit, verify and run a system in the browser");
+void add_studio(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("studio", "See, edit, verify and run a system in the browser");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command
-      ->add_option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command->add_flag("--no-browser", options->no_browser, "Print the address and open nothing");
-  command->footer(
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
+      .within(0, 65535)
+      .shows_default();
+  command.flag("--no-browser", options->no_browser, "Print the address and open nothing");
+  command.footer(
       "Prints the address with the token of this start; whoever has it can edit and run this project.\n"
       "Only this machine can connect. From another: ssh -L 8417:127.0.0.1:8417 HOST\n"
       "Example: tessera studio robot");
-  command->callback([options, &exit_code] { exit_code = studio_command(*options); });
+  command.callback([options, &exit_code] { exit_code = studio_command(*options); });
 }
 
 }  // namespace tessera::cli

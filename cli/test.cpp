@@ -70,17 +70,15 @@ int test_command(const Options& options) {
 
 }  // namespace
 
-void add_test(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("test", "Build and run the project's own GoogleTests of its functions");
+void add_test(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("test", "Build and run the project's own GoogleTests of its functions");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, or the folder of its spec.yaml")
-      ->capture_default_str();
-  command->add_option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
-  command->add_flag("--debug", options->debug, "Build the tests for gdb");
-  declare_gate(*command, options->gate);
-  command->footer("Example: tessera test --filter 'Follow.*'");
-  command->callback([options, &exit_code] { exit_code = test_command(*options); });
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
+  command.flag("--debug", options->debug, "Build the tests for gdb");
+  declare_gate(command, options->gate);
+  command.footer("Example: tessera test --filter 'Follow.*'");
+  command.callback([options, &exit_code] { exit_code = test_command(*options); });
 }
 
 }  // namespace tessera::cli

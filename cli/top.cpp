@@ -96,18 +96,18 @@ int top_command(const Options& options) {
 
 }  // namespace
 
-void add_top(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("top", "Watch a controller that runs in real time");
+void add_top(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("top", "Watch a controller that runs in real time");
   auto options = std::make_shared<Options>();
-  command->add_option("controller,--controller", options->which,
-                      "Its system or its process; needed if several run");
-  command->add_flag("--once", options->once, "Print one table and end");
-  command->add_flag("--json", options->lines, "Print the lines of JSON that the controller sends");
-  command->footer(
+  command.option("controller,--controller", options->which,
+                 "Its system or its process; needed if several run");
+  command.flag("--once", options->once, "Print one table and end");
+  command.flag("--json", options->lines, "Print the lines of JSON that the controller sends");
+  command.footer(
       "A * behind a behaviour: its transition function is being executed. `call` is what its last one took,\n"
       "`in use`: one side writes or reads the channel's memory.\n"
       "Example: tessera run --world &  tessera top");
-  command->callback([options, &exit_code] { exit_code = top_command(*options); });
+  command.callback([options, &exit_code] { exit_code = top_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -202,38 +202,35 @@ int verify_command(const Options& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "verify", "Prove that nothing can go wrong in the net, or show the run in which it does");
+void add_verify(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("verify", "Prove that nothing can go wrong in the net, or show the run in which it does");
   auto options = std::make_shared<Options>();
-  command->add_option("spec", options->spec, "Specification, the folder of its spec.yaml, or a PNML file")
-      ->capture_default_str();
-  command->add_option("--property", options->properties, "Only this property; may be given several times");
-  command->add_option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
-      ->capture_default_str();
+  command.option("spec", options->spec, "Specification, the folder of its spec.yaml, or a PNML file")
+      .shows_default();
+  command.option("--property", options->properties, "Only this property; may be given several times");
+  command.option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
+      .shows_default();
   std::vector<std::string> methods = verify::method_names();
   methods.insert(methods.begin(), "any");
-  command->add_option("--method", options->method, "Use only this method")
-      ->check(CLI::IsMember(methods))
-      ->capture_default_str();
+  command.option("--method", options->method, "Use only this method").one_of(methods).shows_default();
   std::vector<std::string> rules{"all"};
   for (const reduce::NamedRule& rule : reduce::named_rules()) rules.emplace_back(rule.name);
-  command
-      ->add_option("--without", options->without, "Do not use this reduction (to check one against the rest)")
-      ->check(CLI::IsMember(rules));
-  command->add_flag("--states", options->states, "Count the reachable markings as well");
-  command->add_option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
-  command->add_option("--trace", options->trace, "Write the runs that show violations as JSON");
-  command->add_option("--scenario", options->scenario,
-                      "Write the run of a violation for `tessera simulate --scenario`");
-  command->add_flag("--explain", options->explain,
-                    "Say how each verdict came about, and what it means for the net with conditions");
-  command->footer(
+  command.option("--without", options->without, "Do not use this reduction (to check one against the rest)")
+      .one_of(rules);
+  command.flag("--states", options->states, "Count the reachable markings as well");
+  command.option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
+  command.option("--trace", options->trace, "Write the runs that show violations as JSON");
+  command.option("--scenario", options->scenario,
+                 "Write the run of a violation for `tessera simulate --scenario`");
+  command.flag("--explain", options->explain,
+               "Say how each verdict came about, and what it means for the net with conditions");
+  command.footer(
       "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
       "2 if a file cannot be read, 3 if a property is unknown.\n"
       "Example: tessera verify robot/spec.yaml --explain\n"
       "         tessera verify net.pnml --states --json -");
-  command->callback([options, &exit_code] { exit_code = verify_command(*options); });
+  command.callback([options, &exit_code] { exit_code = verify_command(*options); });
 }
 
 }  // namespace tessera::cli

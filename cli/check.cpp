@@ -15,7 +15,7 @@ using namespace project;
 
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string spec = ".", json;
 };
 
@@ -25,7 +25,7 @@ std::string count_of(const Things& things, const char* name) {
   return fmt::format("{} {}{}", things.size(), name, things.size() == 1 ? "" : "s");
 }
 
-int check_json(const Options& options) {
+int check_json(const CheckOptions& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
     if (const std::optional<spec::Model> model = spec::parse(found)) {
@@ -37,7 +37,7 @@ int check_json(const Options& options) {
   return is_unreadable(found) ? usage : failed;
 }
 
-int check_command(const Options& options) {
+int check_command(const CheckOptions& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return refused();
@@ -56,7 +56,7 @@ int check_command(const Options& options) {
 
 void add_check(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("check", "Read a specification and report every mistake in it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
   command.footer(

@@ -12,12 +12,12 @@ using namespace project;
 
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string spec = ".", pnml;
   bool abstract = false;
 };
 
-int export_command(const Options& options) {
+int export_command(const ExportOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
@@ -32,7 +32,7 @@ int export_command(const Options& options) {
 
 void add_export(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("export", "Write the flat net for other tools");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
       .required();

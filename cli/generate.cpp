@@ -17,13 +17,13 @@ using namespace project;
 
 namespace {
 
-struct Options {
+struct GenerateCommandOptions {
   std::string spec = ".", output, json;
   bool stubs = false, build = false;
   Gate gate;
 };
 
-Generated generate_alone(const Verified& verified, const Options& options) {
+Generated generate_alone(const Verified& verified, const GenerateCommandOptions& options) {
   const std::optional<LockFile> lock =
       options.output.empty()
           ? take_build_lock(state_folder(verified.specification.project), terminal(), nullptr)
@@ -31,7 +31,7 @@ Generated generate_alone(const Verified& verified, const Options& options) {
   return generate(verified, {options.stubs, options.output});
 }
 
-int generate_command(const Options& options) {
+int generate_command(const GenerateCommandOptions& options) {
   check_replaceable(options.json, "{");
   const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
   if (!verified) return refused();
@@ -67,7 +67,7 @@ int generate_command(const Options& options) {
 
 void add_generate(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateCommandOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("-o,--output", options->output,
                  "Folder for the generated files (default: .tessera/generated)");

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct OperateOptions {
   std::vector<std::string> values;
   std::string which, why;
 };
@@ -51,7 +51,7 @@ std::string ask(RunningController& controller, json command) {
   return answer_of(controller);
 }
 
-int set_command(const Options& options) {
+int set_command(const OperateOptions& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
   int code = ok;
@@ -66,7 +66,7 @@ int set_command(const Options& options) {
 }
 
 /// All controllers unless one is named: who asks for it has no time to look up names.
-int emergency_stop_command(const Options& options) {
+int emergency_stop_command(const OperateOptions& options) {
   std::vector<RunningController> controllers = find_controllers(options.which);
   json command{{"command", "emergency_stop"}};
   if (!options.why.empty()) command["why"] = options.why;
@@ -82,14 +82,14 @@ int emergency_stop_command(const Options& options) {
   return code;
 }
 
-int reset_command(const Options& options) {
+int reset_command(const OperateOptions& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
   const std::string wrong = ask(*controller, {{"command", "reset"}});
   return wrong.empty() ? ok : complain(wrong);
 }
 
-void declare_controller(Subcommand& command, Options& options,
+void declare_controller(Subcommand& command, OperateOptions& options,
                         const char* meaning = "Its system or its process; needed if several run") {
   command.option("--controller", options.which, meaning);
 }
@@ -98,7 +98,7 @@ void declare_controller(Subcommand& command, Options& options,
 
 void add_set(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("set", "Change parameters of a controller that runs in real time");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<OperateOptions>();
   command.option("values", options->values, "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3")
       .required();
   declare_controller(command, *options);
@@ -113,7 +113,7 @@ void add_emergency_stop(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("emergency-stop",
               "Give all devices of all running controllers their safe command until `tessera reset`");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<OperateOptions>();
   declare_controller(command, *options, "Only those of this system, or this process");
   command.option("--why", options->why, "Said on its terminal and in its recording");
   command.footer(
@@ -125,7 +125,7 @@ void add_emergency_stop(CommandLine& app, int& exit_code) {
 void add_reset(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("reset", "End the emergency stop of a running controller: its devices move again");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<OperateOptions>();
   declare_controller(command, *options);
   command.callback([options, &exit_code] { exit_code = reset_command(*options); });
 }

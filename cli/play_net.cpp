@@ -23,14 +23,14 @@ namespace {
 using nlohmann::json;
 
 NetExecutor* playing = nullptr;
-void on_interrupt(int /*signal*/) { playing->stop(); }
+void stop_playing(int /*signal*/) { playing->stop(); }
 
 /// Ctrl-C ends the play, not the command, while this lives.
 class StopsOnInterrupt {
  public:
   explicit StopsOnInterrupt(NetExecutor& executor) {
     playing = &executor;
-    before_ = std::signal(SIGINT, on_interrupt);
+    before_ = std::signal(SIGINT, stop_playing);
   }
   ~StopsOnInterrupt() { std::signal(SIGINT, before_); }
   StopsOnInterrupt(const StopsOnInterrupt&) = delete;

@@ -35,7 +35,7 @@ using Legal = replay::Legality::Verdict;
 constexpr const char* all_values = "*";
 constexpr const char* usual_recording = ".tessera/last/recording.tsr";
 
-struct Options {
+struct ReplayOptions {
   std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
@@ -45,7 +45,7 @@ struct Options {
 
 // ---------------------------------------------------------------------------------------------- the events
 
-replay::Selection selection_of(const Options& options) {
+replay::Selection selection_of(const ReplayOptions& options) {
   replay::Selection selection{options.from_s,    options.to_s,       options.last,
                               options.subsystem, options.transition, options.print || options.values.empty(),
                               std::nullopt};
@@ -53,7 +53,7 @@ replay::Selection selection_of(const Options& options) {
   return selection;
 }
 
-void write_csv(const Recording& recording, const Options& options) {
+void write_csv(const Recording& recording, const ReplayOptions& options) {
   std::ostringstream text;
   if (!options.values.empty() && !options.print) {
     replay::write_values_csv(recording, selection_of(options), text);
@@ -173,7 +173,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 // ---------------------------------------------------------------------------------------------- check
 
 /// The specification beside a recording: in its folder or in one above.
-std::string specification_of(const Options& options) {
+std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
     if (fs::exists(folder / "spec.yaml")) return (folder / "spec.yaml").string();
@@ -196,7 +196,7 @@ const char* name_of(Legal verdict) {
 }
 
 /// nullopt after the reason has been printed: there is no net to check against.
-std::optional<replay::Legality> check(const Recording& recording, const Options& options) {
+std::optional<replay::Legality> check(const Recording& recording, const ReplayOptions& options) {
   const std::string file = specification_of(options);
   std::optional<Specification> specification = read(file, terminal());
   if (!specification) return std::nullopt;
@@ -245,7 +245,7 @@ std::string last_recording() {
   return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
 }
 
-int replay_command(Options options) {
+int replay_command(ReplayOptions options) {
   if (options.recording == usual_recording) options.recording = last_recording();
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
@@ -287,7 +287,7 @@ int replay_command(Options options) {
 void add_replay(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   command.option("recording", options->recording, "Recording of a run").shows_default();
   command.flag("--check", options->check,
                "Play it on the net of its specification: is it a legal firing sequence?");

@@ -50,7 +50,7 @@ std::optional<std::string> RunningController::line() {
       return line;
     }
     char bytes[65536];
-    const ssize_t count = read(descriptor_, bytes, sizeof bytes);
+    const ssize_t count = ::read(descriptor_, bytes, sizeof bytes);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return std::nullopt;
     pending_.append(bytes, static_cast<std::size_t>(count));

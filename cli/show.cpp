@@ -15,7 +15,7 @@ using namespace project;
 
 namespace {
 
-struct Options {
+struct ShowOptions {
   std::string spec = ".", page, layer, notation = "paths", svg, dot, json;
   unsigned levels = 0;
   bool flat = false, counts = false;
@@ -36,7 +36,7 @@ std::vector<std::string> page_paths(const net::HierarchicalNet& pages) {
 }
 
 // Without --page: the whole system in nested rectangles, down to the layer asked for.
-drawing::Options picture_options(const Options& options, const spec::Model& model) {
+drawing::Options picture_options(const ShowOptions& options, const spec::Model& model) {
   drawing::Options picture;
   picture.model = &model;
   picture.notation = options.notation == "paper" ? drawing::Notation::paper : drawing::Notation::paths;
@@ -58,14 +58,15 @@ void print_counts(const net::Counts& counts) {
 }
 
 // A picture or two for people to open, or nothing of the kind was asked for.
-bool draw(const Options& options, const Specification& specification, const Nets& nets, net::PageId page) {
+bool draw(const ShowOptions& options, const Specification& specification, const Nets& nets,
+          net::PageId page) {
   const drawing::Options picture = picture_options(options, specification.model);
   if (!options.svg.empty()) write_output(options.svg, drawing::to_svg(nets.pages, page, picture));
   if (!options.dot.empty()) write_output(options.dot, drawing::to_dot(nets.pages, page, picture));
   return !options.svg.empty() || !options.dot.empty();
 }
 
-int show_command(const Options& options) {
+int show_command(const ShowOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return refused();
   const std::optional<Nets> nets = build(*specification, terminal());
@@ -97,7 +98,7 @@ int show_command(const Options& options) {
 
 void add_show(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShowOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("--page", options->page,
                  "Path of one page, e.g. robot.control.follow (default: the whole system)");

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Options {
+struct StudioCommandOptions {
   std::string spec = ".";
   int port = server::StudioOptions{}.port;
   bool no_browser = false;
@@ -56,7 +56,7 @@ void open_browser(const std::string& url) {
   }
 }
 
-int studio_command(const Options& options) {
+int studio_command(const StudioCommandOptions& options) {
   const fs::path given = project::spec_file(options.spec);
   if (fs::is_directory(given) || !fs::exists(given))
     return complain(fmt::format("there is no specification {}; `tessera new NAME` makes a project",
@@ -84,7 +84,7 @@ int studio_command(const Options& options) {
 
 void add_studio(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("studio", "See, edit, verify and run a system in the browser");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<StudioCommandOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
       .within(0, 65535)

@@ -18,7 +18,7 @@ using namespace project;
 
 namespace {
 
-struct Options {
+struct TestOptions {
   std::string spec = ".", filter;
   bool debug = false;
   Gate gate;
@@ -52,7 +52,7 @@ int complain_of_no_tests(const std::string& program, const std::string& filter) 
   return complain(fmt::format("no test matches --filter {}; there are {}", filter, list));
 }
 
-int test_command(const Options& options) {
+int test_command(const TestOptions& options) {
   std::error_code ignored;
   const std::filesystem::path given(options.spec);
   const std::filesystem::path project = std::filesystem::is_directory(given) ? given : given.parent_path();
@@ -72,7 +72,7 @@ int test_command(const Options& options) {
 
 void add_test(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("test", "Build and run the project's own GoogleTests of its functions");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TestOptions>();
   command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
   command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command.flag("--debug", options->debug, "Build the tests for gdb");

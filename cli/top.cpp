@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct TopOptions {
   std::string which;
   bool once = false, lines = false;
 };
@@ -71,7 +71,7 @@ std::string table(const json& now, const json& before) {
   return text;
 }
 
-int top_command(const Options& options) {
+int top_command(const TopOptions& options) {
   std::optional<RunningController> watched = find_controller(options.which);
   if (!watched) return failed;
   json before;
@@ -98,7 +98,7 @@ int top_command(const Options& options) {
 
 void add_top(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("top", "Watch a controller that runs in real time");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TopOptions>();
   command.option("controller,--controller", options->which,
                  "Its system or its process; needed if several run");
   command.flag("--once", options->once, "Print one table and end");

@@ -26,19 +26,19 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct VerifyOptions {
   std::string spec = ".", json, trace, scenario, timeout = "60s", method = "any";
   std::vector<std::string> properties, without;
   bool states = false, explain = false;
 };
 
-std::atomic<bool> interrupt{false};
-void on_interrupt(int /*signal*/) { interrupt.store(true, std::memory_order_relaxed); }
+std::atomic<bool> searches_stopped{false};
+void stop_searches(int /*signal*/) { searches_stopped.store(true, std::memory_order_relaxed); }
 
 /// Ctrl-C ends the searches, not the command, while this lives.
 class Interruptible {
  public:
-  Interruptible() : before_(std::signal(SIGINT, on_interrupt)) {}
+  Interruptible() : before_(std::signal(SIGINT, stop_searches)) {}
   ~Interruptible() { std::signal(SIGINT, before_); }
   Interruptible(const Interruptible&) = delete;
   Interruptible& operator=(const Interruptible&) = delete;
@@ -91,13 +91,13 @@ std::string shown(const explore::Progress& progress) {
                      progress.markings_per_second / 1e6, progress.bytes >> 20U);
 }
 
-verify::Report judge(const Judged& judged, const Options& options, Step& step) {
+verify::Report judge(const Judged& judged, const VerifyOptions& options, Step& step) {
   verify::ProveOptions how;
   how.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
   if (options.method != "any") how.method = options.method;
   how.only = options.properties;
   for (const std::string& rule : options.without) static_cast<void>(reduce::switch_off(how.rules, rule));
-  how.stop = &interrupt;
+  how.stop = &searches_stopped;
   how.progress = [&](const std::string& property, const explore::Progress& progress) {
     step.progress(property + ": " + shown(progress));
   };
@@ -117,7 +117,7 @@ void print_result(const Judged& judged, const verify::PropertyResult& property, 
 }
 
 /// The run of the first violation that has one; a warning's only if there is no other.
-int write_scenario(const Judged& judged, const verify::Report& report, const Options& options) {
+int write_scenario(const Judged& judged, const verify::Report& report, const VerifyOptions& options) {
   const std::string& file = options.scenario;
   const verify::PropertyResult* chosen = nullptr;
   for (const verify::PropertyResult& property : report.properties)
@@ -134,10 +134,10 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Opt
   return ok;
 }
 
-json count_states(const Judged& judged, const Options& options, Step& step) {
+json count_states(const Judged& judged, const VerifyOptions& options, Step& step) {
   explore::Limits limits;
   limits.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
-  limits.stop = &interrupt;
+  limits.stop = &searches_stopped;
   limits.progress = [&](const explore::Progress& progress) { step.progress("states: " + shown(progress)); };
   const net::Net net = verify::possible_part(verify::abstract_net(judged.net()));
   const explore::Count count = explore::count(explore::PtNet(net), limits);
@@ -169,7 +169,7 @@ int exit_code_of(const verify::Report& report) {
   return unknown;
 }
 
-int verify_command(const Options& options) {
+int verify_command(const VerifyOptions& options) {
   const std::optional<Judged> judged = load(options.spec);
   if (!judged) return refused();
   if (!known(options.properties, judged->properties())) return usage;
@@ -205,7 +205,7 @@ int verify_command(const Options& options) {
 void add_verify(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("verify", "Prove that nothing can go wrong in the net, or show the run in which it does");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyOptions>();
   command.option("spec", options->spec, "Specification, the folder of its spec.yaml, or a PNML file")
       .shows_default();
   command.option("--property", options->properties, "Only this property; may be given several times");

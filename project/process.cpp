@@ -135,7 +135,7 @@ class Output {
   /// false: there is no more.
   [[nodiscard]] bool read_on(const std::function<void(std::string_view)>& each_line) {
     std::array<char, 4096> buffer{};
-    const ssize_t count = read(descriptor_, buffer.data(), buffer.size());
+    const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) return true;
     if (count <= 0) return false;
     text_.append(buffer.data(), static_cast<std::size_t>(count));

@@ -27,7 +27,7 @@ struct Judgement {
 };
 
 /// The events of one subsystem, or of the upper layers, in their order.
-struct Lane {
+struct Player {
   std::deque<const Event*> firings;  ///< still to be played
   std::uint32_t next_sequence = 0;
   bool begun = true;  ///< `next_sequence` is known
@@ -65,7 +65,7 @@ class Play {
     auto marking = net_.read_marking(entry, wrong);
     if (!marking) return illegal(wrong);
     net_.start_from(std::move(*marking));
-    for (Lane& lane : lanes_) lane = {.firings = {}, .begun = false};
+    for (Player& lane : lanes_) lane = {.firings = {}, .begun = false};
     return {};
   }
 
@@ -82,13 +82,13 @@ class Play {
         seconds_text(entry.event.time_ns), net_.place_name(place), (*marking)[place]));
   }
 
-  [[nodiscard]] Lane& lane_of(const Event& event) {
+  [[nodiscard]] Player& lane_of(const Event& event) {
     return event.instance() == system_instance ? lanes_.back() : lanes_[event.instance()];
   }
 
   enum class Sequence : std::uint8_t { next, gap, back };
   /// Keeps count of the events of a lane.
-  static Sequence follow(Lane& lane, const Event& event) {
+  static Sequence follow(Player& lane, const Event& event) {
     const bool begun = std::exchange(lane.begun, true);
     const std::uint32_t due = std::exchange(lane.next_sequence, event.sequence + 1);
     if (!begun || event.sequence == due) return Sequence::next;
@@ -116,7 +116,7 @@ class Play {
 
   const Recording& recording_;
   NetPlay& net_;
-  std::vector<Lane> lanes_;  // per instance; the last of the upper layers
+  std::vector<Player> lanes_;  // per instance; the last of the upper layers
 };
 
 // ------------------------------------------------------------------------------------------- simulated clock
@@ -177,7 +177,7 @@ class AnyOrder : Play {
 
  private:
   Outcome take(const Event& event) {
-    Lane& lane = lane_of(event);
+    Player& lane = lane_of(event);
     const std::uint32_t due = lane.next_sequence;
     const Sequence sequence = follow(lane, event);
     if (sequence == Sequence::back) return illegal(back_at(event));
@@ -227,7 +227,7 @@ class AnyOrder : Play {
   }
 
   /// As far as it goes. Whoever waits for a channel that it touches is ready again.
-  Outcome play_lane(Lane& lane, bool& moved, std::vector<std::vector<std::size_t>>& waiting,
+  Outcome play_lane(Player& lane, bool& moved, std::vector<std::vector<std::size_t>>& waiting,
                     std::deque<std::size_t>& ready) {
     while (!lane.firings.empty() && net_.obstacle(*lane.firings.front()).kind == Obstacle::Kind::no) {
       const Event& event = *lane.firings.front();
@@ -245,7 +245,7 @@ class AnyOrder : Play {
   /// Behind a marking the first of each channel is the lowest that is there.
   void find_versions() {
     std::vector<std::uint32_t> lowest(net_.channels(), 0);  // 0: none
-    for (const Lane& lane : lanes_)
+    for (const Player& lane : lanes_)
       for (const Event* event : lane.firings) {
         const std::uint32_t channel = net_.channel_of(*event);
         if (channel == NetPlay::none || net_.knows_version(channel) || event->version == 0) continue;
@@ -260,7 +260,7 @@ class AnyOrder : Play {
   Outcome judge_rest(bool is_cut) {
     const Event *first = nullptr, *never = nullptr;
     bool waits_for_missing = false;
-    for (const Lane& lane : lanes_) {
+    for (const Player& lane : lanes_) {
       if (lane.firings.empty()) continue;
       const Event* event = lane.firings.front();
       const Obstacle obstacle = net_.obstacle(*event);
@@ -282,7 +282,7 @@ class AnyOrder : Play {
 
   /// Another firing of its channel, with that version, has not been played either.
   [[nodiscard]] bool is_left(const Event& firing, std::uint32_t version) const {
-    return std::ranges::any_of(lanes_, [&](const Lane& lane) {
+    return std::ranges::any_of(lanes_, [&](const Player& lane) {
       return std::ranges::any_of(lane.firings, [&](const Event* event) {
         return net_.channel_of(*event) == net_.channel_of(firing) && event->version == version;
       });

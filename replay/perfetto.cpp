@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 
 /// Where a subsystem is drawn: agents are processes, numbered from 1.
-struct Row {
+struct TraceRow {
   std::uint32_t process = 0, thread = 0;
 };
 
@@ -54,19 +54,19 @@ class Writing {
       const auto number = static_cast<std::uint32_t>(processes.size() + 1);
       const auto [process, added] = processes.emplace(agent, number);
       if (added) name("process_name", {process->second, 0}, agent);
-      const Row row{process->second, static_cast<std::uint32_t>(index + 1)};
+      const TraceRow row{process->second, static_cast<std::uint32_t>(index + 1)};
       name("thread_name", row, path.substr(path.rfind('.') + 1));
       rows_.emplace(path, row);
     }
     name("process_name", {0, 0}, recording_.system);
   }
 
-  void name(const char* what, Row row, const std::string& text) {
+  void name(const char* what, TraceRow row, const std::string& text) {
     write(
         {{"ph", "M"}, {"name", what}, {"pid", row.process}, {"tid", row.thread}, {"args", {{"name", text}}}});
   }
 
-  void slice(const std::string& name, const char* category, Row row, double from_us, double to_us) {
+  void slice(const std::string& name, const char* category, TraceRow row, double from_us, double to_us) {
     write({{"ph", "X"},
            {"name", name},
            {"cat", category},
@@ -105,7 +105,7 @@ class Writing {
       if (!event.has_text() || event.kind() == Event::Kind::value || event.kind() == Event::Kind::marking)
         continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
-      const Row row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : Row{};
+      const TraceRow row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : TraceRow{};
       write({{"ph", "i"},
              {"name", text},
              {"cat", category_of(event.kind())},
@@ -125,7 +125,7 @@ class Writing {
       const double at_us = static_cast<double>(entry.event.time_ns) * 1e-3;
       const std::string agent = change->buffer.path.substr(0, change->buffer.path.find('.'));
       const std::string name = change->buffer.path.substr(agent.size() + 1);
-      const Row row = rows_.at(recording_.instances[change->buffer.instance]);
+      const TraceRow row = rows_.at(recording_.instances[change->buffer.instance]);
       std::size_t shown = 0;
       static_cast<void>(
           change->layout->visit(change->bytes, [&](const std::string& path, const auto& scalar) {
@@ -143,7 +143,7 @@ class Writing {
 
   const Recording& recording_;
   std::ostream& to_;
-  std::map<std::string, Row> rows_;
+  std::map<std::string, TraceRow> rows_;
   bool first_ = true;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "report/colours.hpp"
 #include "report/picture.hpp"
@@ -15,12 +14,6 @@ namespace {
 
 constexpr double width = 1000, left = 64, right = 12;
 constexpr std::size_t columns = 900;
-
-/// Appends formatted text.
-template <class... Args>
-void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(to), format, std::forward<Args>(args)...);
-}
 
 /// 1, 2 or 5 times a power of ten, so that `range` has at most `most` steps.
 double tick_step(double range, double most) {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -21,11 +20,6 @@ namespace tessera::report {
 namespace {
 
 constexpr std::size_t most_messages = 40, most_lanes = 24, most_rows = 40;
-
-template <class... Args>
-void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(to), format, std::forward<Args>(args)...);
-}
 
 void put_figure(std::string& html, const std::string& value, std::string_view name) {
   put(html, R"(<div class="figure"><b>{}</b><span>{}</span></div>)", value, name);

@@ -1,10 +1,20 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tessera::report {
+
+/// Appends formatted text.
+template <class... Args>
+void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(to), format, std::forward<Args>(args)...);
+}
 
 /// For the text of an element or an attribute. Control characters, which HTML forbids, marks that turn the
 /// direction of writing, and bytes that are no UTF-8 become U+FFFD.

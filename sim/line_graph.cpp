@@ -8,8 +8,6 @@
 namespace tessera::sim {
 namespace {
 
-double distance(const Point& a, const Point& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
 /// Line pixels next to `pixel`; diagonal ones only where no line pixel lies between.
 std::vector<std::size_t> linked(const Bitmap& b, std::size_t pixel) {
   const auto w = static_cast<std::size_t>(b.width);

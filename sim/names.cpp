@@ -6,8 +6,8 @@
 namespace tessera::sim {
 namespace {
 
-/// Levenshtein's distance.
-std::size_t distance(std::string_view a, std::string_view b) {
+/// Levenshtein's edit_distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -29,8 +29,8 @@ std::string unknown_name(std::string_view what, std::string_view name,
   std::string text = "no " + std::string(what) + " '" + std::string(name) + "'";
   if (known.empty()) return text + "; there is none at all";
   const auto nearest =
-      std::ranges::min_element(known, {}, [&](const std::string& k) { return distance(name, k); });
-  if (distance(name, *nearest) <= name.size() / 3 + 1) text += " (did you mean '" + *nearest + "'?)";
+      std::ranges::min_element(known, {}, [&](const std::string& k) { return edit_distance(name, k); });
+  if (edit_distance(name, *nearest) <= name.size() / 3 + 1) text += " (did you mean '" + *nearest + "'?)";
   text += known.size() == 1 ? "; there is " : "; there are ";
   for (const std::string& k : known) text += k + ", ";
   text.resize(text.size() - 2);

@@ -8,8 +8,6 @@ namespace {
 
 constexpr double stretch_m = 0.4;  // a robot and what it sees ahead
 
-double distance(Point a, Point b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
-
 /// The point a stretch further along the line; nullopt past the end of an open one.
 std::optional<std::size_t> stretch_from(const Skeleton& line, std::size_t first) {
   double way = 0;

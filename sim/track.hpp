@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,6 +16,9 @@ namespace tessera::sim {
 struct Point {
   double x_m = 0, y_m = 0;
 };
+[[nodiscard]] inline double distance(const Point& a, const Point& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
 
 /// A floor picture: dark is line. Outside it the floor is white.
 class Track {

@@ -12,11 +12,11 @@ namespace tessera {
 namespace {
 
 constexpr double patience_s = 1;
-constexpr auto between_looks = std::chrono::milliseconds(100);
+constexpr auto between_looks_at_calls = std::chrono::milliseconds(100);
 
 /// Beside the console, which may be silent or wait for the thread that is watched; a terminal that takes
 /// nothing is not waited for.
-void say(const std::string& line) {
+void write_to_terminal(const std::string& line) {
   pollfd terminal{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (poll(&terminal, 1, 100) <= 0) return;
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
@@ -40,7 +40,7 @@ CallWatch::~CallWatch() {
 void CallWatch::watch() {
   Look last;
   std::unique_lock lock(mutex_);
-  while (!over_.wait_for(lock, between_looks, [this] { return is_over_; })) look(last);
+  while (!over_.wait_for(lock, between_looks_at_calls, [this] { return is_over_; })) look(last);
 }
 
 void CallWatch::look(Look& last) {
@@ -57,8 +57,8 @@ void CallWatch::look(Look& last) {
   const double lasts = now - last.began_s;
   if (lasts < patience_s || lasts < 2 * last.said_s) return;
   last.said_s = lasts;
-  say(fmt::format("tessera: warning: {} has not returned for {:.1f} s; the run waits for it\n", function(),
-                  lasts));
+  write_to_terminal(fmt::format("tessera: warning: {} has not returned for {:.1f} s; the run waits for it\n",
+                                function(), lasts));
 }
 
 /// From here the process ends, unless the turn has ended after all.
@@ -69,14 +69,15 @@ void CallWatch::give_up(const Look& last) {
   for (const auto& executor : assembly_.executors)
     executor->effectors().make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out);
   assembly_.control.abandon();
-  std::this_thread::sleep_for(between_looks);  // a line that was being logged is in the recording now
+  std::this_thread::sleep_for(
+      between_looks_at_calls);  // a line that was being logged is in the recording now
   const std::string text = fmt::format("{}; {} has not returned for {:.1f} s", StopSignals::name(signal),
                                        function(), now_s() - last.began_s);
   if (assembly_.recorder != nullptr) {
     assembly_.recorder->system_lane()->text(Event::Kind::stop, now_.load(std::memory_order_relaxed), 1, text);
     assembly_.recorder->flush();
   }
-  say(fmt::format("tessera: error: ended by {}\n", text));
+  write_to_terminal(fmt::format("tessera: error: ended by {}\n", text));
   _exit(128 + signal);
 }
 

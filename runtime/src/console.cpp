@@ -21,7 +21,7 @@ namespace tessera::console {
 namespace {
 
 constexpr std::size_t longest_line = 1000, most_lines = 256, most_with_progress = 8;
-constexpr std::int64_t patience_ns = 500'000'000;
+constexpr std::int64_t terminal_patience_ns = 500'000'000;
 constexpr int look_up_ms = 50;
 
 std::atomic<bool> progress_shown{false}, silent{false};
@@ -51,7 +51,7 @@ class Writer {
     if (!runs_.exchange(false)) return;
     stage_ = Stage::ending;
     wakes_.wake();
-    const std::int64_t until_ns = monotonic_ns() + 2 * patience_ns;
+    const std::int64_t until_ns = monotonic_ns() + 2 * terminal_patience_ns;
     while (stage_ != Stage::none && monotonic_ns() < until_ns) pause();
     if (!thread_.joinable()) return;
     if (stage_ == Stage::none)
@@ -63,7 +63,7 @@ class Writer {
   [[nodiscard]] std::uint64_t settle() {
     std::uint64_t last = ring_.size();
     for (std::int64_t since_ns = monotonic_ns();
-         runs_ && ring_.size() > 0 && monotonic_ns() - since_ns < patience_ns; pause()) {
+         runs_ && ring_.size() > 0 && monotonic_ns() - since_ns < terminal_patience_ns; pause()) {
       if (ring_.size() != last) since_ns = monotonic_ns();
       last = ring_.size();
     }
@@ -140,7 +140,7 @@ class Writer {
       const std::int64_t now_ns = monotonic_ns();
       if (line.size() != before || stage_ != Stage::ending) stuck_ns = 0;
       if (stuck_ns == 0) stuck_ns = now_ns;
-      if (given_up_ || now_ns - stuck_ns > patience_ns) {
+      if (given_up_ || now_ns - stuck_ns > terminal_patience_ns) {
         given_up_ = true;
         return false;
       }

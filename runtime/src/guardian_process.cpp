@@ -30,9 +30,9 @@ namespace {
 
 using Stage = Guardian::Shared::Stage;
 
-constexpr int look_every_ms = 50;
+constexpr int guardian_looks_every_ms = 50;
 constexpr int dies_within_ms = 50;  // after it has said that it dies; a core dump takes longer
-constexpr std::int64_t between_attempts_ns = 5'000'000;
+constexpr std::int64_t between_guardian_attempts_ns = 5'000'000;
 
 /// A driver of the guardian's own, and the safe values of the buffers that it serves.
 struct Patient {
@@ -49,7 +49,7 @@ struct Subject {
   Bindings bindings;
 };
 
-void say(const std::string& text) {
+void say_as_guardian(const std::string& text) {
   const std::string line = fmt::format("{}tessera guardian: {}\n", writes_to_journal() ? "<3>" : "", text);
   pollfd target{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (poll(&target, 1, 0) != 1 || (target.revents & POLLOUT) == 0) return;
@@ -76,7 +76,7 @@ void say(const std::string& text) {
       if (treat(patient)) _exit(0);
     } catch (...) {  // tried again
     }
-    const timespec pause{.tv_sec = 0, .tv_nsec = between_attempts_ns};
+    const timespec pause{.tv_sec = 0, .tv_nsec = between_guardian_attempts_ns};
     nanosleep(&pause, nullptr);
   }
   _exit(1);
@@ -95,7 +95,7 @@ class GuardianProcess {
   /// Until the controller has ended, or does not need it any more.
   void watch() {
     for (;;) {
-      const bool ended = controller_.await_end(news_, look_every_ms);
+      const bool ended = controller_.await_end(news_, guardian_looks_every_ms);
       std::uint64_t count = 0;
       [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
       if (shared_.stage.load() == Stage::dismissed) return;
@@ -148,7 +148,7 @@ class GuardianProcess {
   [[nodiscard]] bool stands_still() {
     constexpr auto enough = static_cast<unsigned>(
         std::chrono::duration_cast<std::chrono::milliseconds>(Guardian::stands_still_after).count() /
-        look_every_ms);
+        guardian_looks_every_ms);
     const std::uint64_t beats = shared_.beats.load(std::memory_order_relaxed);
     if (shared_.stage.load() != Stage::beating || beats != beats_) {
       beats_ = beats;
@@ -173,7 +173,7 @@ class GuardianProcess {
   }
 
   void kill_controller() {
-    say("the controller stands still, and is killed");
+    say_as_guardian("the controller stands still, and is killed");
     kill(pid_, SIGKILL);
     outlive();
   }
@@ -225,9 +225,10 @@ class GuardianProcess {
 
   void report(const std::string& why, const std::string& refused, double took_ms) const {
     if (refused.empty())
-      say(fmt::format("{}; the devices have got the safe command, after {:.1f} ms", why, took_ms));
+      say_as_guardian(
+          fmt::format("{}; the devices have got the safe command, after {:.1f} ms", why, took_ms));
     else
-      say(fmt::format("{}; NOT SAFE, since they do not take the safe command: {}", why, refused));
+      say_as_guardian(fmt::format("{}; NOT SAFE, since they do not take the safe command: {}", why, refused));
   }
 
   Guardian::Shared& shared_;

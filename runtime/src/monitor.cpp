@@ -31,11 +31,11 @@ namespace {
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
 constexpr std::size_t most_clients = 8, longest_command = std::size_t{1} << 20U,
                       most_waiting = std::size_t{16} << 20U;
-constexpr std::int64_t patience_ns = 5'000'000'000;
+constexpr std::int64_t client_patience_ns = 5'000'000'000;
 /// Of a large system a line takes long to write; the thread may take this part of a processor.
 constexpr std::int64_t rest_per_work = 50;
 
-[[nodiscard]] double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+[[nodiscard]] double seconds_of(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 /// The folder, which must be ours alone: somebody else's could be a trap.
 [[nodiscard]] bool own_folder(const std::string& folder, std::string& failure) {
@@ -359,7 +359,7 @@ void Monitor::send_to_all() {
   if (remote_ != nullptr && !clients_.empty()) remote_->show_recording();
   for (Client& client : clients_) {
     if (!client.waiting.empty()) {
-      client.gone = client.gone || monotonic_ns() - client.took_ns > patience_ns;
+      client.gone = client.gone || monotonic_ns() - client.took_ns > client_patience_ns;
       client.missed_a_line = true;
       continue;
     }
@@ -388,10 +388,10 @@ std::string Monitor::snapshot() const {
              {"firings", load(gauges.firings)},
              {"overruns", load(gauges.overruns)},
              {"errors", load(gauges.errors)},
-             {"period_s", seconds(tables.period.count())},
-             {"called_at_s", seconds(load(gauges.called_at_ns))},
-             {"call_s", seconds(load(gauges.call_ns))},
-             {"longest_call_s", seconds(load(gauges.longest_call_ns))}};
+             {"period_s", seconds_of(tables.period.count())},
+             {"called_at_s", seconds_of(load(gauges.called_at_ns))},
+             {"call_s", seconds_of(load(gauges.call_ns))},
+             {"longest_call_s", seconds_of(load(gauges.longest_call_ns))}};
     if (called) one["behaviour"] = tables.net->behaviours[load(gauges.behaviour)].name;
     subsystems.push_back(std::move(one));
   }
@@ -403,10 +403,12 @@ std::string Monitor::snapshot() const {
       if ((marking >> place & 1U) != 0) marked.push_back(channel.places[place].name);
     channels.push_back({{"name", channel.name}, {"marked", std::move(marked)}});
   }
-  json all{
-      {"system", assembly_.system.name},       {"pid", getpid()},
-      {"net_hash", assembly_.system.net_hash}, {"time_s", seconds(clock_.now().time_since_epoch().count())},
-      {"subsystems", std::move(subsystems)},   {"channels", std::move(channels)}};
+  json all{{"system", assembly_.system.name},
+           {"pid", getpid()},
+           {"net_hash", assembly_.system.net_hash},
+           {"time_s", seconds_of(clock_.now().time_since_epoch().count())},
+           {"subsystems", std::move(subsystems)},
+           {"channels", std::move(channels)}};
   if (assembly_.control.emergency()) all["emergency"] = assembly_.control.emergency_reason();
   if (!recording_path_.empty()) all["recording"] = recording_path_;
   if (remote_ == nullptr) return text_of(all);

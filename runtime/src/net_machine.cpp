@@ -14,8 +14,6 @@ namespace tessera {
 
 using firing::after;
 using firing::suffices;
-using Outcome = NetExecutor::Outcome;
-using End = NetExecutor::End;
 
 NetMachine::NetMachine(ExecutableNet net, NetExecutor::Options options, FiringProgram program)
     : net_(std::move(net)), options_(std::move(options)), program_(std::move(program)) {
@@ -67,7 +65,7 @@ void NetMachine::mark_initially() {
   }
 }
 
-Outcome NetMachine::run(std::uint64_t most) {
+NetExecutor::Outcome NetMachine::run(std::uint64_t most) {
   return fair_.empty() ? run_with(ranked_.front(), most) : run_with(fair_.front(), most);
 }
 
@@ -175,29 +173,30 @@ template <class Turns>
 // -------------------------------------------------------------------------------------------- the run
 
 template <class Turns>
-Outcome NetMachine::run_with(Turns& turns, std::uint64_t most) {
-  Outcome outcome;
+NetExecutor::Outcome NetMachine::run_with(Turns& turns, std::uint64_t most) {
+  NetExecutor::Outcome outcome;
   faulted_ = false;
-  const auto ended = [&](End end) {
-    if (end == End::stopped || faulted_) halt_workers(turns);
-    outcome.end = faulted_ ? End::fault : end;
+  const auto ended = [&](NetExecutor::End end) {
+    if (end == NetExecutor::End::stopped || faulted_) halt_workers(turns);
+    outcome.end = faulted_ ? NetExecutor::End::fault : end;
     if (faulted_) outcome.fault = std::move(fault_);
     return outcome;
   };
   if ((attention_.load(std::memory_order_relaxed) & stop_asked) == 0) start_unstarted(turns);
   for (;;) {
-    if (faulted_) return ended(End::fault);
+    if (faulted_) return ended(NetExecutor::End::fault);
     const std::uint32_t asked = attention_.exchange(0, std::memory_order_acquire);
     if ((asked & reconsider_asked) != 0) reconsider_conditions(turns);
     if ((asked & operation_finished) != 0) collect_finished(turns);
-    if ((asked & stop_asked) != 0) return ended(End::stopped);
+    if ((asked & stop_asked) != 0) return ended(NetExecutor::End::stopped);
     if (faulted_) continue;
-    if (outcome.firings == most) return ended(End::limit);
+    if (outcome.firings == most) return ended(NetExecutor::End::limit);
     outcome.firings += options_.on_firing ? fire_while_undisturbed<true>(turns, most - outcome.firings)
                                           : fire_while_undisturbed<false>(turns, most - outcome.firings);
     if (faulted_ || attention_.load(std::memory_order_relaxed) != 0 || !turns.empty()) continue;
     if (outcome.firings == most) continue;
-    if (submitted_ == 0) return ended(some_condition_is_false() ? End::blocked : End::dead);
+    if (submitted_ == 0)
+      return ended(some_condition_is_false() ? NetExecutor::End::blocked : NetExecutor::End::dead);
     sleep_until_attention();
   }
 }

@@ -17,7 +17,7 @@
 namespace tessera {
 namespace {
 
-constexpr int look_every_ms = 10;  // where the kernel has no pidfd
+constexpr int poll_every_ms = 10;  // where the kernel has no pidfd
 
 }  // namespace
 
@@ -34,7 +34,7 @@ bool OtherProcess::await_end(int descriptor, int limit_ms) const {
     if (handle_ < 0 && (process_ <= 0 || (kill(process_, 0) != 0 && errno == ESRCH))) return true;
     const std::int64_t left_ms = (until_ns - monotonic_ns() + 999'999) / 1'000'000;
     int wait_ms = limit_ms < 0 ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0));
-    if (handle_ < 0) wait_ms = wait_ms < 0 ? look_every_ms : std::min(wait_ms, look_every_ms);
+    if (handle_ < 0) wait_ms = wait_ms < 0 ? poll_every_ms : std::min(wait_ms, poll_every_ms);
     std::array<pollfd, 2> sources{pollfd{.fd = handle_, .events = POLLIN, .revents = 0},
                                   pollfd{.fd = descriptor, .events = POLLIN, .revents = 0}};
     const int ready = poll(sources.data(), sources.size(), wait_ms);

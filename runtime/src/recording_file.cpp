@@ -18,7 +18,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t patience_ns = 2'000'000'000;  // at the end, with a pipe that nobody reads
+constexpr std::int64_t pipe_patience_ns = 2'000'000'000;  // at the end, with a pipe that nobody reads
 constexpr int look_up_ms = 50;
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
@@ -190,7 +190,7 @@ void RecordingFile::await_room(std::int64_t& stuck_ns) {
   if (!hurry_.load(std::memory_order_relaxed) && StopSignals::pending() == 0) return;
   const std::int64_t now_ns = monotonic_ns();
   if (stuck_ns == 0) stuck_ns = now_ns;
-  if (now_ns - stuck_ns > patience_ns) failure_ = "nobody reads it";
+  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = "nobody reads it";
 }
 
 }  // namespace tessera

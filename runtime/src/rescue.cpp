@@ -11,7 +11,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t between_attempts_ns = 2'000'000;
+constexpr std::int64_t between_rescue_attempts_ns = 2'000'000;
 
 /// Of the thread of a Rescuer: where it goes on when a driver crashes.
 struct WayOut {
@@ -86,7 +86,7 @@ void Rescuer::make_all_safe() {
   static_cast<void>(try_all(/*dead_too=*/false));
   bool all = try_all(/*dead_too=*/true);
   while (!all && monotonic_ns() < until_ns_.load(std::memory_order_relaxed)) {
-    const timespec pause{.tv_sec = 0, .tv_nsec = between_attempts_ns};
+    const timespec pause{.tv_sec = 0, .tv_nsec = between_rescue_attempts_ns};
     nanosleep(&pause, nullptr);
     all = try_all(/*dead_too=*/true);
   }

@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t progress_period_ns = 200'000'000;
+constexpr std::int64_t schedules_progress_period_ns = 200'000'000;
 
 /// Keeps the terminal to itself while it lives.
 class Quiet {
@@ -61,7 +61,7 @@ std::optional<ScheduleReport> try_schedules(const System& system, RunOptions opt
     report.wall_s = seconds_since(start_ns);
     if (report.interrupted == 0) ++report.tried;
     if (summary->failed) report.failed = {options.seed, std::move(*summary)};
-    if (!progress || monotonic_ns() - shown_ns < progress_period_ns) continue;
+    if (!progress || monotonic_ns() - shown_ns < schedules_progress_period_ns) continue;
     shown_ns = monotonic_ns();
     show_progress(report);
   }

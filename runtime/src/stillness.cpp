@@ -8,7 +8,7 @@
 namespace tessera {
 namespace {
 
-constexpr Duration between_looks = std::chrono::milliseconds(250);
+constexpr Duration between_looks_for_stillness = std::chrono::milliseconds(250);
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::string why_nothing_happens(const Assembly& assembly) {
 
 bool Stillness::look(Time now, const WakeWord* words, const std::function<bool(std::uint32_t)>& gone) {
   if (now < next_) return false;
-  next_ = now + between_looks;
+  next_ = now + between_looks_for_stillness;
   bool still = true, any = false;
   for (std::uint32_t thread = 0; thread < rests_.size(); ++thread) {
     const std::uint64_t rest = gone(thread) ? 0 : words[thread].rest();

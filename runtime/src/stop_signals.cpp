@@ -17,7 +17,7 @@ std::atomic<std::int64_t> caught_at_ns{0};
 std::atomic<bool> suspension{false};
 std::atomic<int> wake_descriptor{-1};
 std::atomic<int> depth{0};
-constexpr std::int64_t patience_ns = 1'000'000'000;
+constexpr std::int64_t second_signal_after_ns = 1'000'000'000;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);  // what a signal handler may use
 
@@ -38,7 +38,7 @@ void note_stop(int signal) {
   int none = 0;
   if (caught.compare_exchange_strong(none, signal)) {
     caught_at_ns = now_ns;
-  } else if (is_deliberate(signal) && now_ns - caught_at_ns > patience_ns) {
+  } else if (is_deliberate(signal) && now_ns - caught_at_ns > second_signal_after_ns) {
     std::signal(signal, SIG_DFL);
     raise(signal);
   }

@@ -26,10 +26,10 @@ bool holds(const std::vector<Field>& fields, std::string_view name) {
 }
 
 /// Reads the behaviours of one subsystem; they may name one another before they come.
-class Reader {
+class BehaviourReader {
  public:
-  Reader(const std::vector<Entry>& entries, const std::vector<Field>& inputs,
-         const std::vector<Field>& outputs, Diagnostics& out)
+  BehaviourReader(const std::vector<Entry>& entries, const std::vector<Field>& inputs,
+                  const std::vector<Field>& outputs, Diagnostics& out)
       : entries_(entries), inputs_(inputs), outputs_(outputs), out_(out) {
     for (Index i = 0; i < entries_.size(); ++i) {
       check(entries_[i]);
@@ -192,7 +192,7 @@ std::vector<Behaviour> read_behaviours(const Entry& entry, const std::vector<Fie
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");
   }
-  return Reader(entries, inputs, outputs, out).read();
+  return BehaviourReader(entries, inputs, outputs, out).read();
 }
 
 }  // namespace tessera::spec

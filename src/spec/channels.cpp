@@ -29,9 +29,9 @@ bool is_usual(SubsystemKind from, SubsystemKind to, bool same_agent) {
          (from == SubsystemKind::control && to == SubsystemKind::effector);
 }
 
-class Reader {
+class ChannelReader {
  public:
-  Reader(const Types& types, const Groups& groups, Models& models, Model& model, Diagnostics& out)
+  ChannelReader(const Types& types, const Groups& groups, Models& models, Model& model, Diagnostics& out)
       : types_(types), lookup_(model, groups), models_(models), model_(model), out_(out) {}
 
   void read(const Entry& section) {
@@ -293,7 +293,7 @@ class Reader {
 Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups, Models& models,
                       Model& model, Diagnostics& out) {
   if (entry == nullptr) return {};
-  Reader reader(types, groups, models, model, out);
+  ChannelReader reader(types, groups, models, model, out);
   reader.read(*entry);
   return reader.take_excuses();
 }

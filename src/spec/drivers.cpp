@@ -25,16 +25,16 @@ struct DriverKind {
   std::string_view target;
 };
 
-constexpr std::array kinds = {DriverKind{"cpp", true, true, false, "a C++ class"},
-                              DriverKind{"reflectance", true, false, true, "a site of the world"},
-                              DriverKind{"velocity", false, true, true, "an actuator of the world"}};
+constexpr std::array driver_kinds = {DriverKind{"cpp", true, true, false, "a C++ class"},
+                                     DriverKind{"reflectance", true, false, true, "a site of the world"},
+                                     DriverKind{"velocity", false, true, true, "an actuator of the world"}};
 
 constexpr const char* driver_hint = "for example { reflectance: eye_left, noise: 0.01 }";
 
 const DriverKind* find_kind(std::string_view name) {
-  const auto* const found =
-      std::find_if(kinds.begin(), kinds.end(), [name](const DriverKind& one) { return one.name == name; });
-  return found == kinds.end() ? nullptr : found;
+  const auto* const found = std::find_if(driver_kinds.begin(), driver_kinds.end(),
+                                         [name](const DriverKind& one) { return one.name == name; });
+  return found == driver_kinds.end() ? nullptr : found;
 }
 
 bool is_plain_float(const Type& type) {
@@ -52,9 +52,9 @@ bool is_class_name(std::string_view text) {
   }
 }
 
-class Reader {
+class DriverReader {
  public:
-  Reader(Devices devices, const Model& model, const Groups& groups, Diagnostics& out)
+  DriverReader(Devices devices, const Model& model, const Groups& groups, Diagnostics& out)
       : devices_(devices), lookup_(model, groups), out_(out) {}
 
   std::vector<Driver> read(const Entry& section) {
@@ -132,7 +132,7 @@ class Reader {
       return;
     }
     std::vector<std::string> names;
-    for (const DriverKind& kind : kinds) names.emplace_back(kind.name);
+    for (const DriverKind& kind : driver_kinds) names.emplace_back(kind.name);
     const std::string guess = diagnostics::did_you_mean(stranger->key, names);
     out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
                guess.empty() ? "there are cpp, reflectance and velocity" : guess);
@@ -225,7 +225,7 @@ class Reader {
 
 std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
                                  const Groups& groups, Diagnostics& out) {
-  return entry == nullptr ? std::vector<Driver>() : Reader(devices, model, groups, out).read(*entry);
+  return entry == nullptr ? std::vector<Driver>() : DriverReader(devices, model, groups, out).read(*entry);
 }
 
 }  // namespace tessera::spec

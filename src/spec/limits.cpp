@@ -25,9 +25,9 @@ struct Target {
   const Node* safe = nullptr;  ///< nullptr: nothing is given, which is zero
 };
 
-class Reader {
+class LimitReader {
  public:
-  Reader(const Entry* safe, const std::vector<Field>& real, const Types& types, Diagnostics& out)
+  LimitReader(const Entry* safe, const std::vector<Field>& real, const Types& types, Diagnostics& out)
       : safe_(safe), real_(real), types_(types), out_(out) {}
 
   std::vector<Limit> read(const Entry& section) {
@@ -193,7 +193,7 @@ class Reader {
 
 std::vector<Limit> read_limits(const Entry* limits, const Entry* safe, const std::vector<Field>& real,
                                const Types& types, Diagnostics& out) {
-  return limits == nullptr ? std::vector<Limit>() : Reader(safe, real, types, out).read(*limits);
+  return limits == nullptr ? std::vector<Limit>() : LimitReader(safe, real, types, out).read(*limits);
 }
 
 }  // namespace tessera::spec

@@ -10,14 +10,13 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::quoted;
-using Place = ModelSide::Place;
 using Transition = ModelSide::Transition;
 
 constexpr const char* transition_hint = "write NAME: { from: [in, empty], to: [work] }";
 
-class Reader {
+class ModelSideReader {
  public:
-  Reader(const Entry& entry, const CommunicationModel& around, Diagnostics& out)
+  ModelSideReader(const Entry& entry, const CommunicationModel& around, Diagnostics& out)
       : entry_(entry), around_(around), out_(out), sends_(entry.key == "send") {}
 
   ModelSide result() {
@@ -60,7 +59,7 @@ class Reader {
                        quoted(side_.places[place].name),
                    "every side begins in 'in' and ends in 'out'");
     const bool works = std::ranges::any_of(
-        side_.places, [](const Place& place) { return place.slot != ModelSide::no_slot; });
+        side_.places, [](const ModelSide::Place& place) { return place.slot != ModelSide::no_slot; });
     if (!works && !misplaced_)
       out_.error("E103", section.span,
                  "no place of " + quoted(entry_.key) + " of model " + quoted(around_.name) + " has " +
@@ -162,7 +161,7 @@ class Reader {
   }
 
   [[nodiscard]] std::uint32_t place_named(const std::string& name) const {
-    const auto found = std::ranges::find(side_.places, name, &Place::name);
+    const auto found = std::ranges::find(side_.places, name, &ModelSide::Place::name);
     return found == side_.places.end() ? none : static_cast<std::uint32_t>(found - side_.places.begin());
   }
   [[nodiscard]] std::uint32_t shared_named(const std::string& name) const {
@@ -172,7 +171,7 @@ class Reader {
 
   void complain_about(const Node& text) {
     std::vector<std::string> known;
-    for (const Place& place : side_.places) known.push_back(place.name);
+    for (const ModelSide::Place& place : side_.places) known.push_back(place.name);
     for (const SharedPlace& place : around_.shared) known.push_back(place.name);
     out_.error("E101", text.span,
                "unknown place " + quoted(text.text) + " in " + quoted(entry_.key) + " of model " +
@@ -220,7 +219,7 @@ class Reader {
 }  // namespace
 
 ModelSide read_side(const Entry& entry, const CommunicationModel& around, Diagnostics& out) {
-  return Reader(entry, around, out).result();
+  return ModelSideReader(entry, around, out).result();
 }
 
 }  // namespace tessera::spec

@@ -13,8 +13,8 @@ namespace {
 
 using diagnostics::quoted;
 
-constexpr std::array kinds{Property::Kind::never, Property::Kind::always, Property::Kind::reachable,
-                           Property::Kind::always_reachable, Property::Kind::leads_to};
+constexpr std::array property_kinds{Property::Kind::never, Property::Kind::always, Property::Kind::reachable,
+                                    Property::Kind::always_reachable, Property::Kind::leads_to};
 constexpr const char* property_hint =
     "for example { name: motors can always run, always_reachable: robot.motor.drive }";
 
@@ -63,7 +63,7 @@ std::optional<Property> read_property(const Node& node, Span at, const Lookup& l
   const Section section(node, at, "a property",
                         {"name", "never", "always", "reachable", "always_reachable", "leads_to"}, out);
   std::optional<Property> property;
-  for (const Property::Kind kind : kinds) {
+  for (const Property::Kind kind : property_kinds) {
     const Entry* entry = section.find(name_of(kind));
     if (entry == nullptr) continue;
     if (property) {

@@ -20,9 +20,9 @@ bool is_quantifier(const Formula& formula) {
   return formula.kind == Formula::Kind::every || formula.kind == Formula::Kind::some;
 }
 
-class Reader {
+class ClaimReader {
  public:
-  Reader(const Lookup& lookup, Diagnostics& out) : lookup_(lookup), out_(out) {}
+  ClaimReader(const Lookup& lookup, Diagnostics& out) : lookup_(lookup), out_(out) {}
 
   std::vector<Claim> read(const Formula& what, const std::optional<Formula>& then) {
     Range range;
@@ -192,7 +192,7 @@ class Reader {
 
 std::vector<Claim> read_claims(const Formula& what, const std::optional<Formula>& then, const Lookup& lookup,
                                Diagnostics& out) {
-  return Reader(lookup, out).read(what, then);
+  return ClaimReader(lookup, out).read(what, then);
 }
 
 }  // namespace tessera::spec

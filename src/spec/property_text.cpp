@@ -12,7 +12,8 @@ namespace {
 using diagnostics::quoted;
 
 constexpr const char* formula_hint = "combine paths by and, or, not, (...): robot.control.follow and not ...";
-constexpr const char* path_hint = "for example robot.control.follow, or robot[i].control.follow in a fleet";
+constexpr const char* element_hint =
+    "for example robot.control.follow, or robot[i].control.follow in a fleet";
 constexpr std::uint32_t deepest_formula = 64;
 
 bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r'; }
@@ -23,9 +24,9 @@ bool is_word(char letter) {
 }
 
 /// Recursive descent; after the first mistake nothing is read any more.
-class Reader {
+class PropertyTextReader {
  public:
-  Reader(const Node& text, std::size_t offset, std::size_t length, Diagnostics& out)
+  PropertyTextReader(const Node& text, std::size_t offset, std::size_t length, Diagnostics& out)
       : text_(text), end_(offset + length), at_(offset), out_(out) {}
 
   std::optional<Formula> read() {
@@ -76,7 +77,7 @@ class Reader {
     const std::string_view left = rest();
     if (left.empty())
       return fail("E114", end_ > 0 ? end_ - 1 : 0, 1, "the property ends where a path should follow",
-                  path_hint);
+                  element_hint);
     for (const auto& [symbol, meant] :
          {std::pair{"&&", "and"}, {"||", "or"}, {"!", "not"}, {"&", "and"}, {"|", "or"}})
       if (left.starts_with(symbol))
@@ -86,7 +87,7 @@ class Reader {
     return fail("E114", at_, found.size(), "unexpected " + quoted(found), formula_hint);
   }
 
-  using Rule = std::optional<Formula> (Reader::*)(std::uint32_t);
+  using Rule = std::optional<Formula> (PropertyTextReader::*)(std::uint32_t);
 
   /// Parts joined by one word.
   std::optional<Formula> joined(std::string_view by, Formula::Kind kind, Rule rule, std::uint32_t depth) {
@@ -105,11 +106,11 @@ class Reader {
   }
 
   std::optional<Formula> disjunction(std::uint32_t depth) {
-    return joined("or", Formula::Kind::either, &Reader::conjunction, depth);
+    return joined("or", Formula::Kind::either, &PropertyTextReader::conjunction, depth);
   }
 
   std::optional<Formula> conjunction(std::uint32_t depth) {
-    return joined("and", Formula::Kind::both, &Reader::negation, depth);
+    return joined("and", Formula::Kind::both, &PropertyTextReader::negation, depth);
   }
 
   std::optional<Formula> negation(std::uint32_t depth) {
@@ -168,7 +169,7 @@ class Reader {
     path.agent = agent;
     path.agent_span = text_.part(from, agent.size());
     if (!is_identifier(agent))
-      return fail("E112", from, agent.size(), quoted(agent) + " does not name an agent", path_hint);
+      return fail("E112", from, agent.size(), quoted(agent) + " does not name an agent", element_hint);
     at_ += agent.size();
     if (!index(path)) return std::nullopt;
     while (at_ < end_ && text_.text[at_] == '.') {
@@ -177,7 +178,7 @@ class Reader {
       // The blocks of an output that feeds several channels are numbered: motion#2.
       const auto of_name = [&](char c) { return is_word(c) || (length > 0 && c == '#'); };
       while (at_ + length < end_ && of_name(text_.text[at_ + length])) ++length;
-      if (length == 0) return fail("E112", at_ - 1, 1, "a name should follow the '.'", path_hint);
+      if (length == 0) return fail("E112", at_ - 1, 1, "a name should follow the '.'", element_hint);
       path.parts.push_back({text_.text.substr(at_, length), text_.part(at_, length)});
       at_ += length;
     }
@@ -209,7 +210,7 @@ class Reader {
 
 std::optional<Formula> read_formula(const Node& text, std::size_t offset, std::size_t length,
                                     Diagnostics& out) {
-  return Reader(text, offset, length, out).read();
+  return PropertyTextReader(text, offset, length, out).read();
 }
 
 }  // namespace tessera::spec

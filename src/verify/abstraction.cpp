@@ -13,10 +13,6 @@ using net::Condition;
 using net::PlaceId;
 using net::TransitionId;
 
-bool possible(const net::Net& net, TransitionId id) {
-  return net[id].condition.truth != Condition::Truth::never;
-}
-
 /// What is known about a place that behaviours leave through initial conditions.
 struct Exit {
   bool certain = false;  ///< one of its conditions holds
@@ -95,6 +91,10 @@ std::vector<bool> last_transitions(const net::Net& net) {
 }
 
 }  // namespace
+
+bool possible(const net::Net& net, net::TransitionId id) {
+  return net[id].condition.truth != net::Condition::Truth::never;
+}
 
 net::Net abstract_net(const net::Net& net, Assume assume) {
   net::Net abstract = copied(net, assume);

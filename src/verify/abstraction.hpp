@@ -15,6 +15,9 @@ namespace tessera::verify {
 /// Places and transitions of `net` keep their ids; what is added follows them. Linear in the net.
 [[nodiscard]] net::Net abstract_net(const net::Net& net, Assume assume = Assume::conditions);
 
+/// Its condition is not known to be false always.
+[[nodiscard]] bool possible(const net::Net& net, net::TransitionId transition);
+
 /// A net without the transitions that never fire. fires: if given, their ids in `net`, for those that are
 /// left.
 [[nodiscard]] net::Net possible_part(const net::Net& net, std::vector<net::TransitionId>* fires = nullptr);

@@ -10,10 +10,6 @@ namespace {
 using net::Arc;
 using net::TransitionId;
 
-bool possible(const net::Net& net, TransitionId id) {
-  return net[id].condition.truth != net::Condition::Truth::never;
-}
-
 /// The subsystems and those that use a channel with one of them.
 std::set<std::uint32_t> that_exchange(const net::Net& net, std::set<std::uint32_t> subsystems) {
   std::map<std::uint32_t, std::set<std::uint32_t>> users;  // per place of a channel

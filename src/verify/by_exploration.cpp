@@ -15,7 +15,6 @@ namespace {
 using explore::Formula;
 using net::PlaceId;
 using net::TransitionId;
-using Kind = Question::Kind;
 
 /// good: the answer to the question of the search for which the property holds.
 Finding judged(const Found& found, Found::Kind good) {
@@ -245,21 +244,21 @@ class ByExploration final : public Decider {
                                               const explore::Limits& limits) const override {
     const Case& given = facts.under(question.assume);
     switch (question.kind) {
-      case Kind::safe:
+      case Question::Kind::safe:
         return safe(given, limits);
-      case Kind::deadlock_free:
+      case Question::Kind::deadlock_free:
         return deadlock_free(given, facts, limits);
-      case Kind::goes_on:
+      case Question::Kind::goes_on:
         return goes_on(given, question, facts.reducing(), limits);
-      case Kind::channels_flow:
+      case Question::Kind::channels_flow:
         return channels_flow(given, question, facts.reducing(), limits);
-      case Kind::live_behaviours:
+      case Question::Kind::live_behaviours:
         return live_behaviours(given, question, facts.reducing(), limits);
-      case Kind::claims:
+      case Question::Kind::claims:
         return claims(given, question, facts.reducing(), limits);
-      case Kind::exclusive_channels:
+      case Question::Kind::exclusive_channels:
         return exclusive_channels(given, question, facts.reducing(), limits);
-      case Kind::sound_pages:
+      case Question::Kind::sound_pages:
         return sound_pages(given, question, facts, limits);
     }
     return std::nullopt;

@@ -5,7 +5,6 @@
 namespace tessera::verify {
 
 using explore::Formula;
-using net::Property;
 using net::Statement;
 
 Formula formula_of(const Statement& statement) {
@@ -24,23 +23,23 @@ Formula formula_of(const Statement& statement) {
   return Formula::never();
 }
 
-Formula what_of(Property::Kind kind, const net::Claim& claim) {
+Formula what_of(net::Property::Kind kind, const net::Claim& claim) {
   Formula what = formula_of(claim.what);
-  return kind == Property::Kind::always ? Formula::negation(std::move(what)) : what;
+  return kind == net::Property::Kind::always ? Formula::negation(std::move(what)) : what;
 }
 
-std::string complaint(Property::Kind kind, const net::Claim& claim) {
+std::string complaint(net::Property::Kind kind, const net::Claim& claim) {
   std::string about = claim.about.empty() ? "" : claim.about + ": ";
   switch (kind) {
-    case Property::Kind::never:
+    case net::Property::Kind::never:
       return about + "a run reaches it";
-    case Property::Kind::always:
+    case net::Property::Kind::always:
       return about + "a run leads to where it is not so";
-    case Property::Kind::reachable:
+    case net::Property::Kind::reachable:
       return about + "no run reaches it";
-    case Property::Kind::always_reachable:
+    case net::Property::Kind::always_reachable:
       return about + "a run leads to where it is out of reach for ever";
-    case Property::Kind::leads_to:
+    case net::Property::Kind::leads_to:
       return about + "a run leads from where the first is true to where the second can never follow any more";
   }
   return about;

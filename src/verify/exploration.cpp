@@ -22,11 +22,9 @@ std::string sizes(const reduce::Reduced& reduced, const reduce::Components& comp
 
 namespace {
 
-using explore::Answer;
 using explore::Formula;
 using net::PlaceId;
 using net::TransitionId;
-using Kind = Found::Kind;
 using Sets = std::vector<std::vector<TransitionId>>;
 
 /// The components of one kind; the first stands for all.
@@ -63,25 +61,26 @@ Found find_dead(const net::Net& net, PlaceId final_place, const Reducing& how,
   const PlaceId final_left = final_place.valid() ? reduced.find(final_place).value_or(PlaceId{}) : PlaceId{};
   Found found;
   found.explanation = sizes(reduced, components);
-  found.kind = Kind::yes;
-  if (has_free_transition(reduced.net)) found.kind = Kind::no;
+  found.kind = Found::Kind::yes;
+  if (has_free_transition(reduced.net)) found.kind = Found::Kind::no;
   std::vector<TransitionId> run;
   for (const auto& kind : by_kind(components)) {
-    if (found.kind == Kind::no) break;
+    if (found.kind == Found::Kind::no) break;
     const reduce::Component& first = *kind.front();
     const Part part(reduced.net, std::span(kind).first(1));
     const bool has_final = final_left.valid() && std::ranges::count(first.places, final_left) > 0;
     const Formula is_final = has_final ? part.inside(Formula::marked(final_left)) : Formula::never();
-    const Answer answer = explore::find_deadlock(explore::PtNet(part.net()), is_final, budget.left());
+    const explore::Answer answer =
+        explore::find_deadlock(explore::PtNet(part.net()), is_final, budget.left());
     found.states += answer.effort.markings;
-    if (answer.kind == Answer::Kind::no) found.kind = Kind::no;
-    if (answer.kind == Answer::Kind::unknown) {
-      found.kind = Kind::unknown;
+    if (answer.kind == explore::Answer::Kind::no) found.kind = Found::Kind::no;
+    if (answer.kind == explore::Answer::Kind::unknown) {
+      found.kind = Found::Kind::unknown;
       found.why = answer.why;
     }
     for (const reduce::Component* component : kind) append(answer.trace.firings, *component, run);
   }
-  if (found.kind == Kind::yes) found.trace = reduced.lift(run);
+  if (found.kind == Found::Kind::yes) found.trace = reduced.lift(run);
   return found;
 }
 
@@ -129,7 +128,7 @@ class StuckSearch {
 
   void explore_kind(const reduce::Component& first) {
     std::vector<explore::Obligation> obligations;
-    std::vector<Answer*> to;
+    std::vector<explore::Answer*> to;
     for (auto& [key, answer] : answers_) {
       if (key.first != first.kind) continue;
       explore::Obligation& obligation = obligations.emplace_back();
@@ -139,7 +138,7 @@ class StuckSearch {
     if (obligations.empty()) return;
     const reduce::Component* const only = &first;
     const Part part(reduced_.net, std::span(&only, 1));
-    const std::vector<Answer> answers =
+    const std::vector<explore::Answer> answers =
         explore::can_always_fire(explore::PtNet(part.net()), obligations, budget_.left());
     for (std::size_t index = 0; index < to.size(); ++index) *to[index] = answers[index];
     states_ += answers.front().effort.markings;
@@ -150,33 +149,33 @@ class StuckSearch {
     Found found;
     found.explanation = sizes(reduced_, components_);
     found.states = states_;
-    found.kind = Kind::no;
+    found.kind = Found::Kind::no;
     std::vector<TransitionId> run;
     for (const auto& [component, local] : parts) {
       if (component == UINT32_MAX) {  // needs no token
-        found.kind = Kind::yes;
+        found.kind = Found::Kind::yes;
         break;
       }
-      const Answer& answer = answers_.at({components_.all[component].kind, local});
-      if (answer.kind == Answer::Kind::yes) {
-        found.kind = Kind::yes;
+      const explore::Answer& answer = answers_.at({components_.all[component].kind, local});
+      if (answer.kind == explore::Answer::Kind::yes) {
+        found.kind = Found::Kind::yes;
         break;
       }
-      if (answer.kind == Answer::Kind::unknown) {
-        found.kind = Kind::unknown;
+      if (answer.kind == explore::Answer::Kind::unknown) {
+        found.kind = Found::Kind::unknown;
         found.why = answer.why;
       }
       append(answer.trace.firings, components_.all[component], run);
     }
-    if (found.kind == Kind::no) found.trace = reduced_.lift(run);
+    if (found.kind == Found::Kind::no) found.trace = reduced_.lift(run);
     return found;
   }
 
   Budget budget_;
   reduce::Reduced reduced_;
   reduce::Components components_;
-  std::vector<Parts> members_;                                 // per set
-  std::map<std::pair<std::uint32_t, Local>, Answer> answers_;  // by kind
+  std::vector<Parts> members_;                                          // per set
+  std::map<std::pair<std::uint32_t, Local>, explore::Answer> answers_;  // by kind
   std::uint64_t states_ = 0;
 };
 

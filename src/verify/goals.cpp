@@ -16,10 +16,8 @@
 namespace tessera::verify {
 namespace {
 
-using explore::Answer;
 using explore::Formula;
 using net::PlaceId;
-using Kind = Found::Kind;
 
 void places_of(const Goal& goal, std::vector<PlaceId>& to) {
   verify::places_of(goal.what, to);
@@ -37,7 +35,8 @@ Goal translated(const Goal& goal, const reduce::Reduced& reduced) {
   return {translated(goal.what, reduced), translated(goal.then, reduced)};
 }
 
-Answer explored(Ask question, const explore::PtNet& net, const Goal& goal, const explore::Limits& limits) {
+explore::Answer explored(Ask question, const explore::PtNet& net, const Goal& goal,
+                         const explore::Limits& limits) {
   switch (question) {
     case Ask::reachable:
       return explore::find(net, goal.what, limits);
@@ -63,7 +62,7 @@ Formula with_negations_inside(Formula formula, bool negated = false) {
 /// An answer about a part of a goal, with a run of the reduced net that shows it, if it is of the kind that
 /// runs show.
 struct Outcome {
-  Kind kind = Kind::unknown;
+  Found::Kind kind = Found::Kind::unknown;
   std::string why{};
   std::vector<net::TransitionId> run{};
 };
@@ -111,7 +110,9 @@ class Search {
   }
 
  private:
-  static Kind kind_with_run(Ask question) { return question == Ask::reachable ? Kind::yes : Kind::no; }
+  static Found::Kind kind_with_run(Ask question) {
+    return question == Ask::reachable ? Found::Kind::yes : Found::Kind::no;
+  }
 
   /// Components do not know of each other: what each can reach on its own, they can reach together; what is
   /// out of reach in one stays so whatever the others do.
@@ -120,14 +121,14 @@ class Search {
     if (question == Ask::leads_to || !is_list) return look_up(goal, question, budget);
     const std::vector<Goal> independent = independent_parts(goal.what);
     if (independent.size() < 2) return look_up(goal, question, budget);
-    const Kind settles = goal.what.kind == Formula::Kind::any ? Kind::yes : Kind::no;
+    const Found::Kind settles = goal.what.kind == Formula::Kind::any ? Found::Kind::yes : Found::Kind::no;
     Outcome together;
-    together.kind = settles == Kind::yes ? Kind::no : Kind::yes;
+    together.kind = settles == Found::Kind::yes ? Found::Kind::no : Found::Kind::yes;
     for (const Goal& part : independent) {
       Outcome outcome = solve(part, question, budget);
       if (outcome.kind == settles) return outcome;
-      if (outcome.kind == Kind::unknown) {
-        together.kind = Kind::unknown;
+      if (outcome.kind == Found::Kind::unknown) {
+        together.kind = Found::Kind::unknown;
         together.why = std::move(outcome.why);
       }
       together.run.insert(together.run.end(), outcome.run.begin(), outcome.run.end());
@@ -174,14 +175,14 @@ class Search {
     for (const std::uint32_t component : components) chosen.push_back(&components_.all[component]);
     const Part part(reduced_.net, chosen);
     const auto [known, is_new] = answers_.try_emplace(description(goal, components));
-    Answer& answer = known->second;
+    explore::Answer& answer = known->second;
     if (is_new) {
       const Goal inside{part.inside(goal.what), part.inside(goal.then)};
       answer = explored(question, explore::PtNet(part.net()), inside, budget.left());
       states_ += answer.effort.markings;
     }
-    if (answer.kind == Answer::Kind::unknown) return {Kind::unknown, answer.why};
-    const Kind kind = answer.kind == Answer::Kind::yes ? Kind::yes : Kind::no;
+    if (answer.kind == explore::Answer::Kind::unknown) return {Found::Kind::unknown, answer.why};
+    const Found::Kind kind = answer.kind == explore::Answer::Kind::yes ? Found::Kind::yes : Found::Kind::no;
     if (kind != kind_with_run(question)) return {kind};
     return {kind, {}, part.outside(answer.trace.firings)};
   }
@@ -234,7 +235,7 @@ class Search {
   reduce::Components components_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> where_;  // per place: component, number in it
   std::vector<Goal> goals_;
-  std::map<std::string, Answer> answers_;  // by description
+  std::map<std::string, explore::Answer> answers_;  // by description
   std::uint64_t states_ = 0;
 };
 
@@ -257,7 +258,8 @@ std::vector<std::vector<std::size_t>> alike(const net::Net& net, const std::vect
 }  // namespace
 
 std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
-                       std::optional<Kind> stop_at, const Reducing& how, const explore::Limits& limits) {
+                       std::optional<Found::Kind> stop_at, const Reducing& how,
+                       const explore::Limits& limits) {
   const Budget budget(limits);
   std::vector<Found> found(goals.size());
   for (Found& one : found) one.why = "the time is over";

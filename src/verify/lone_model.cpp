@@ -10,15 +10,14 @@
 namespace tessera::verify {
 namespace {
 
-using explore::Answer;
 using explore::Formula;
 using net::Operation;
 using net::PlaceId;
 using net::TransitionId;
 
-class Judgement {
+class ModelJudgement {
  public:
-  Judgement(const LoneModel& model, diagnostics::Diagnostics& out)
+  ModelJudgement(const LoneModel& model, diagnostics::Diagnostics& out)
       : model_(model), net_(model.net), explored_(model.net), out_(out) {
     limits_.time = std::chrono::seconds(20);
     limits_.bytes = std::uint64_t{1} << 28U;
@@ -39,9 +38,9 @@ class Judgement {
     std::vector<Formula> two;
     for (std::uint32_t place = 0; place < net_.places().size(); ++place)
       two.push_back(Formula::at_least({place}, 2));
-    const Answer answer = explore::find(explored_, Formula::any(std::move(two)), limits_);
-    if (answer.kind == Answer::Kind::no) return true;
-    if (answer.kind == Answer::Kind::unknown) return give_up(answer);
+    const explore::Answer answer = explore::find(explored_, Formula::any(std::move(two)), limits_);
+    if (answer.kind == explore::Answer::Kind::no) return true;
+    if (answer.kind == explore::Answer::Kind::unknown) return give_up(answer);
     for (std::uint32_t place = 0; place < net_.places().size(); ++place)
       if (answer.trace.end[place] > 1) {
         complain("E431", net_.places()[place].span,
@@ -57,9 +56,9 @@ class Judgement {
       for (const PlaceId read : places_of(Operation::Kind::read)) {
         if (net_[write].operation.slot != net_[read].operation.slot) continue;
         const Formula both = Formula::all({Formula::marked(write), Formula::marked(read)});
-        const Answer answer = explore::find(explored_, both, limits_);
-        if (answer.kind == Answer::Kind::unknown) give_up(answer);
-        if (answer.kind == Answer::Kind::yes)
+        const explore::Answer answer = explore::find(explored_, both, limits_);
+        if (answer.kind == explore::Answer::Kind::unknown) give_up(answer);
+        if (answer.kind == explore::Answer::Kind::yes)
           complain(
               "E432", net_[read].span,
               "lets slot " + std::to_string(net_[write].operation.slot + 1) + " be written and read at once",
@@ -83,12 +82,12 @@ class Judgement {
         {starting(Operation::Kind::read), "can run dry: nothing is ever read again"}};
     std::vector<explore::Obligation> obligations;
     for (const auto& [transitions, problem] : wanted) obligations.push_back({transitions});
-    const std::vector<Answer> answers = explore::can_always_fire(explored_, obligations, limits_);
+    const std::vector<explore::Answer> answers = explore::can_always_fire(explored_, obligations, limits_);
     // Who is stuck says more than what follows from it.
     for (std::size_t index = 0; index < wanted.size(); ++index) {
-      if (answers[index].kind == Answer::Kind::yes) continue;
-      if (answers[index].kind == Answer::Kind::unknown) give_up(answers[index]);
-      if (answers[index].kind == Answer::Kind::no)
+      if (answers[index].kind == explore::Answer::Kind::yes) continue;
+      if (answers[index].kind == explore::Answer::Kind::unknown) give_up(answers[index]);
+      if (answers[index].kind == explore::Answer::Kind::no)
         complain("E433", model_.span, wanted[index].second, answers[index],
                  "from every marking a partner who goes on must be able to bring both sides to their end");
       return;
@@ -102,8 +101,8 @@ class Judgement {
     return found;
   }
 
-  void complain(const char* code, diagnostics::Span span, const std::string& problem, const Answer& answer,
-                const char* hint) {
+  void complain(const char* code, diagnostics::Span span, const std::string& problem,
+                const explore::Answer& answer, const char* hint) {
     std::string run;
     for (const TransitionId id : answer.trace.firings) run += (run.empty() ? "" : ", ") + net_[id].name;
     out_.error(
@@ -112,7 +111,7 @@ class Judgement {
         hint);
   }
 
-  bool give_up(const Answer& answer) {
+  bool give_up(const explore::Answer& answer) {
     out_.error("E434", model_.span, "model '" + model_.name + "' is too large to be judged: " + answer.why);
     return false;
   }
@@ -127,7 +126,7 @@ class Judgement {
 }  // namespace
 
 bool judge_model(const LoneModel& model, diagnostics::Diagnostics& out) {
-  return Judgement(model, out).result();
+  return ModelJudgement(model, out).result();
 }
 
 }  // namespace tessera::verify

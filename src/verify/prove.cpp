@@ -15,13 +15,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
-using Kind = Question::Kind;
 
 /// A property as questions, all of which have to be answered with yes.
 struct Property {
   std::string name;
   Sort sort = Sort::universal;
-  std::vector<Kind> questions;
+  std::vector<Question::Kind> questions;
   Assume assume = Assume::conditions;
   bool of_any_net = false;                ///< also of one that is not made of the five layers
   const net::Property* author = nullptr;  ///< of a property of the author
@@ -29,19 +28,19 @@ struct Property {
 
 const std::vector<Property>& defaults() {
   static const std::vector<Property> all{
-      {.name = "safe", .questions = {Kind::safe}, .of_any_net = true},
-      {.name = "exclusive_channels", .questions = {Kind::exclusive_channels}},
+      {.name = "safe", .questions = {Question::Kind::safe}, .of_any_net = true},
+      {.name = "exclusive_channels", .questions = {Question::Kind::exclusive_channels}},
       {.name = "deadlock_free",
        .sort = Sort::completeness,
-       .questions = {Kind::deadlock_free},
+       .questions = {Question::Kind::deadlock_free},
        .of_any_net = true},
-      {.name = "goes_on", .sort = Sort::always_can, .questions = {Kind::goes_on}},
-      {.name = "channels_flow", .sort = Sort::always_can, .questions = {Kind::channels_flow}},
-      {.name = "sound_pages", .questions = {Kind::sound_pages}},
-      {.name = "live_behaviours", .sort = Sort::existential, .questions = {Kind::live_behaviours}},
+      {.name = "goes_on", .sort = Sort::always_can, .questions = {Question::Kind::goes_on}},
+      {.name = "channels_flow", .sort = Sort::always_can, .questions = {Question::Kind::channels_flow}},
+      {.name = "sound_pages", .questions = {Question::Kind::sound_pages}},
+      {.name = "live_behaviours", .sort = Sort::existential, .questions = {Question::Kind::live_behaviours}},
       {.name = "survives_exceptions",
        .sort = Sort::always_can,
-       .questions = {Kind::deadlock_free, Kind::goes_on},
+       .questions = {Question::Kind::deadlock_free, Question::Kind::goes_on},
        .assume = Assume::exceptions},
   };
   return all;
@@ -65,7 +64,7 @@ Sort sort_of(net::Property::Kind kind) {
 Property of_author(const net::Property& property) {
   return {.name = property.name,
           .sort = sort_of(property.kind),
-          .questions = {Kind::claims},
+          .questions = {Question::Kind::claims},
           .author = &property};
 }
 
@@ -152,9 +151,10 @@ class Prover {
   PropertyResult judge(const Property& property) {
     PropertyResult result;
     std::uint64_t states = 0;
-    for (const Kind kind : property.questions) {
-      result = kind == Kind::live_behaviours ? live_behaviours(question(property, kind), property.name)
-                                             : answer(question(property, kind), property.name);
+    for (const Question::Kind kind : property.questions) {
+      result = kind == Question::Kind::live_behaviours
+                   ? live_behaviours(question(property, kind), property.name)
+                   : answer(question(property, kind), property.name);
       states += result.states;
       if (result.verdict != Verdict::holds) break;
     }
@@ -167,7 +167,7 @@ class Prover {
     return result;
   }
 
-  Question question(const Property& property, Kind kind) {
+  Question question(const Property& property, Question::Kind kind) {
     if (property.author == nullptr) return {kind, property.assume, facts_.subjects(kind, property.assume)};
     std::vector<std::uint32_t> claims(property.author->claims.size());
     std::iota(claims.begin(), claims.end(), 0U);

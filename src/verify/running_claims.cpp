@@ -8,8 +8,6 @@
 namespace tessera::verify {
 namespace {
 
-using Kind = net::Property::Kind;
-
 /// The subsystem with that number, and whether it is known to go on as long as it has not ended.
 struct Known {
   const SubsystemFlow* flow = nullptr;
@@ -43,7 +41,7 @@ RunningVerdict all_reach(const BehaviourGraph& graph, const BehaviourGraph::Node
   return {Answer::yes, {}};
 }
 
-RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
                          const net::Claim& claim) {
   const std::optional<Running> what = running(pages, claim.what);
   if (!what) return {};
@@ -53,34 +51,34 @@ RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, K
   const BehaviourGraph::Nodes nodes = graph.nodes(what->behaviours);
   const BehaviourGraph::Nodes nowhere(graph.size(), false);
   if (!BehaviourGraph::any(nodes)) {
-    const bool fine = kind == Kind::never || kind == Kind::leads_to;
+    const bool fine = kind == net::Property::Kind::never || kind == net::Property::Kind::leads_to;
     return {fine ? Answer::yes : Answer::no, fine ? "" : names(*what) + " follows no behaviour that can run"};
   }
   if (!subsystem.goes_on) return {};
   switch (kind) {
-    case Kind::never:
+    case net::Property::Kind::never:
       return {Answer::no, names(*what) + " can run"};
-    case Kind::reachable:
+    case net::Property::Kind::reachable:
       return {Answer::yes, {}};
-    case Kind::always_reachable: {
+    case net::Property::Kind::always_reachable: {
       BehaviourGraph::Nodes start = nowhere;
       start[0] = true;
       return all_reach(graph, graph.reached(start, nowhere), nodes, names(*what));
     }
-    case Kind::leads_to: {
+    case net::Property::Kind::leads_to: {
       const std::optional<Running> then = running(pages, claim.then);
       if (!then || then->subsystem != what->subsystem) return {};
       const BehaviourGraph::Nodes goal = graph.nodes(then->behaviours);
       return all_reach(graph, graph.reached(nodes, goal), goal, names(*then));
     }
-    case Kind::always:
+    case net::Property::Kind::always:
       break;
   }
   return {};
 }
 
 /// One of several things of which each alone settles it; if all are known not to, it is the opposite.
-RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
                         const net::Claim& claim, Answer settles) {
   RunningVerdict last;
   bool open = claim.what.parts.empty();
@@ -95,24 +93,24 @@ RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, Ki
 
 }  // namespace
 
-RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, Kind kind,
+RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
                              const net::Claim& claim) {
   RunningVerdict verdict = judge_one(given, pages, kind, claim);
   if (verdict.answer != Answer::unknown) return verdict;
   const bool either = claim.what.kind == net::Statement::Kind::any;
   switch (kind) {
-    case Kind::reachable:
+    case net::Property::Kind::reachable:
       if (either) return first_of(given, pages, kind, claim, Answer::yes);
       return verdict;
-    case Kind::never:
-    case Kind::leads_to:
+    case net::Property::Kind::never:
+    case net::Property::Kind::leads_to:
       if (either) return first_of(given, pages, kind, claim, Answer::no);
       return verdict;
-    case Kind::always_reachable:
+    case net::Property::Kind::always_reachable:
       // Though none of them is always in reach, one or the other may be.
       if (either) verdict = first_of(given, pages, kind, claim, Answer::yes);
       return verdict.answer == Answer::yes ? verdict : RunningVerdict{};
-    case Kind::always:
+    case net::Property::Kind::always:
       return {};
   }
   return {};

@@ -166,13 +166,13 @@ TEST_P(RandomNets, EveryAnswerIsThatOfTheOracle) {
 constexpr Family machines{"machines", random_machines}, weighted{"weighted", random_weighted},
     wild{"wild", random_wild};
 
-std::string name_of(const testing::TestParamInfo<RandomNets::ParamType>& info) {
+std::string name_of_family(const testing::TestParamInfo<RandomNets::ParamType>& info) {
   return std::string(std::get<0>(info.param).name) + "_" + std::to_string(std::get<1>(info.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(Explorer, RandomNets,
                          testing::Combine(testing::Values(machines, weighted, wild), testing::Range(0U, 10U)),
-                         name_of);
+                         name_of_family);
 
 }  // namespace
 }  // namespace tessera::explore

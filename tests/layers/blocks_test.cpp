@@ -7,8 +7,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::ElementsAreArray;
-constexpr auto N = spec::Mode::non_blocking;
-constexpr auto B = spec::Mode::blocking;
 
 struct BlockCase {
   const char* name;

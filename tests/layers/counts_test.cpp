@@ -60,8 +60,6 @@ struct PageCase {
   std::size_t snd_places, snd_transitions, rcv_places, rcv_transitions, fused;
 };
 
-constexpr auto N = spec::Mode::non_blocking;
-constexpr auto B = spec::Mode::blocking;
 constexpr auto sequential = spec::Transfer::sequential;
 constexpr auto parallel = spec::Transfer::parallel;
 

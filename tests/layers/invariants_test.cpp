@@ -9,9 +9,6 @@
 namespace tessera::test {
 namespace {
 
-constexpr auto N = spec::Mode::non_blocking;
-constexpr auto B = spec::Mode::blocking;
-
 std::string why(const spec::Model& model) {
   const Built built = build(model);
   const verify::Report report = verify::check(built.net, layers::invariants(model, built.pages, built.net));

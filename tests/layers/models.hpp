@@ -10,6 +10,8 @@
 /// Models built by hand, so that the layers are tested without the parser.
 namespace tessera::test {
 
+inline constexpr auto N = spec::Mode::non_blocking, B = spec::Mode::blocking;
+
 spec::Behaviour behaviour(std::string name);
 /// A behaviour with one unconditional successor, `none` for `end`.
 spec::Behaviour behaviour(std::string name, spec::Index next);

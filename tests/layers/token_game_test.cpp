@@ -18,8 +18,6 @@ std::set<std::set<std::string>> named(const SomeNet& net, const Exploration& fou
 }
 
 std::vector<spec::Model> small_models() {
-  constexpr auto N = spec::Mode::non_blocking;
-  constexpr auto B = spec::Mode::blocking;
   std::vector<spec::Model> models{pair({}), pair({{N, N}, {B, B}}),
                                   pair({{N, B, false, true}, {B, N, true, false}})};
   for (const auto transfer : {spec::Transfer::sequential, spec::Transfer::parallel})

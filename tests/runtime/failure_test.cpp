@@ -18,7 +18,7 @@ namespace {
 constexpr int to_other = 0, to_end = 1;  // entries of `next` of nets::two_behaviours' first
 
 /// An effector that drives forward with command 5 and whose safe command is -1.
-[[nodiscard]] Script driver() {
+[[nodiscard]] Script script_of_a_driver() {
   Script script;
   script.acts = true;
   script.call = [](ScriptState& state) { state.command = 5; };
@@ -102,7 +102,7 @@ TEST(Failure, AnErrorNobodyRoutesStopsTheSystem) {
     script.decide = [](const ScriptState&) { return Outcome::error; };
     script.route = [](const ScriptState&, bool) { return to_end; };
     system.add("robot.a", nets::two_behaviours, script, 10ms);
-    system.add("robot.motor", nets::alone, driver(), 1ms, 0ms, Kind::effector);
+    system.add("robot.motor", nets::alone, script_of_a_driver(), 1ms, 0ms, Kind::effector);
     RunOptions options = simulated(10s);
     options.clock = clock;
     const RunSummary summary = run(system, options);
@@ -151,14 +151,14 @@ TEST(Failure, AConditionThatThrowsIsAnError) {
 
 TEST(SafeCommand, IsGivenAtTheEndOfTheRun) {
   TestSystem system;
-  system.add("robot.motor", nets::alone, driver(), 10ms, 0ms, Kind::effector);
+  system.add("robot.motor", nets::alone, script_of_a_driver(), 10ms, 0ms, Kind::effector);
   EXPECT_FALSE(run(system, simulated(25ms)).failed);
   EXPECT_EQ(system.devices.commands, (std::vector<double>{5, 5, 5, -1}));
 }
 
 TEST(SafeCommand, IsGivenAtOnceWhenUserCodeThrows) {
   TestSystem system;
-  Script script = driver();
+  Script script = script_of_a_driver();
   script.call = [](ScriptState& state) {
     state.command = 5;
     if (state.context.iteration == 1) throw std::runtime_error("oops");
@@ -173,7 +173,7 @@ TEST(SafeCommand, ReplacesOutputsThatAreNotFinite) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     TestSystem system;
-    Script script = driver();
+    Script script = script_of_a_driver();
     script.call = [bad](ScriptState& state) { state.command = state.context.iteration == 0 ? bad : 5; };
     script.route = [](const ScriptState&, bool) { return to_other; };
     system.add("robot.motor", nets::two_behaviours, script, 10ms, 0ms, Kind::effector);
@@ -185,7 +185,7 @@ TEST(SafeCommand, ReplacesOutputsThatAreNotFinite) {
 
 TEST(SafeCommand, FollowsARefusal) {
   TestSystem system;
-  Script script = driver();
+  Script script = script_of_a_driver();
   script.route = [](const ScriptState&, bool) { return to_other; };
   system.devices.accept = [](double value) { return value < 0; };
   system.add("robot.motor", nets::two_behaviours, script, 10ms, 0ms, Kind::effector);
@@ -204,7 +204,7 @@ struct StaleRun {
   StaleRun result;
   Duration now{};
   control.senses = true;  // notes the time, as the first to do something at an instant
-  Script motor = driver();
+  Script motor = script_of_a_driver();
   motor.call = [&now](ScriptState& state) {
     now = state.context.now.time_since_epoch();
     state.command = state.x.value();
@@ -242,7 +242,7 @@ TEST(SafeCommand, InvalidValuesAreNoNews) {
 TEST(SafeCommand, IsGivenWhenNoFirstValueComes) {
   TestSystem system;
   const auto a = system.add("robot.silent", nets::alone, {}, 10ms);
-  const auto b = system.add("robot.motor", nets::b_receiver, driver(), 0ms, 30ms, Kind::effector);
+  const auto b = system.add("robot.motor", nets::b_receiver, script_of_a_driver(), 0ms, 30ms, Kind::effector);
   system.connect(a, "", b, "x", buffered);  // no behaviour of it sends: the motor is stuck for good
   EXPECT_TRUE(run(system, simulated(25ms)).failed);
   EXPECT_EQ(system.devices.commands, (std::vector<double>{-1, -1})) << "the second because the run ends";
@@ -258,7 +258,7 @@ TEST(SafeCommand, IsGivenForGoodWhenTheSourceHasEnded) {
   control.decide = [](const ScriptState& state) {
     return state.context.iteration < 2 ? Outcome::go_on : Outcome::terminal;
   };
-  Script motor = driver();
+  Script motor = script_of_a_driver();
   motor.call = [](ScriptState& state) { state.command = state.x.value(); };
   const auto a = system.add("robot.control", nets::nb_sender, control, 10ms);
   const auto b = system.add("robot.motor", nets::nb_receiver, motor, 10ms, 0ms, Kind::effector);

@@ -35,12 +35,12 @@ void make_talkers(TestSystem& system) {
   system.connect(e, "x", c, "in", asynchronous);
 }
 
-struct Recorded {
+struct RecordedRun {
   std::string file;
   RunSummary summary;
 };
 
-[[nodiscard]] Recorded recorded(RunOptions options, std::uint64_t segment_bytes, std::uint32_t segments) {
+[[nodiscard]] RecordedRun recorded(RunOptions options, std::uint64_t segment_bytes, std::uint32_t segments) {
   TestSystem system;
   make_talkers(system);
   options.recording = scratch_file("run.tsr");
@@ -51,7 +51,7 @@ struct Recorded {
   return {options.recording, std::move(summary)};
 }
 
-[[nodiscard]] Recording read(const std::string& file) {
+[[nodiscard]] Recording recording_in(const std::string& file) {
   std::string error;
   auto recording = read_recording(file, error);
   EXPECT_TRUE(recording) << error;
@@ -65,8 +65,8 @@ struct Recorded {
 }
 
 TEST(Segments, AreReadAsOneRecording) {
-  const Recorded limited = recorded(simulated(300ms), 40'000, 1000);
-  const Recording all = read(limited.file);
+  const RecordedRun limited = recorded(simulated(300ms), 40'000, 1000);
+  const Recording all = recording_in(limited.file);
   EXPECT_EQ(all.segment, 0U);
   std::size_t markings = 0, others = 0;
   for (const Recording::Entry& entry : all.entries)
@@ -80,7 +80,7 @@ TEST(Segments, AreReadAsOneRecording) {
   console::silence(true);
   static_cast<void>(run(system, options));
   console::silence(false);
-  EXPECT_EQ(others, read(options.recording).entries.size());
+  EXPECT_EQ(others, recording_in(options.recording).entries.size());
 
   std::string error;
   const auto report = redrive(system.system(), {}, limited.file, error);
@@ -89,10 +89,10 @@ TEST(Segments, AreReadAsOneRecording) {
 }
 
 TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
-  const Recorded limited = recorded(simulated(2s), 50'000, 3);
+  const RecordedRun limited = recorded(simulated(2s), 50'000, 3);
   EXPECT_LE(bytes_in(fs::path(limited.file).parent_path()), 3 * 50'000U);
   EXPECT_GE(bytes_in(fs::path(limited.file).parent_path()), 2 * 50'000U);
-  const Recording all = read(limited.file);
+  const Recording all = recording_in(limited.file);
   EXPECT_GT(*all.segment, 10U);
   EXPECT_EQ(all.entries.front().event.kind(), Event::Kind::marking);
   EXPECT_EQ(all.entries.back().text, "duration");
@@ -137,15 +137,15 @@ TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
 
 TEST(Segments, BeginWithTheirMarkingAndAreFiringSequencesByThemselves) {
   for (const RunOptions& options : {simulated(500ms), steady(500ms)}) {
-    const Recorded limited = recorded(options, 30'000, 4);
+    const RecordedRun limited = recorded(options, 30'000, 4);
     EXPECT_EQ(limited.summary.lost_events, 0U);
     TestSystem system;
     make_talkers(system);
-    const Recording all = read(limited.file);
+    const Recording all = recording_in(limited.file);
     EXPECT_GT(*all.segment, 0U);
     EXPECT_EQ(complaint_in_order(all, system.system()), "");
     for (std::uint64_t number = *all.segment; number < *all.segment + 3; ++number) {
-      const Recording one = read(segment_path(limited.file, number));
+      const Recording one = recording_in(segment_path(limited.file, number));
       EXPECT_EQ(one.segment, number);
       EXPECT_EQ(complaint_in_order(one, system.system()), "");
     }
@@ -153,11 +153,11 @@ TEST(Segments, BeginWithTheirMarkingAndAreFiringSequencesByThemselves) {
 }
 
 TEST(Segments, OfAnEarlierRunAreRemoved) {
-  const Recorded first = recorded(simulated(1s), 30'000, 5);
-  const Recorded second = recorded(simulated(100ms), 10'000'000, 5);
+  const RecordedRun first = recorded(simulated(1s), 30'000, 5);
+  const RecordedRun second = recorded(simulated(100ms), 10'000'000, 5);
   EXPECT_EQ(first.file, second.file);
   EXPECT_FALSE(fs::exists(segment_path(second.file, 5)));
-  EXPECT_EQ(read(second.file).segment, 0U);
+  EXPECT_EQ(recording_in(second.file).segment, 0U);
 }
 
 TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
@@ -206,7 +206,7 @@ TEST(Segments, AFiringWaitsForThoseItFollowsFromHoweverManyOthersComeMeanwhile) 
   }
   recorder->lane(0)->firing(Time{}, 2, 0);
   EXPECT_EQ(recorder->close().lost, 0U);
-  const Recording read_back = read(scratch_file("run.tsr"));
+  const Recording read_back = recording_in(scratch_file("run.tsr"));
   EXPECT_FALSE(read_back.truncated);
   ASSERT_FALSE(read_back.entries.empty());
   EXPECT_EQ(read_back.entries.back().event.subject, 3U);
@@ -226,20 +226,20 @@ TEST(Segments, WhatIsLostIsSaidAtTheEndAndTheMarkingIsNotKnownThen) {
   }
   const std::uint64_t lost = recorder->close().lost;
   EXPECT_GT(lost, 0U);
-  const Recording read_back = read(scratch_file("run.tsr"));
+  const Recording read_back = recording_in(scratch_file("run.tsr"));
   EXPECT_FALSE(read_back.truncated);
   EXPECT_EQ(read_back.lost, lost);
 }
 
 TEST(Segments, AreReadWhenTheNewestIsNotThereOrNotBegun) {
-  const Recorded limited = recorded(simulated(2s), 50'000, 4);
-  const Recording all = read(limited.file);
+  const RecordedRun limited = recorded(simulated(2s), 50'000, 4);
+  const Recording all = recording_in(limited.file);
   EXPECT_FALSE(all.truncated);
   const std::string newest = bytes_of(limited.file);
   for (const bool is_there : {false, true}) {
     fs::remove(limited.file);
     if (is_there) std::ofstream(limited.file, std::ios::binary) << newest.substr(0, 100);
-    const Recording left = read(limited.file);
+    const Recording left = recording_in(limited.file);
     EXPECT_TRUE(left.truncated);
     EXPECT_EQ(left.segment, all.segment);
     EXPECT_LT(left.entries.size(), all.entries.size());
@@ -248,10 +248,10 @@ TEST(Segments, AreReadWhenTheNewestIsNotThereOrNotBegun) {
 }
 
 TEST(Segments, AreCutOffWhenTheLastOneSaysThatAnotherFollows) {
-  const Recorded limited = recorded(simulated(2s), 50'000, 4);
-  const std::uint64_t newest = *read(limited.file).segment + 3;
+  const RecordedRun limited = recorded(simulated(2s), 50'000, 4);
+  const std::uint64_t newest = *recording_in(limited.file).segment + 3;
   fs::rename(segment_path(limited.file, newest - 1), limited.file);
-  EXPECT_TRUE(read(limited.file).truncated);
+  EXPECT_TRUE(recording_in(limited.file).truncated);
 }
 
 TEST(Segments, FilesOfOthersAreNeitherRemovedNorWrittenOver) {

@@ -174,11 +174,11 @@ TEST(ValueLayout, SaysWhenTheBytesAreOthers) {
 
 // ------------------------------------------------------------------------------------------------ recordings
 
-/// Values of each buffer in order: "3 fresh", as shown; "-": silent.
-using Values = std::map<std::string, std::vector<std::string>>;
+/// ValuesByBuffer of each buffer in order: "3 fresh", as shown; "-": silent.
+using ValuesByBuffer = std::map<std::string, std::vector<std::string>>;
 
-[[nodiscard]] Values values_of(const Recording& recording) {
-  Values values;
+[[nodiscard]] ValuesByBuffer values_of(const Recording& recording) {
+  ValuesByBuffer values;
   std::map<std::uint32_t, std::string> last;
   for (const Recording::Entry& entry : recording.entries) {
     if (entry.event.kind() != Event::Kind::value) continue;
@@ -218,7 +218,7 @@ TEST(RecordedValues, AreThoseThatChange) {
   const auto a = system.add("robot.a", nets::nb_sender, sender, 10ms);
   const auto b = system.add("robot.b", nets::b_receiver, receiver);
   system.connect(a, "x", b, "x", buffered);
-  const Values values = values_of(recorded(system, simulated(35ms)));
+  const ValuesByBuffer values = values_of(recorded(system, simulated(35ms)));
   EXPECT_EQ(values.at("robot.a.x out"), (std::vector<std::string>{"0", "1"}));
   EXPECT_EQ(values.at("robot.b.x in"),
             (std::vector<std::string>{"0 of 0 ms", "0 of 10 ms", "1 of 20 ms", "1 of 30 ms"}));
@@ -240,7 +240,7 @@ TEST(RecordedValues, OfARealInputSayWhenThereWasNone) {
   };
   sensor.decide = [](const ScriptState&) { return Outcome::go_on; };
   system.add("robot.a", nets::alone, sensor, 10ms, 0ms, Kind::receptor);
-  const Values values = values_of(recorded(system, simulated(75ms)));
+  const ValuesByBuffer values = values_of(recorded(system, simulated(75ms)));
   // Two values, two times none, one, and a failure, which ends the run.
   EXPECT_EQ(values.at("robot.a.sensed real_in"), (std::vector<std::string>{"5", "-", "5", "failed"}));
 }

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <string>
 
+#include "../environment.hpp"
 #include "explore/naive.hpp"
 #include "explore/random_net.hpp"
 
@@ -23,11 +23,6 @@ using Kind = Found::Kind;
 constexpr std::size_t most_naive_markings = 300;
 
 /// The long form of the test: TESSERA_RANDOM_NETS=20000.
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 /// Puts a copy of a net beside what is there, as one agent of a fleet.
 void add_copy(net::Net& to, const net::Net& net, std::uint32_t agent) {
   const auto first = static_cast<std::uint32_t>(to.places().size());
@@ -68,9 +63,9 @@ Formula random_goal(Random& random, const net::Net& net, int depth) {
   return kind == 3 ? Formula::all(std::move(parts)) : Formula::any(std::move(parts));
 }
 
-class Comparison {
+class GoalComparison {
  public:
-  Comparison(const net::Net& net, const NaiveGraph& naive) : net_(net), naive_(naive) {}
+  GoalComparison(const net::Net& net, const NaiveGraph& naive) : net_(net), naive_(naive) {}
 
   void with(Ask question, const std::vector<Goal>& goals, bool safe) {
     const Kind nothing_stops = Kind::unknown;
@@ -137,7 +132,7 @@ TEST(Goals, AgreeWithTheNaiveGraphOnRandomNets) {
     const auto naive = NaiveGraph::of(net, most_naive_markings);
     if (!naive) continue;
     ++compared;
-    Comparison comparison(net, *naive);
+    GoalComparison comparison(net, *naive);
     const bool safe = naive->most_tokens() <= 1 && below(random, 4) > 0;
     for (const Ask question : {Ask::reachable, Ask::always_reachable, Ask::leads_to}) {
       std::vector<Goal> goals;

@@ -147,13 +147,13 @@ TEST(BuiltInModels, AreSoundByThemselves) {
 
 // ---------------------------------------------------------------------------------------------- systems
 
-struct Proved {
+struct ProvedModel {
   net::HierarchicalNet pages;
   net::Net net;
   std::vector<net::Invariant> invariants;
   Report report;
 
-  explicit Proved(const std::string& text) {
+  explicit ProvedModel(const std::string& text) {
     const spec::Model model = parsed(text);
     diagnostics::Diagnostics out("own.yaml", text);
     pages = layers::build(model, out).value();
@@ -180,7 +180,7 @@ std::string two_slots() {
 }
 
 TEST(OwnModels, HoldByTheInvariantsOfTheirPairAndByExplicitSearch) {
-  const Proved proved(two_slots());
+  const ProvedModel proved(two_slots());
   for (const char* name : {"safe", "exclusive_channels", "sound_pages"})
     EXPECT_EQ(proved[name], "holds (place invariants)") << name;
   for (const char* name : {"goes_on", "channels_flow", "live_behaviours"})
@@ -213,7 +213,7 @@ std::string two_groups(const std::string& first) {
 }
 
 TEST(OwnModels, KeepTheCircuitCriterionFromTheirOwnGroupOnly) {
-  const Proved proved(two_groups("talk: {}"));
+  const ProvedModel proved(two_groups("talk: {}"));
   const CommunicationResult read = communication_structure(proved.net);
   ASSERT_TRUE(read.structure) << read.why_not;
   const CircuitReport report = judge_circuits(*read.structure);
@@ -228,9 +228,9 @@ TEST(OwnModels, KeepTheCircuitCriterionFromTheirOwnGroupOnly) {
 
 TEST(OwnModels, StopASystemInWhichWhoHearsTwiceWaitsForWhoHearsOnce) {
   const std::string tell = "tell: { receive: [], terminal: true, next: hear }";
-  const Proved once(two_groups("hear: { send: [], terminal: true, next: tell }, " + tell));
+  const ProvedModel once(two_groups("hear: { send: [], terminal: true, next: tell }, " + tell));
   EXPECT_EQ(once["goes_on"], "holds (reductions and explicit search)");
-  const Proved twice(
+  const ProvedModel twice(
       two_groups("hear: { send: [], terminal: true, next: again }, "
                  "again: { send: [], terminal: true, next: tell }, " +
                  tell));

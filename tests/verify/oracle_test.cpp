@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "../environment.hpp"
 #include "layers/exploration.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
@@ -22,11 +22,6 @@ namespace tessera::verify {
 namespace {
 
 /// The long form of the test: TESSERA_RANDOM_SYSTEMS=20000.
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 bool any(const std::vector<bool>& flags) {
   return std::ranges::any_of(flags, [](bool flag) { return flag; });
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <string>
 
+#include "../environment.hpp"
 #include "explore/naive.hpp"
 #include "explore/random_net.hpp"
 #include "layers/layers.hpp"
@@ -28,11 +28,6 @@ using net::Statement;
 using Claimed = net::Property::Kind;
 
 /// The long form of the test: TESSERA_RANDOM_SYSTEMS=20000.
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 /// Statements as the layers make them of paths: pages, places, states of channels.
 class Statements {
  public:
@@ -109,9 +104,10 @@ bool broken_at(const NaiveGraph& graph, std::size_t end, Claimed kind, const net
   return false;
 }
 
-class Comparison {
+class PropertyComparison {
  public:
-  Comparison(const test::Built& built, const std::vector<net::Invariant>& invariants, const NaiveGraph& graph)
+  PropertyComparison(const test::Built& built, const std::vector<net::Invariant>& invariants,
+                     const NaiveGraph& graph)
       : built_(built), invariants_(invariants), abstract_(abstract_net(built.net)), graph_(graph) {}
 
   void with(const std::string& method, const std::vector<net::Property>& properties,
@@ -197,7 +193,7 @@ TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
     const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
     Random random(static_cast<std::uint32_t>(seed));
     const std::vector<net::Property> properties = random_properties(built, random);
-    Comparison comparison(built, invariants, *graph);
+    PropertyComparison comparison(built, invariants, *graph);
     for (const char* method : {"", "invariants", "circuits", "explicit"})
       comparison.with(method, properties, tally);
     if (HasFailure()) return;

@@ -28,7 +28,7 @@ Judged judge(const spec::Model& model, verify::Assume assume) { return judge(fla
 
 namespace {
 
-std::string in_text(const verify::Communication& communication) {
+std::string text_of(const verify::Communication& communication) {
   std::string text = communication.side == verify::Side::send ? "send " : "receive ";
   text += std::to_string(communication.channel);
   if (communication.blocking) text += "!";
@@ -36,16 +36,16 @@ std::string in_text(const verify::Communication& communication) {
   return text;
 }
 
-std::string in_text(const verify::Stage& stage) {
+std::string text_of(const verify::Stage& stage) {
   std::string text;
   for (const verify::Communication& communication : stage)
-    text += (text.empty() ? "" : " | ") + in_text(communication);
+    text += (text.empty() ? "" : " | ") + text_of(communication);
   return stage.size() > 1 ? "[" + text + "]" : text;
 }
 
-std::string in_text(const verify::SubsystemFlow& subsystem, const verify::BehaviourFlow& behaviour) {
+std::string text_of(const verify::SubsystemFlow& subsystem, const verify::BehaviourFlow& behaviour) {
   std::string text = behaviour.name + ":";
-  for (const verify::Stage& stage : behaviour.stages) text += " " + in_text(stage) + ",";
+  for (const verify::Stage& stage : behaviour.stages) text += " " + text_of(stage) + ",";
   if (behaviour.repeats) text += " repeats";
   for (const std::uint32_t next : behaviour.next) text += " -> " + subsystem.behaviours[next].name;
   if (behaviour.ends) text += " -> end";
@@ -59,7 +59,7 @@ std::string in_text(const verify::CommunicationStructure& structure) {
   std::string text;
   for (const verify::SubsystemFlow& subsystem : structure.subsystems)
     for (const verify::BehaviourFlow& behaviour : subsystem.behaviours)
-      text += in_text(subsystem, behaviour) + "\n";
+      text += text_of(subsystem, behaviour) + "\n";
   return text;
 }
 

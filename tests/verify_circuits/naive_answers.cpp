@@ -13,9 +13,9 @@ namespace {
 using Marking = std::bitset<256>;
 using Facts = std::uint64_t;  // bit s: subsystem s moves; bit 32 + c: channel c is read
 
-class Exploration {
+class NaiveExploration {
  public:
-  Exploration(const net::Net& net, std::size_t most) : net_(net), most_(most) {
+  NaiveExploration(const net::Net& net, std::size_t most) : net_(net), most_(most) {
     if (net.places().size() > Marking{}.size()) throw std::invalid_argument("too many places");
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
       if (net.transitions()[index].condition.truth != net::Condition::Truth::never) compile({index});
@@ -161,7 +161,7 @@ class Exploration {
 }  // namespace
 
 std::optional<NaiveAnswers> explore_naively(const net::Net& net, std::size_t most_markings) {
-  return Exploration(net, most_markings).result();
+  return NaiveExploration(net, most_markings).result();
 }
 
 }  // namespace tessera::test

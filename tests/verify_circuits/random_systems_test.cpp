@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
+#include "../environment.hpp"
 #include "verify_circuits/judged.hpp"
 #include "verify_circuits/naive_answers.hpp"
 #include "verify_circuits/random_system.hpp"
@@ -14,11 +14,6 @@ namespace {
 using verify::Answer;
 
 /// The long form of the test: TESSERA_RANDOM_SYSTEMS=100000.
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
 struct Tally {
   std::uint64_t compared = 0, too_large = 0, refused = 0, good = 0, stuck = 0, deadlocks = 0, free = 0;
   std::uint64_t flowing = 0, dry = 0, unclear = 0;

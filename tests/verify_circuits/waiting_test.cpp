@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
+#include "../environment.hpp"
 #include "verify_circuits/judged.hpp"
 #include "verify_circuits/naive_answers.hpp"
 #include "verify_circuits/random_system.hpp"
@@ -104,18 +104,13 @@ TEST(Waiting, ALimitIsKept) {
   EXPECT_NE(report.why_not.find("time limit"), std::string::npos) << report.why_not;
 }
 
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
-}
-
-struct Tally {
+struct WaitingTally {
   std::uint64_t compared = 0, going_on = 0, cleared = 0, beyond_circuits = 0, flowing = 0, seen_to_flow = 0;
 };
 
 /// What is claimed is so.
 void compare(const Judged& judged, const verify::WaitingReport& report, const NaiveAnswers& naive,
-             Tally& tally) {
+             WaitingTally& tally) {
   const std::vector<verify::SubsystemFlow>& subsystems = judged.structure.subsystems;
   for (const verify::CircuitGroup& group : judged.report.groups)
     for (const std::uint32_t index : group.subsystems) {
@@ -141,7 +136,7 @@ TEST(Waiting, ClaimsNothingThatExhaustiveSearchContradicts) {
   const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300);
   std::uint64_t seed = from_environment("TESSERA_RANDOM_SEED", 0);
   const std::size_t most_markings = systems > 10000 ? 6000 : 1500;
-  Tally tally;
+  WaitingTally tally;
   for (; tally.compared < systems; ++seed) {
     const net::Net net = flat_net(random_differing_system(seed));
     const auto naive = explore_naively(net, most_markings);

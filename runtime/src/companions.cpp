@@ -10,7 +10,7 @@ namespace tessera {
 
 bool Companions::start_guardian(std::string& error) {
   if (!Guardian::is_needed(system_, options_)) return true;
-  guardian_ = Guardian::start(system_, error);
+  guardian_ = Guardian::start(system_, options_, error);
   return guardian_ != nullptr;
 }
 

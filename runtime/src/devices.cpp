@@ -66,6 +66,11 @@ bool simulates_devices(const RunOptions& options) {
   return options.clock == RunOptions::Clock::simulated || options.world || options.simulated_drivers;
 }
 
+bool opens_real_driver(const RunOptions& options, std::string_view path) {
+  return !simulates_devices(options) ||
+         std::ranges::any_of(options.hardware, [&](const std::string& name) { return is_in(path, name); });
+}
+
 /// Hardware that is named is found by this.
 bool DeviceFinder::is_hardware(const std::string& path) {
   if (!simulates_devices(options_)) return true;

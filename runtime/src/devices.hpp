@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tessera/controller.hpp"
@@ -16,6 +17,9 @@ namespace tessera {
 
 /// Whether the simulated drivers of the system stand behind its real buffers, where no hardware is asked for.
 [[nodiscard]] bool simulates_devices(const RunOptions& options);
+
+/// Whether the real driver stands behind a subsystem or a real buffer in such a run.
+[[nodiscard]] bool opens_real_driver(const RunOptions& options, std::string_view path);
 
 /// A driver of a subsystem, and which of the real buffers it serves.
 struct DriverInUse {

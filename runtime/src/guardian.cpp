@@ -13,7 +13,6 @@
 #include <ctime>
 #include <new>
 
-#include "devices.hpp"
 #include "guardian_shared.hpp"
 #include "waker.hpp"
 
@@ -45,12 +44,11 @@ template <class Done>
 }  // namespace
 
 bool Guardian::is_needed(const System& system, const RunOptions& options) {
-  if (!options.guardian || simulates_devices(options)) return false;
-  return std::any_of(system.real_drivers.begin(), system.real_drivers.end(),
-                     [](const CppDriver& driver) { return driver.guarded && driver.effector != nullptr; });
+  return options.guardian && !guarded_drivers(system, options).empty();
 }
 
-std::unique_ptr<Guardian> Guardian::start(const System& system, std::string& error) {
+std::unique_ptr<Guardian> Guardian::start(const System& system, const RunOptions& options,
+                                          std::string& error) {
   void* const memory =
       mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   const int news = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -64,7 +62,7 @@ std::unique_ptr<Guardian> Guardian::start(const System& system, std::string& err
   }
   // The bytes are zeros, which both processes may take for a Shared that starts.
   auto* const shared = static_cast<Shared*>(memory);
-  if (process == 0) live_as_guardian(system, *shared, news, controller);
+  if (process == 0) live_as_guardian(system, options, *shared, news, controller);
   std::unique_ptr<Guardian> guardian(new Guardian(shared, news, process));
   const bool answered =
       await(longest_start_ns, [&] { return shared->stage.load() != Stage::starts || collect(process); });

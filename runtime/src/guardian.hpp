@@ -34,7 +34,8 @@ class Guardian {
   /// Whether some driver is there that it can serve in such a run.
   [[nodiscard]] static bool is_needed(const System& system, const RunOptions& options);
   /// Forks it, and waits until it is ready. nullptr and `error`: it cannot serve the drivers.
-  [[nodiscard]] static std::unique_ptr<Guardian> start(const System& system, std::string& error);
+  [[nodiscard]] static std::unique_ptr<Guardian> start(const System& system, const RunOptions& options,
+                                                       std::string& error);
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
   /// Waits for its end. If `dismiss` was not called, it gives the safe commands when this process has died.

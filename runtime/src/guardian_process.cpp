@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "devices.hpp"
 #include "guardian_shared.hpp"
 #include "service.hpp"
 #include "waker.hpp"
@@ -87,9 +88,8 @@ class GuardianProcess {
   GuardianProcess(Guardian::Shared& shared, int news, pid_t controller)
       : shared_(shared), news_(news), pid_(controller), controller_(controller) {}
 
-  void make_drivers(const System& system) {
-    for (const CppDriver& driver : system.real_drivers)
-      if (driver.guarded && driver.effector != nullptr) make_driver(system, driver);
+  void make_drivers(const System& system, const RunOptions& options) {
+    for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
   }
 
   /// Until the controller has ended, or does not need it any more.
@@ -263,11 +263,20 @@ void become_independent(const System& system) {
 
 }  // namespace
 
-void live_as_guardian(const System& system, Guardian::Shared& shared, int news, pid_t controller) {
+std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOptions& options) {
+  std::vector<const CppDriver*> drivers;
+  for (const CppDriver& driver : system.real_drivers)
+    if (driver.guarded && driver.effector != nullptr && opens_real_driver(options, driver.path))
+      drivers.push_back(&driver);
+  return drivers;
+}
+
+void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared, int news,
+                      pid_t controller) {
   try {
     become_independent(system);
     GuardianProcess guardian(shared, news, controller);
-    guardian.make_drivers(system);
+    guardian.make_drivers(system, options);
     Stage starts = Stage::starts;
     shared.stage.compare_exchange_strong(starts, Stage::ready);
     guardian.watch();

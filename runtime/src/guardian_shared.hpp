@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 #include "guardian.hpp"
 
@@ -25,7 +26,10 @@ static_assert(std::atomic<Guardian::Shared::Stage>::is_always_lock_free &&
               std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 /// The life of the guardian's process. Does not return.
-[[noreturn]] void live_as_guardian(const System& system, Guardian::Shared& shared, int news,
-                                   pid_t controller);
+[[noreturn]] void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared,
+                                   int news, pid_t controller);
+
+/// The real drivers of effectors that such a run opens and that a guardian can serve.
+[[nodiscard]] std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOptions& options);
 
 }  // namespace tessera

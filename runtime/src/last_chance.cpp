@@ -150,7 +150,7 @@ LastChance::LastChance(Assembly& assembly, const Clock& clock, Guardian* guardia
   if (file.size() < note_file_.size()) std::copy(file.begin(), file.end(), note_file_.begin());
   const bool has_devices = std::ranges::any_of(
       assembly.executors, [](const auto& executor) { return !executor->effectors().none(); });
-  if (has_devices && !clock.simulated())
+  if (has_devices && (!clock.simulated() || !assembly.options.hardware.empty()))
     rescuer_.emplace(assembly.executors, supervisor_priority(assembly.system.instances));
   notice_exit();
   handle_deadly_signals();

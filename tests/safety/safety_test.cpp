@@ -161,6 +161,14 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
        .says = "the controller stands still, and is killed"},
       {.name = "SIGTERM with a guardian", .strike = sends(SIGTERM)},
   };
+  const std::vector<std::string> in_the_loop{
+      project().controller.string(), "simulate", "--hardware", "robot.motor", "--hardware", "robot.arm"};
+  for (Case one :
+       {Case{.name = "SIGKILL, hardware in the loop", .strike = sends(SIGKILL), .says = has_died},
+        Case{.name = "SIGSEGV, hardware in the loop", .strike = does(Harm::segv, Place::control)}}) {
+    one.command = in_the_loop;
+    cases.push_back(one);
+  }
   for (Case& one : cases) one.output = Output::pipe;
   try_all(cases);
 }

@@ -37,6 +37,7 @@ class Starter : public testing::Test {
     fs::remove(ready());
     starter_ = fork();
     if (starter_ == 0) {
+      setpgid(0, 0);  // SIGTSTP stops nobody in a group that no shell looks after
       first();
       _exit(run({"sh", "-c", script}).code);
     }

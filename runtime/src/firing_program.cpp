@@ -9,7 +9,6 @@ namespace tessera {
 namespace {
 
 using Arc = ExecutableNet::Arc;
-using Kind = FiringProgram::Hop::Kind;
 
 /// Lists of numbers in one array, filled by counting first.
 struct Rows {
@@ -178,7 +177,7 @@ class FiringCompilation {
     program_.arcs.push_back(arcs);
     FiringProgram::Hop hop;
     if (is_sole(transition)) {
-      hop.kind = Kind::sole;
+      hop.kind = FiringProgram::Hop::Kind::sole;
       hop.from = program_.number_of_place[inputs_[transition].front().place];
     }
     program_.hops.push_back(hop);
@@ -187,11 +186,11 @@ class FiringCompilation {
   void classify_direct(std::uint32_t transition) {
     FiringProgram::Hop& hop = program_.hops[transition];
     const FiringProgram::Arcs& arcs = program_.arcs[transition];
-    if (hop.kind != Kind::sole || arcs.gives_end - arcs.gives != 1) return;
+    if (hop.kind != FiringProgram::Hop::Kind::sole || arcs.gives_end - arcs.gives != 1) return;
     const FiringProgram::Give& give = program_.gives[arcs.gives];
     const FiringProgram::PlaceRecord& place = program_.places[give.place];
     if (give.weight != 1 || place.operates || place.sole == FiringProgram::none) return;
-    hop = {Kind::direct, hop.from, give.place, place.sole};
+    hop = {FiringProgram::Hop::Kind::direct, hop.from, give.place, place.sole};
   }
 
   const ExecutableNet& net_;

@@ -4,7 +4,7 @@ namespace tessera::cli_test {
 
 using Verify = Command;
 
-constexpr const char* stuck =
+constexpr const char* stuck_system =
     "tessera: 1\nsystem: s\ntypes: { V: { v: float64 } }\nagents:\n"
     "  a: { control: { rate: 10 Hz, inputs: { x: V }, outputs: { y: V }, behaviours: { go: {} } } }\n"
     "  b: { control: { rate: 10 Hz, inputs: { x: V }, outputs: { y: V }, behaviours: { go: {} } } }\n"
@@ -32,7 +32,7 @@ TEST_F(Verify, TheExampleHoldsInEveryRespect) {
 }
 
 TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
-  write(folder_ / "stuck.yaml", stuck);
+  write(folder_ / "stuck.yaml", stuck_system);
   const project::Exit done = tessera("verify stuck.yaml --trace run.json");
   EXPECT_EQ(done.code, 1) << done.text;
   for (const char* part :
@@ -70,7 +70,7 @@ TEST_F(Verify, WhatCannotBeDecidedIsUnknown) {
 }
 
 TEST_F(Verify, WrongNamesAreDiagnosed) {
-  write(folder_ / "stuck.yaml", stuck);
+  write(folder_ / "stuck.yaml", stuck_system);
   const project::Exit done = tessera("verify stuck.yaml --property goes_onn");
   EXPECT_EQ(done.code, 2);
   EXPECT_NE(done.text.find("did you mean 'goes_on'?"), std::string::npos) << done.text;

@@ -60,12 +60,19 @@ Finding safe(const Case& given, const explore::Limits& limits) {
   return finding;
 }
 
+/// Who waits for whom at the end of the run, which shows for good what is violated.
+void explain(Finding& finding, const net::Net& net) {
+  Explanation explanation = explained(net, std::move(finding.trace));
+  finding.trace = std::move(explanation.run);
+  finding.waits = std::move(explanation.waits);
+}
+
 Finding deadlock_free(const Case& given, Facts& facts, const explore::Limits& limits) {
   const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(given.abstract);
   Finding finding = judged(find_dead(given.abstract, end, facts.reducing(), limits), Found::Kind::no);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = end.valid() ? "a dead marking is reachable that is not final" : "a dead marking is reachable";
-  finding.waits = waits_for_ever(given.abstract, finding.trace);
+  explain(finding, given.abstract);
   return finding;
 }
 
@@ -229,7 +236,7 @@ Finding claims(const Case& given, const Question& question, const Reducing& how,
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
   finding.has_trace = kind != Claims::reachable;
-  if (what != Ask::reachable) finding.waits = waits_for_ever(given.abstract, finding.trace);
+  if (what != Ask::reachable) explain(finding, given.abstract);
   return finding;
 }
 

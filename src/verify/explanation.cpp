@@ -46,12 +46,16 @@ class Explainer {
     std::ranges::copy(last_of(owner), std::back_inserter(any_of));
     if (!go_to(opposite(after_.can_fire(any_of)))) return false;
     concern(owner);
-    // Where one has been brought to its end, another may have stopped too.
-    for (Number before = at_ + 1; before != at_;) {
-      before = at_;
-      for (std::size_t next = 0; next < concerned_.size(); ++next) follow(concerned_[next]);
-    }
+    follow_all();
     return true;
+  }
+
+  /// Goes on until those are settled for whom the ones wait that are stuck for ever already.
+  void settle(const std::set<std::uint32_t>& stopped) {
+    const Waits waits = here();
+    for (const std::uint32_t subsystem : stopped)
+      if (stuck_for_ever(waits, subsystem)) concern(subsystem);
+    follow_all();
   }
 
   [[nodiscard]] Explanation result() && {
@@ -61,7 +65,7 @@ class Explainer {
     for (const std::uint32_t subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
     for (const std::uint32_t subsystem : concerned_)
       add_new(explanation.waits, lines(waits, subsystem, lacks));
-    if (explanation.waits.empty()) explanation.waits = taken_no_more(waits);
+    if (explanation.waits.empty() && !stuck_.empty()) explanation.waits = taken_no_more(waits);
     return explanation;
   }
 
@@ -93,6 +97,14 @@ class Explainer {
 
   [[nodiscard]] bool stuck_for_ever(const Waits& waits, std::uint32_t subsystem) const {
     return !after_.can_fire(waits.transitions(subsystem))[at_];
+  }
+
+  void follow_all() {
+    // Where one has been brought to its end, another may have stopped too.
+    for (Number before = at_ + 1; before != at_;) {
+      before = at_;
+      for (std::size_t next = 0; next < concerned_.size(); ++next) follow(concerned_[next]);
+    }
   }
 
   /// Brings a subsystem that cannot go on for ever to where it stops, and concerns those whom it waits for.
@@ -227,19 +239,21 @@ Explanation explained(const net::Net& net, Run run, const std::vector<Transition
   return std::move(explainer).result();
 }
 
-std::vector<std::string> waits_for_ever(const net::Net& net, const Run& run) {
+Explanation explained(const net::Net& net, Run run) {
   const Waits waits(net, tokens_after(net, run));
-  std::set<std::uint32_t> all;
+  std::set<std::uint32_t> stopped;
   for (std::uint32_t subsystem = 0; subsystem < waits.subsystems(); ++subsystem)
-    if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) all.insert(subsystem);
-  const auto after = Aftermath::of(net, run, all, most_markings);
-  std::vector<std::string> lines;
-  for (const std::uint32_t subsystem : all) {
-    const bool for_ever = after ? !after->can_fire(waits.transitions(subsystem))[Aftermath::start]
-                                : never_again(net, run, waits.transitions(subsystem));
-    if (for_ever) add_new(lines, waits.lines(subsystem));
+    if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) stopped.insert(subsystem);
+  if (stopped.empty()) return {std::move(run), {}};
+  if (const auto after = Aftermath::of(net, run, stopped, most_markings)) {
+    Explainer explainer(net, *after, std::move(run), {});
+    explainer.settle(stopped);
+    return std::move(explainer).result();
   }
-  return lines;
+  std::vector<std::string> lines;
+  for (const std::uint32_t subsystem : stopped)
+    if (never_again(net, run, waits.transitions(subsystem))) add_new(lines, waits.lines(subsystem));
+  return {std::move(run), std::move(lines)};
 }
 
 }  // namespace tessera::verify

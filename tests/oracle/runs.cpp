@@ -197,10 +197,18 @@ class Checker {
       const bool receives = text.find(" receives ") != std::string::npos;
       for (const int t : receives ? channel.reads : users(channel, text.find(" sends ") != std::string::npos))
         uses[static_cast<std::size_t>(t)] = 1;
-      const auto& graph = judge_.graph();
-      return graph.can_reach(graph.where_enabled(uses))[static_cast<std::size_t>(end_state_)] == 0;
+      if (never_more(uses)) return true;
+      // "gives the memory" does not say at which end, and one subsystem may have both.
+      if (text.find(" gives ") == std::string::npos || channel.sender != channel.receiver) return false;
+      std::fill(uses.begin(), uses.end(), '\0');
+      for (const int t : users(channel, true)) uses[static_cast<std::size_t>(t)] = 1;
+      return never_more(uses);
     }
     return false;
+  }
+  bool never_more(const std::vector<char>& transitions) const {
+    const auto& graph = judge_.graph();
+    return graph.can_reach(graph.where_enabled(transitions))[static_cast<std::size_t>(end_state_)] == 0;
   }
 
   bool left_with_none(int subsystem) const {

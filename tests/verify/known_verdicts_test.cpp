@@ -123,5 +123,39 @@ TEST(LiveBehaviours, NamesEveryBehaviourThatCannotRunWithItsLine) {
             "b.control.other (line 13)");
 }
 
+/// `a` waits for an acknowledgement of its own, and `b` for a value that `a` would send after that.
+constexpr const char* waits_for_who_waits = R"(tessera: 1
+system: s
+types: { V: { v: float64 } }
+agents:
+  a:
+    control:
+      rate: 10 Hz
+      inputs: { i: V }
+      outputs: { first: V, then: V }
+      behaviours:
+        one: { terminal: true, next: two, send: [first], receive: [i] }
+        two: { send: [then], receive: [] }
+  b: { control: { rate: 10 Hz, inputs: { i: V }, behaviours: { work: {}, other: {} } } }
+channels:
+  - { from: a.control.first, to: a.control.i, send: blocking, receive: blocking }
+  - { from: a.control.then, to: b.control.i, receive: blocking }
+properties:
+  - { name: q, leads_to: "a.control.one => a.control.two" }
+  - { name: r, always_reachable: a.control.two }
+)";
+
+TEST(KnownVerdicts, RunsToWhatNeverFollowsGoOnUntilAllWhoAreWaitedForAreStuck) {
+  const Proved all = proved(waits_for_who_waits);
+  for (const char* property : {"q", "r"}) {
+    SCOPED_TRACE(property);
+    const PropertyResult& result = all[property];
+    EXPECT_EQ(result.verdict, violated);
+    EXPECT_THAT(result.waits,
+                testing::Contains(
+                    "a.control waits for the acknowledgement of a.control.first->a.control.i from itself"));
+  }
+}
+
 }  // namespace
 }  // namespace tessera::verify

@@ -192,23 +192,21 @@ class Checker {
     if (!for_ever(subsystem)) return false;
     for (const auto& channel : net_.channels) {
       if (text.find(" " + channel.name + " ") == std::string::npos) continue;
-      std::vector<char> uses(net_.transitions.size());
-      // Who finds nothing to read has received nothing, though it has looked at the channel.
-      const bool receives = text.find(" receives ") != std::string::npos;
-      for (const int t : receives ? channel.reads : users(channel, text.find(" sends ") != std::string::npos))
-        uses[static_cast<std::size_t>(t)] = 1;
-      if (never_more(uses)) return true;
       // "gives the memory" does not say at which end, and one subsystem may have both.
-      if (text.find(" gives ") == std::string::npos || channel.sender != channel.receiver) return false;
-      std::fill(uses.begin(), uses.end(), '\0');
-      for (const int t : users(channel, true)) uses[static_cast<std::size_t>(t)] = 1;
-      return never_more(uses);
+      const bool gives = text.find(" gives ") != std::string::npos;
+      if (gives && channel.sender == subsystem && never_more(users(channel, true))) return true;
+      if (gives) return channel.receiver == subsystem && never_more(users(channel, false));
+      // Who finds nothing to read has received nothing, though it has looked at the channel.
+      if (text.find(" receives ") != std::string::npos) return never_more(channel.reads);
+      return never_more(users(channel, text.find(" sends ") != std::string::npos));
     }
     return false;
   }
-  bool never_more(const std::vector<char>& transitions) const {
+  bool never_more(const std::vector<int>& transitions) const {
+    std::vector<char> uses(net_.transitions.size());
+    for (const int t : transitions) uses[static_cast<std::size_t>(t)] = 1;
     const auto& graph = judge_.graph();
-    return graph.can_reach(graph.where_enabled(transitions))[static_cast<std::size_t>(end_state_)] == 0;
+    return graph.can_reach(graph.where_enabled(uses))[static_cast<std::size_t>(end_state_)] == 0;
   }
 
   bool left_with_none(int subsystem) const {

@@ -281,6 +281,12 @@ bool RobotProcess::await_safe(milliseconds still, milliseconds limit) {
   return false;
 }
 
+bool RobotProcess::await_text(std::string_view wanted, milliseconds limit) {
+  const Clock::time_point end = Clock::now() + limit;
+  while (text_.find(wanted) == std::string::npos && Clock::now() < end) read_some(5);
+  return text_.find(wanted) != std::string::npos;
+}
+
 bool RobotProcess::is_safe() const {
   const auto last = last_commands(*log_);
   return std::all_of(last.begin(), last.end(), [](const Last& device) { return device.safe; });

@@ -54,6 +54,8 @@ class RobotProcess {
   [[nodiscard]] std::optional<int> await_end(std::chrono::milliseconds limit);
   /// Until every process that holds the terminal or the pipe has ended. false: some are left.
   [[nodiscard]] bool await_nobody_left(std::chrono::milliseconds limit);
+  /// Until it has printed that.
+  [[nodiscard]] bool await_text(std::string_view wanted, std::chrono::milliseconds limit);
   /// Until the last command of every device is the safe one and has been so for `still`.
   [[nodiscard]] bool await_safe(std::chrono::milliseconds still, std::chrono::milliseconds limit);
 

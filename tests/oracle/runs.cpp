@@ -198,7 +198,8 @@ class Checker {
       if (gives) return channel.receiver == subsystem && never_more(users(channel, false));
       // Who finds nothing to read has received nothing, though it has looked at the channel.
       if (text.find(" receives ") != std::string::npos) return never_more(channel.reads);
-      return never_more(users(channel, text.find(" sends ") != std::string::npos));
+      if (text.find(" sends ") != std::string::npos) return never_more(sending(channel));
+      return never_more(users(channel, false));
     }
     return false;
   }
@@ -233,6 +234,22 @@ class Checker {
           (touches(transition.pre) || touches(transition.post)))
         all.push_back(static_cast<int>(t));
     }
+    return all;
+  }
+  /// Those of the sender that do more than take the acknowledgement of what it has sent already.
+  std::vector<int> sending(const FlatNet::ChannelInfo& channel) const {
+    std::vector<int> all = users(channel, true);
+    const auto ack = channel.shared.find("ack");
+    if (ack == channel.shared.end()) return all;
+    std::erase_if(all, [&](int t) {
+      const FlatTransition& transition = net_.transitions[static_cast<std::size_t>(t)];
+      const auto is_other = [&](int place) {
+        return place != ack->second &&
+               std::ranges::any_of(channel.shared, [&](const auto& one) { return one.second == place; });
+      };
+      return std::ranges::none_of(transition.pre, is_other) &&
+             std::ranges::none_of(transition.post, is_other);
+    });
     return all;
   }
   bool somebody(const FlatNet::ChannelInfo& channel, bool sends) const {

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "verify/abstraction.hpp"
+
 namespace tessera::verify {
 namespace {
 

@@ -29,7 +29,7 @@ namespace tessera {
 namespace {
 
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
-constexpr std::size_t most_clients = 8, longest_command = std::size_t{1} << 20U,
+constexpr std::size_t most_clients = 32, longest_command = std::size_t{1} << 20U,
                       most_waiting = std::size_t{16} << 20U;
 constexpr std::int64_t client_patience_ns = 5'000'000'000;
 /// Of a large system a line takes long to write; the thread may take this part of a processor.
@@ -273,6 +273,10 @@ void Monitor::obey(Client& client, const std::string& line) {
   const bool named = command.is_object() && command.contains("command");
   if (named && command["command"] == "own") {
     client.owner = true;
+    return;
+  }
+  if (client.gone) {  // nobody takes an answer, and a recording least of all
+    static_cast<void>(answer_to(command));
     return;
   }
   if (client.waiting.empty()) client.took_ns = monotonic_ns();

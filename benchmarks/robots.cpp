@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "blocks.hpp"
-#include "flat_net.hpp"
+#include "nets/flat_net.hpp"
 
 namespace tessera::benchmarks {
 namespace nets {

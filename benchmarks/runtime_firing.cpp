@@ -16,8 +16,8 @@
 #include <mutex>
 #include <thread>
 
+#include "nets/shared_channel.hpp"
 #include "robots.hpp"
-#include "shared_channel.hpp"
 
 using namespace std::chrono_literals;
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "recorder.hpp"
+#include "recorder/recorder.hpp"
 #include "robots.hpp"
 
 using namespace std::chrono_literals;

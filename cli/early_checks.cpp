@@ -13,7 +13,7 @@
 
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
-#include "project/walk.hpp"
+#include "project/verification/pipeline.hpp"
 #include "spec/parser.hpp"
 #include "tessera/given_values.hpp"
 

@@ -2,7 +2,7 @@
 #include <exception>
 #include <optional>
 
-#include "cli/commands.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 
 int main(int argc, char** argv) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "project/listener.hpp"
+#include "project/process/listener.hpp"
 
 namespace tessera::cli {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::codegen {

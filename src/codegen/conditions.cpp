@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "codegen/cpp_text.hpp"
-#include "spec/endings.hpp"
+#include "spec/model/endings.hpp"
 
 namespace tessera::codegen {
 namespace {

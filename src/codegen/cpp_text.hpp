@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 /// C++ as text, laid out as .clang-format of the generated folder asks for, so that no formatter has to run.
 namespace tessera::codegen {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "codegen/local_net.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::codegen {

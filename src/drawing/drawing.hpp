@@ -4,7 +4,7 @@
 #include <string>
 
 #include "net/net.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 /// Pictures of nets in the paper's graphic language: a circle is a place, a double circle a page, a bar a
 /// transition, dots are tokens, conditions stand in square brackets, fused places are dashed.

@@ -1,6 +1,6 @@
 #include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
-#include "spec/endings.hpp"
+#include "spec/model/endings.hpp"
 
 namespace tessera::layers {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::layers {
 

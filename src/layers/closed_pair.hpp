@@ -1,7 +1,7 @@
 #pragma once
 
 #include "net/net.hpp"
-#include "spec/communication_model.hpp"
+#include "spec/model/communication_model.hpp"
 
 namespace tessera::layers {
 

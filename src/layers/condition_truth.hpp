@@ -1,7 +1,7 @@
 #pragma once
 
 #include "net/net.hpp"
-#include "spec/endings.hpp"
+#include "spec/model/endings.hpp"
 
 namespace tessera::layers {
 

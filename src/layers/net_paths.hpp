@@ -7,7 +7,7 @@
 
 #include "diagnostics/diagnostics.hpp"
 #include "net/property.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::layers {
 

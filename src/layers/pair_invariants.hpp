@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "spec/communication_model.hpp"
+#include "spec/model/communication_model.hpp"
 
 namespace tessera::layers {
 

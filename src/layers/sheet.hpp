@@ -5,7 +5,7 @@
 
 #include "layers/wiring.hpp"
 #include "net/net.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::layers {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::layers {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "diagnostics/diagnostics.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::spec {
 

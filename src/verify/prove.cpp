@@ -2,12 +2,12 @@
 #include <numeric>
 #include <utility>
 
-#include "verify/abstraction.hpp"
-#include "verify/decider.hpp"
-#include "verify/fitting_endings.hpp"
+#include "verify/communication/abstraction.hpp"
+#include "verify/counterexample/fitting_endings.hpp"
+#include "verify/counterexample/tidy_run.hpp"
+#include "verify/deciders/decider.hpp"
 #include "verify/hashes.hpp"
 #include "verify/meaning.hpp"
-#include "verify/tidy_run.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::verify {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "verify/hashes.hpp"
-#include "verify/place_invariants.hpp"
+#include "verify/invariants/place_invariants.hpp"
 
 namespace tessera::verify {
 namespace {

@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "project/verdicts.hpp"
-#include "server/answer.hpp"
-#include "server/controller_link.hpp"
-#include "server/guard.hpp"
+#include "project/verification/verdicts.hpp"
+#include "server/http/answer.hpp"
+#include "server/http/guard.hpp"
+#include "server/runs/controller_link.hpp"
 
 namespace tessera::server {
 

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "server/analysis.hpp"
-#include "server/events.hpp"
-#include "server/folder.hpp"
-#include "server/http.hpp"
-#include "server/recordings.hpp"
-#include "server/runs.hpp"
+#include "server/analysis/analysis.hpp"
+#include "server/analysis/folder.hpp"
+#include "server/analysis/verify_jobs.hpp"
+#include "server/http/events.hpp"
+#include "server/http/http.hpp"
+#include "server/recordings/recordings.hpp"
+#include "server/runs/runs.hpp"
 #include "server/studio.hpp"
-#include "server/verify_jobs.hpp"
 
 namespace tessera::server {
 

@@ -7,17 +7,17 @@
 #include <stdexcept>
 #include <thread>
 
-#include "server/analysis.hpp"
-#include "server/answer.hpp"
+#include "server/analysis/analysis.hpp"
+#include "server/analysis/file_watch.hpp"
+#include "server/analysis/folder.hpp"
+#include "server/analysis/verify_jobs.hpp"
 #include "server/api.hpp"
-#include "server/assets.hpp"
-#include "server/events.hpp"
-#include "server/file_watch.hpp"
-#include "server/folder.hpp"
-#include "server/guard.hpp"
-#include "server/recordings.hpp"
-#include "server/runs.hpp"
-#include "server/verify_jobs.hpp"
+#include "server/http/answer.hpp"
+#include "server/http/assets.hpp"
+#include "server/http/events.hpp"
+#include "server/http/guard.hpp"
+#include "server/recordings/recordings.hpp"
+#include "server/runs/runs.hpp"
 
 namespace tessera::server {
 

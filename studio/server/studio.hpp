@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "server/http_limits.hpp"
+#include "server/http/http_limits.hpp"
 
 namespace tessera::server {
 

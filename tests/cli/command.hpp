@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "project/process.hpp"
+#include "project/process/process.hpp"
 
 namespace tessera::cli_test {
 

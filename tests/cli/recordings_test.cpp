@@ -10,7 +10,7 @@
 
 #include "cli/terminal.hpp"
 #include "command.hpp"
-#include "project/walk.hpp"
+#include "project/verification/pipeline.hpp"
 #include "replay/legality.hpp"
 #include "tessera/recording.hpp"
 

@@ -1,4 +1,4 @@
-#include "project/violation.hpp"
+#include "project/verification/violation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "codegen/codegen.hpp"
 #include "net/net.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 /// From a specification to generated files, and what tests do with them.
 namespace tessera::test {

@@ -1,4 +1,4 @@
-#include "spec/names.hpp"
+#include "spec/document/names.hpp"
 
 #include <gtest/gtest.h>
 

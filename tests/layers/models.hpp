@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "net/net.hpp"
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 /// Models built by hand, so that the layers are tested without the parser.
 namespace tessera::test {

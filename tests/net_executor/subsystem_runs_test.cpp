@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "flat_net.hpp"
 #include "naive_net.hpp"
 #include "nets.hpp"
+#include "nets/flat_net.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 

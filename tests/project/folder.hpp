@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "project/files.hpp"
-#include "project/listener.hpp"
+#include "project/files/files.hpp"
+#include "project/process/listener.hpp"
 
 namespace tessera::project_test {
 

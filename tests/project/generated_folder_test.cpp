@@ -1,4 +1,4 @@
-#include "project/generated_folder.hpp"
+#include "project/build/generated_folder.hpp"
 
 #include "folder.hpp"
 

@@ -1,5 +1,5 @@
 #include "folder.hpp"
-#include "project/transition_functions.hpp"
+#include "project/build/transition_functions.hpp"
 
 namespace tessera::project_test {
 namespace {

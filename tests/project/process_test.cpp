@@ -1,4 +1,4 @@
-#include "project/process.hpp"
+#include "project/process/process.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "project/run_folder.hpp"
+#include "project/files/run_folder.hpp"
 
 #include <sys/file.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "folder.hpp"
-#include "project/programs.hpp"
+#include "project/build/programs.hpp"
 
 namespace tessera::project_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "project/source_scan.hpp"
+#include "project/build/source_scan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "project/state_folder.hpp"
+#include "project/files/state_folder.hpp"
 
 #include <array>
 #include <cstdlib>
 
 #include "folder.hpp"
-#include "project/path_check.hpp"
+#include "project/files/path_check.hpp"
 
 namespace tessera::project_test {
 namespace {

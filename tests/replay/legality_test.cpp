@@ -17,7 +17,7 @@ using net::TransitionId;
 using Verdict = Legality::Verdict;
 using Random = std::mt19937;
 
-constexpr std::uint32_t upper_layers = 0xffffff;
+constexpr std::uint32_t upper_layers = system_instance;
 
 /// A random run of the net, recorded as the runtime would under the simulated clock.
 Recording random_run(const net::Net& net, std::size_t firings, Random& random) {

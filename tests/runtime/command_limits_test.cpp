@@ -1,6 +1,6 @@
 // Limits of real outputs: by themselves, and in a run.
 
-#include "command_limits.hpp"
+#include "drivers/command_limits.hpp"
 
 #include <gtest/gtest.h>
 

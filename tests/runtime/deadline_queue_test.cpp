@@ -1,4 +1,4 @@
-#include "deadline_queue.hpp"
+#include "system/deadline_queue.hpp"
 
 #include <gtest/gtest.h>
 

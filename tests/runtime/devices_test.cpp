@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "drivers/whole_driver.hpp"
 #include "nets.hpp"
 #include "test_system.hpp"
-#include "whole_driver.hpp"
 
 using namespace std::chrono_literals;
 

@@ -10,9 +10,9 @@
 #include <tuple>
 #include <vector>
 
-#include "console.hpp"
 #include "firing_oracle.hpp"
 #include "nets.hpp"
+#include "system/console.hpp"
 #include "test_system.hpp"
 
 using namespace std::chrono_literals;

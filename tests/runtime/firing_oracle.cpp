@@ -3,7 +3,7 @@
 #include <deque>
 #include <map>
 
-#include "flat_net.hpp"
+#include "nets/flat_net.hpp"
 
 namespace tessera::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "flat_net.hpp"
+#include "nets/flat_net.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "marking_track.hpp"
-#include "recorder.hpp"
+#include "recorder/marking_track.hpp"
+#include "recorder/recorder.hpp"
 #include "test_system.hpp"
 
 namespace fs = std::filesystem;

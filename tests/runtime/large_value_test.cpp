@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "flat_net.hpp"
 #include "nets.hpp"
+#include "nets/flat_net.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/large_array.hpp"
 #include "test_system.hpp"

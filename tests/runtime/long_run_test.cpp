@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "console.hpp"
 #include "nets.hpp"
+#include "system/console.hpp"
 #include "test_system.hpp"
 
 using namespace std::chrono_literals;

@@ -1,4 +1,4 @@
-#include "parameters.hpp"
+#include "subsystem/parameters.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "remote_control.hpp"
+#include "watch/remote_control.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 #include "../eventually.hpp"
 #include "nets.hpp"
-#include "redrive.hpp"
+#include "rerun/rerun.hpp"
 #include "tessera/monitor.hpp"
 #include "test_system.hpp"
 
@@ -329,7 +329,7 @@ TEST_F(Controlled, AParameterIsSetWhileItRunsAndRunsAgainFromTheRecording) {
   for (const auto& [event, text] : recording->entries)
     if (event.kind() == Event::Kind::parameter) changes.push_back(text);
   EXPECT_THAT(changes, ::testing::UnorderedElementsAre("robot.a.gain=2.5", "robot.b.gain=2.5"));
-  const auto again = redrive(system_.system(), RunOptions{}, options_.recording, error);
+  const auto again = rerun(system_.system(), RunOptions{}, options_.recording, error);
   ASSERT_TRUE(again) << error;
   EXPECT_FALSE(again->first) << again->first->what << ": " << again->first->recorded << ", "
                              << again->first->computed;

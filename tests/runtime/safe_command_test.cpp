@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "effectors.hpp"
+#include "drivers/effectors.hpp"
 #include "nets.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"

@@ -1,4 +1,4 @@
-#include "scenario.hpp"
+#include "subsystem/scenario.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "schedules.hpp"
+#include "run/schedules.hpp"
 
 #include <gtest/gtest.h>
 

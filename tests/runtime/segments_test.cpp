@@ -7,11 +7,11 @@
 #include <sstream>
 #include <utility>
 
-#include "console.hpp"
-#include "marking_track.hpp"
 #include "nets.hpp"
-#include "recorder.hpp"
-#include "redrive.hpp"
+#include "recorder/marking_track.hpp"
+#include "recorder/recorder.hpp"
+#include "rerun/rerun.hpp"
+#include "system/console.hpp"
 #include "test_system.hpp"
 
 using namespace std::chrono_literals;
@@ -83,9 +83,9 @@ TEST(Segments, AreReadAsOneRecording) {
   EXPECT_EQ(others, recording_in(options.recording).entries.size());
 
   std::string error;
-  const auto report = redrive(system.system(), {}, limited.file, error);
+  const auto report = rerun(system.system(), {}, limited.file, error);
   ASSERT_TRUE(report) << error;
-  EXPECT_FALSE(report->first) << redrive_text(*report);
+  EXPECT_FALSE(report->first) << rerun_text(*report);
 }
 
 TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
@@ -104,7 +104,7 @@ TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
   TestSystem system;
   make_talkers(system);
   std::string error;
-  EXPECT_FALSE(redrive(system.system(), {}, limited.file, error));
+  EXPECT_FALSE(rerun(system.system(), {}, limited.file, error));
   EXPECT_NE(error.find("its beginning is gone"), std::string::npos) << error;
 }
 

@@ -1,4 +1,4 @@
-#include "service.hpp"
+#include "system/service.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "console.hpp"
 #include "nets.hpp"
+#include "system/console.hpp"
 #include "test_system.hpp"
 
 namespace tessera::testing {

@@ -1,4 +1,4 @@
-#include "shared_channel.hpp"
+#include "nets/shared_channel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "console.hpp"
 #include "nets.hpp"
+#include "system/console.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "blocks.hpp"
-#include "flat_net.hpp"
 #include "nets.hpp"
-#include "recorder.hpp"
-#include "schedules.hpp"
+#include "nets/flat_net.hpp"
+#include "recorder/recorder.hpp"
+#include "run/schedules.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <utility>
 
-#include "flat_net.hpp"
+#include "nets/flat_net.hpp"
 
 namespace tessera::testing {
 namespace {

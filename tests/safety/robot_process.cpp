@@ -18,7 +18,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "project/process.hpp"
+#include "project/process/process.hpp"
 
 namespace tessera::safety_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "spec/endings.hpp"
+#include "spec/model/endings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "diagnostics/diagnostics.hpp"
-#include "spec/names.hpp"
+#include "spec/document/names.hpp"
 
 namespace tessera::spec {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/controller_link.hpp"
+#include "server/runs/controller_link.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

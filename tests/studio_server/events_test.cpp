@@ -1,4 +1,4 @@
-#include "server/events.hpp"
+#include "server/http/events.hpp"
 
 #include "served.hpp"
 

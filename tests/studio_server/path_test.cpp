@@ -1,4 +1,4 @@
-#include "server/path.hpp"
+#include "server/http/path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "served.hpp"
-#include "server/analysis.hpp"
-#include "server/tail.hpp"
-#include "server/tokens.hpp"
+#include "server/analysis/analysis.hpp"
+#include "server/recordings/tail.hpp"
+#include "server/recordings/tokens.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server_test {

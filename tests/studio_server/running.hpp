@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "../eventually.hpp"
-#include "project/process.hpp"
+#include "project/process/process.hpp"
 #include "served.hpp"
 
 namespace tessera::server_test {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "server/value_json.hpp"
+#include "server/recordings/value_json.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
 #include "tessera/value_encoding.hpp"

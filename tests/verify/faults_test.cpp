@@ -4,7 +4,7 @@
 
 #include "explore/explore.hpp"
 #include "proved.hpp"
-#include "verify/abstraction.hpp"
+#include "verify/communication/abstraction.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::verify {

@@ -1,6 +1,6 @@
 // Goals over places, with reductions, components and equal parts, against a graph that the textbook has.
 
-#include "verify/goals.hpp"
+#include "verify/search/goals.hpp"
 
 #include <gtest/gtest.h>
 

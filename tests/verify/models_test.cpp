@@ -8,9 +8,9 @@
 #include "layers/layers.hpp"
 #include "net/flatten.hpp"
 #include "spec/parser.hpp"
-#include "verify/circuits.hpp"
-#include "verify/communication.hpp"
-#include "verify/lone_model.hpp"
+#include "verify/circuits/circuit_criterion.hpp"
+#include "verify/communication/communication.hpp"
+#include "verify/communication/model_soundness.hpp"
 #include "verify/verify.hpp"
 
 namespace tessera::verify {

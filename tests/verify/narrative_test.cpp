@@ -1,10 +1,10 @@
-#include "verify/narrative.hpp"
+#include "verify/counterexample/narrative.hpp"
 
 #include <gtest/gtest.h>
 
 #include "faults.hpp"
 #include "proved.hpp"
-#include "verify/abstraction.hpp"
+#include "verify/communication/abstraction.hpp"
 
 namespace tessera::verify {
 namespace {

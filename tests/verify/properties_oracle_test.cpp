@@ -12,8 +12,8 @@
 #include "explore/random_net.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
-#include "verify/abstraction.hpp"
-#include "verify/claims.hpp"
+#include "verify/communication/abstraction.hpp"
+#include "verify/search/claims.hpp"
 #include "verify/verify.hpp"
 #include "verify_circuits/random_system.hpp"
 

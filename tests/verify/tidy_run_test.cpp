@@ -1,4 +1,4 @@
-#include "verify/tidy_run.hpp"
+#include "verify/counterexample/tidy_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "explore/explore.hpp"
 #include "faults.hpp"
 #include "proved.hpp"
-#include "verify/abstraction.hpp"
+#include "verify/communication/abstraction.hpp"
 
 namespace tessera::verify {
 namespace {

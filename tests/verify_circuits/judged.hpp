@@ -3,8 +3,8 @@
 #include <string>
 
 #include "net/net.hpp"
-#include "spec/model.hpp"
-#include "verify/circuits.hpp"
+#include "spec/model/model.hpp"
+#include "verify/circuits/circuit_criterion.hpp"
 
 namespace tessera::test {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "net/net.hpp"
-#include "spec/endings.hpp"
-#include "spec/model.hpp"
+#include "spec/model/endings.hpp"
+#include "spec/model/model.hpp"
 
 /// How behaviours end and what follows, tried with every value of every expression: an oracle that shares no
 /// rule with spec::Endings and the nets made with it.

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "spec/model.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::test {
 

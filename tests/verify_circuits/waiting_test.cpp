@@ -1,4 +1,4 @@
-#include "verify/waiting.hpp"
+#include "verify/waiting/waiting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@ import { Watches } from "../panels/watch";
 import { Boundary } from "./boundary";
 import { Centre } from "./centre";
 import { Split } from "./split";
-import { useStore, useStudio } from "./use";
+import { useStore, useStudio } from "../hooks/use";
 
 const TextPane = lazy(() => import("../panels/text_pane"));
 

@@ -4,7 +4,7 @@ import { ComparisonBar } from "../panels/comparison";
 import { PaneHead } from "../panels/pane_head";
 import { usePaneTitle } from "../panels/pane_title";
 import { Player } from "../panels/player";
-import { useStore, useStudio } from "./use";
+import { useStore, useStudio } from "../hooks/use";
 
 /** Between the text and the side panel: what there is of the system to be seen. */
 export function Centre() {

@@ -4,7 +4,7 @@ import { createRoot } from "react-dom/client";
 import { Studio } from "../live/studio";
 import { App } from "./app";
 import "./style.css";
-import { StudioContext } from "./use";
+import { StudioContext } from "../hooks/use";
 
 const studio = new Studio();
 void studio.open();

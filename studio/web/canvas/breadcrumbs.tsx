@@ -1,4 +1,4 @@
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import { ExportButtons } from "./export_button";
 import { layerTitle, pageName } from "../model/labels";
 import type { NetModel } from "../model/net";

@@ -8,7 +8,7 @@ import {
   type ReactFlowState,
 } from "@xyflow/react";
 import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";

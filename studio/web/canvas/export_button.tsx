@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { useStudio } from "../app/use";
+import { useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import { asPng, download, takePicture } from "./picture";
 

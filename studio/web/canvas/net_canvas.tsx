@@ -1,6 +1,6 @@
 import { ReactFlowProvider } from "@xyflow/react";
 import { useState, type ReactNode } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { spoken } from "../model/labels";
 import type { NetModel } from "../model/net";

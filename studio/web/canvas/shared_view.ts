@@ -1,6 +1,6 @@
 import { useReactFlow, useStore as useFlow, useStoreApi } from "@xyflow/react";
 import { useEffect, useState } from "react";
-import { useStudio } from "../app/use";
+import { useStudio } from "../hooks/use";
 import type { Look } from "../live/camera";
 import type { Sheet } from "../model/geometry";
 

@@ -1,6 +1,6 @@
 import type { NodeProps, Node } from "@xyflow/react";
 import { memo, useEffect, useRef } from "react";
-import { useStudio } from "../app/use";
+import { useStudio } from "../hooks/use";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import type { Placed } from "../model/sheets";

@@ -1,5 +1,5 @@
 import { useMemo, useRef, useState } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { NetModel } from "../model/net";
 import { Sheets } from "../model/sheets";
 import { elk } from "./elk";

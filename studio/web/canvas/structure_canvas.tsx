@@ -9,8 +9,8 @@ import {
   type Node,
 } from "@xyflow/react";
 import { useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
-import { useStudio, useStore } from "../app/use";
-import { useComplaints, useStructure } from "../app/use_structure";
+import { useStudio, useStore } from "../hooks/use";
+import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
 import type { Box } from "../model/geometry";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";

@@ -1,6 +1,6 @@
 import { Handle, Position, type NodeProps } from "@xyflow/react";
-import { useStore, useStudio } from "../app/use";
-import { useRunning } from "../app/use_stage";
+import { useStore, useStudio } from "../hooks/use";
+import { useRunning } from "../hooks/use_stage";
 import type { Agent, Buffer, Subsystem } from "../model/structure";
 import { head, ports, row } from "../model/structure_layout";
 

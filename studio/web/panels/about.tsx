@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import { Icon } from "./icons";
 
 /** The name of the program, which opens what there is to say about it. */

@@ -1,4 +1,4 @@
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Difference } from "../model/timeline";
 import { clock } from "./clock";
 

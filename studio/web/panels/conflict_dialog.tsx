@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import { diff } from "../model/merge";
 
 /** The file changed on disk where it was changed here: neither is thrown away without a question. */

@@ -1,5 +1,5 @@
 import { useEffect } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 
 /** Says when the server is gone, and what was done about it. */
 export function ConnectionBanner() {

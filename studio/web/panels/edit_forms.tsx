@@ -1,4 +1,4 @@
-import { useStudio } from "../app/use";
+import { useStudio } from "../hooks/use";
 import * as edits from "../model/edits";
 import {
   readStructure,

@@ -1,5 +1,5 @@
-import { useStore, useStudio } from "../app/use";
-import { useComplaints, useStructure } from "../app/use_structure";
+import { useStore, useStudio } from "../hooks/use";
+import { useComplaints, useStructure } from "../hooks/use_structure";
 import type { Breakpoint } from "../live/protocol";
 import { sameBreakpoint } from "../live/runner";
 import { layerTitle, operationText } from "../model/labels";

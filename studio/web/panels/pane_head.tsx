@@ -1,4 +1,4 @@
-import { useStudio } from "../app/use";
+import { useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { IconButton } from "./icons";
 

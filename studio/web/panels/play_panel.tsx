@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import { breakable } from "../model/labels";
 import type { NetModel } from "../model/net";
 

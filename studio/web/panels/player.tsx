@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Replay } from "../live/replay";
 import type { Pane } from "../live/scene";
 import type { Track } from "../live/track";

@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 
 /** The complaints of the parser, and where they are. */
 export function Problems() {

@@ -1,5 +1,5 @@
 import { useEffect } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { RecordingInfo } from "../live/protocol";
 
 /** What runs left behind, to be looked at again: alone, beside the run, or two side by side. */

@@ -1,6 +1,6 @@
 import { useState } from "react";
-import { useRunning } from "../app/use_stage";
-import { useStore, useStudio } from "../app/use";
+import { useRunning } from "../hooks/use_stage";
+import { useStore, useStudio } from "../hooks/use";
 import type { Breakpoint } from "../live/protocol";
 import type { NetModel } from "../model/net";
 import { Choice } from "./field";

@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import { layerTitle } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { rank } from "../model/rank";

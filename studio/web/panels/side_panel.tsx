@@ -1,4 +1,4 @@
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { PanelName } from "../live/studio";
 import { InspectPanel } from "./inspect_panel";
 import { PlayPanel } from "./play_panel";

@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useState } from "react";
-import { useHasWorld, useStore, useStudio } from "../app/use";
+import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import type { RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";

@@ -7,7 +7,7 @@ import { EditorState, type Text } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Diagnostic } from "../live/protocol";
 import { splice } from "../model/merge";
 

@@ -1,4 +1,4 @@
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { View } from "../live/studio";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";

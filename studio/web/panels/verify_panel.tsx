@@ -1,4 +1,4 @@
-import { useStore, useStudio } from "../app/use";
+import { useStore, useStudio } from "../hooks/use";
 import type { Verdict } from "../live/protocol";
 import { stepsOf } from "../live/verifier";
 import { sentence } from "../model/labels";

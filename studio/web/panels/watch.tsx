@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "react";
-import { useHasWorld, useStore, useStudio } from "../app/use";
+import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Replay } from "../live/replay";
 import type { Track } from "../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";

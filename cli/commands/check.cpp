@@ -1,0 +1,68 @@
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/commands/commands.hpp"
+#include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
+#include "project/files/assets.hpp"
+#include "project/verification/pipeline.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+struct CheckOptions {
+  std::string spec = ".", json;
+};
+
+// "1 agent", "3 subsystems"
+template <class Things>
+std::string count_of(const Things& things, const char* name) {
+  return fmt::format("{} {}{}", things.size(), name, things.size() == 1 ? "" : "s");
+}
+
+int check_json(const CheckOptions& options) {
+  diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
+  if (!found.has_errors())
+    if (const std::optional<spec::Model> model = spec::parse(found)) {
+      check_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
+      if (judge_models(*model, found)) static_cast<void>(build(*model, found));
+    }
+  write_output(options.json, diagnostics::render_json(found) + "\n");
+  if (!found.has_errors()) return ok;
+  return is_unreadable(found) ? usage : failed;
+}
+
+int check_command(const CheckOptions& options) {
+  if (!options.json.empty()) return check_json(options);
+  std::optional<Specification> specification = read(options.spec, terminal());
+  if (!specification) return refused();
+  const bool sound = models_are_sound(*specification, terminal());
+  if (!files_are_there(*specification, terminal()) || !sound) return refused();
+  const std::optional<Nets> nets = build(*specification, terminal());
+  if (!nets) return failed;
+  const spec::Model& model = specification->model;
+  fmt::print("{}: {}, {}, {}; {}, {}\n", model.system, count_of(model.agents, "agent"),
+             count_of(model.instances, "subsystem"), count_of(model.channels, "channel"),
+             count_of(nets->flat.places(), "place"), count_of(nets->flat.transitions(), "transition"));
+  return ok;
+}
+
+}  // namespace
+
+void add_check(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("check", "Read a specification and report every mistake in it");
+  auto options = std::make_shared<CheckOptions>();
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
+  command.footer(
+      "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"
+      "Example: tessera check robot/spec.yaml");
+  command.callback([options, &exit_code] { exit_code = check_command(*options); });
+}
+
+}  // namespace tessera::cli

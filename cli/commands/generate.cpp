@@ -1,0 +1,85 @@
+#include <fmt/core.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
+#include "cli/outputs.hpp"
+#include "cli/terminal.hpp"
+#include "project/build/controller.hpp"
+#include "project/files/lock_file.hpp"
+#include "project/files/state_folder.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+struct GenerateCommandOptions {
+  std::string spec = ".", output, json;
+  bool stubs = false, build = false;
+  Gate gate;
+};
+
+Generated generate_alone(const Verified& verified, const GenerateCommandOptions& options) {
+  const std::optional<LockFile> lock =
+      options.output.empty()
+          ? take_build_lock(state_folder(verified.specification.project), terminal(), nullptr)
+          : std::nullopt;
+  return generate(verified, {options.stubs, options.output});
+}
+
+int generate_command(const GenerateCommandOptions& options) {
+  check_replaceable(options.json, "{");
+  const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
+  if (!verified) return refused();
+  const Step step(terminal(), "generating");
+  const Generated generated = generate_alone(*verified, options);
+  if (!options.json.empty()) {
+    nlohmann::json verdicts = nlohmann::json::object();
+    for (const verify::PropertyResult& property : verified->net.report().properties)
+      verdicts[property.name] = name_of(property.verdict);
+    const nlohmann::json result{{"folder", generated.folder.string()},
+                                {"files", generated.files},
+                                {"written", generated.written},
+                                {"lines", generated.lines},
+                                {"net_hash", verified->net.report().net_hash},
+                                {"verification_hash", verified->net.report().verification_hash},
+                                {"verdicts", verdicts},
+                                {"seconds", step.seconds()}};
+    write_output(options.json, result.dump(2) + "\n");
+  } else {
+    fmt::print("{} files, {} lines in {} ({} changed)\n", generated.files, generated.lines,
+               generated.folder.string(), generated.written);
+  }
+  if (!report_missing(generated, terminal())) return failed;
+  for (const codegen::Stub& stub : options.stubs ? generated.unclear : std::vector<codegen::Stub>())
+    fmt::print(stderr,
+               "note: whether {} has a function '{}' is for the compiler to say; nothing is written for it\n",
+               stub.subsystem, stub.function);
+  if (!options.build) return ok;
+  return make_controller(options.spec, {.gate = options.gate}, terminal()) ? ok : failed;
+}
+
+}  // namespace
+
+void add_generate(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
+  auto options = std::make_shared<GenerateCommandOptions>();
+  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  command.option("-o,--output", options->output,
+                 "Folder for the generated files (default: .tessera/generated)");
+  command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
+  command
+      .flag("--build", options->build,
+            "Compile the controller too: then a copy that nobody can write to runs")
+      .excludes(command.declared("--output"));
+  declare_gate(command, options->gate);
+  command.option("--json", options->json, "Write what was done as JSON (- is standard output)");
+  command.footer("Example: tessera generate --stubs");
+  command.callback([options, &exit_code] { exit_code = generate_command(*options); });
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,318 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/commands/commands.hpp"
+#include "cli/terminal.hpp"
+#include "diagnostics/diagnostics.hpp"
+#include "project/files/state_folder.hpp"
+#include "project/verification/pipeline.hpp"
+#include "replay/events.hpp"
+#include "replay/legality.hpp"
+#include "replay/perfetto.hpp"
+#include "replay/statistics.hpp"
+#include "tessera/recording.hpp"
+#include "verify/hashes.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using replay::Distribution;
+using Legal = replay::Legality::Verdict;
+
+constexpr const char* all_values = "*";
+constexpr const char* usual_recording = ".tessera/last/recording.tsr";
+
+struct ReplayOptions {
+  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json;
+  double from_s = 0, to_s = HUGE_VAL;
+  std::size_t last = 0;
+  bool check = false, print = false;
+  std::string values;  ///< of buffers whose path contains this; all_values; empty: none
+};
+
+// ---------------------------------------------------------------------------------------------- the events
+
+replay::Selection selection_of(const ReplayOptions& options) {
+  replay::Selection selection{options.from_s,    options.to_s,       options.last,
+                              options.subsystem, options.transition, options.print || options.values.empty(),
+                              std::nullopt};
+  if (!options.values.empty()) selection.values = options.values == all_values ? "" : options.values;
+  return selection;
+}
+
+void write_csv(const Recording& recording, const ReplayOptions& options) {
+  std::ostringstream text;
+  if (!options.values.empty() && !options.print) {
+    replay::write_values_csv(recording, selection_of(options), text);
+  } else {
+    replay::Selection selection = selection_of(options);
+    if (options.values.empty()) selection.values = "";
+    replay::write_csv(recording, selection, text);
+  }
+  write_output(options.csv, text.str());
+}
+
+void write_perfetto_file(const Recording& recording, const std::string& file) {
+  std::ostringstream text;
+  replay::write_perfetto(recording, text);
+  write_output(file, text.str());
+}
+
+// ---------------------------------------------------------------------------------------------- summary
+
+std::string shown(double seconds) {
+  if (seconds < 1e-6) return fmt::format("{:.0f} ns", seconds * 1e9);
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3f} ms", seconds * 1e3);
+  return fmt::format("{:.3f} s", seconds);
+}
+
+/// A row of blocks, one per step of the histogram; anything at all shows.
+std::string bars(const Distribution& distribution) {
+  if (distribution.histogram.empty()) return {};
+  constexpr const char* blocks[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  const std::uint64_t most = std::ranges::max(distribution.histogram);
+  std::string row = "  |";
+  for (const std::uint64_t count : distribution.histogram)
+    row += blocks[count == 0 ? 0 : std::max<std::uint64_t>(1, count * 8 / most)];
+  return row + "|";
+}
+
+void print_distribution(const std::string& name, const Distribution& distribution) {
+  if (distribution.count == 0) return;
+  fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}{}\n", name, shown(distribution.least),
+             shown(distribution.median), shown(distribution.p99), shown(distribution.most),
+             bars(distribution));
+}
+
+std::string count_of(std::uint64_t count, const char* what) {
+  return count == 0 ? std::string() : fmt::format(", {} {}", count, what);
+}
+
+void print_summary(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
+  const double end_s =
+      recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
+  fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", recording.system, recording.clock,
+             recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
+  if (recording.segment.value_or(0) > 0)
+    fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
+  if (recording.truncated)
+    fmt::print(
+        "its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
+  if (recording.lost > 0) fmt::print("{} events of the run are missing in it\n", recording.lost);
+  fmt::print("net {}\n", recording.net_hash);
+  for (const replay::SubsystemStatistics& one : all) {
+    constexpr std::size_t shown_waits = 4;
+    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", one.path, one.iterations, one.firings,
+               count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
+               count_of(one.faults, "faults"), count_of(one.timeouts, "timeouts"),
+               count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
+    if (one.iterations > 0)
+      fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
+    print_distribution("period", one.period);
+    print_distribution("transition function", one.call);
+    print_distribution("communication", one.iteration);
+    for (std::size_t wait = 0; wait < std::min(shown_waits, one.waits.size()); ++wait)
+      if (one.waits[wait].time.most > 0)
+        print_distribution("wait for " + one.waits[wait].channel, one.waits[wait].time);
+  }
+  for (const Recording::Entry& entry : recording.entries)
+    if (entry.event.kind() == Event::Kind::stop) fmt::print("\nended: {}\n", entry.text);
+}
+
+json to_json(const Distribution& distribution) {
+  return {{"count", distribution.count},        {"least_s", distribution.least},
+          {"mean_s", distribution.mean},        {"median_s", distribution.median},
+          {"p99_s", distribution.p99},          {"most_s", distribution.most},
+          {"histogram", distribution.histogram}};
+}
+
+json to_json(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
+  json subsystems = json::array();
+  for (const replay::SubsystemStatistics& one : all) {
+    json waits = json::object();
+    for (const auto& wait : one.waits) waits[wait.channel] = to_json(wait.time);
+    subsystems.push_back({{"path", one.path},
+                          {"firings", one.firings},
+                          {"iterations", one.iterations},
+                          {"errors", one.errors},
+                          {"overruns", one.overruns},
+                          {"faults", one.faults},
+                          {"timeouts", one.timeouts},
+                          {"skips", one.skips},
+                          {"overwrites", one.overwrites},
+                          {"period", to_json(one.period)},
+                          {"transition_function", to_json(one.call)},
+                          {"communication", to_json(one.iteration)},
+                          {"waits", std::move(waits)}});
+  }
+  return {{"system", recording.system},
+          {"net_hash", recording.net_hash},
+          {"verification_hash", recording.verification_hash},
+          {"clock", recording.clock},
+          {"seed", recording.seed},
+          {"events", recording.entries.size()},
+          {"truncated", recording.truncated},
+          {"lost", recording.lost},
+          {"subsystems", std::move(subsystems)}};
+}
+
+// ---------------------------------------------------------------------------------------------- check
+
+/// The specification beside a recording: in its folder or in one above.
+std::string specification_of(const ReplayOptions& options) {
+  if (!options.spec.empty()) return options.spec;
+  for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
+    if (fs::exists(folder / "spec.yaml")) return (folder / "spec.yaml").string();
+    if (folder == folder.parent_path()) break;
+  }
+  throw std::runtime_error("no specification is beside '" + options.recording +
+                           "' or above it; name the one that the controller was generated from with --spec");
+}
+
+const char* name_of(Legal verdict) {
+  switch (verdict) {
+    case Legal::legal:
+      return "legal";
+    case Legal::illegal:
+      return "illegal";
+    case Legal::incomplete:
+      return "incomplete";
+  }
+  return "";
+}
+
+/// nullopt after the reason has been printed: there is no net to check against.
+std::optional<replay::Legality> check(const Recording& recording, const ReplayOptions& options) {
+  const std::string file = specification_of(options);
+  std::optional<Specification> specification = read(file, terminal());
+  if (!specification) return std::nullopt;
+  const std::optional<Nets> nets = build(*specification, terminal());
+  if (!nets) return std::nullopt;
+  const std::string hash = verify::hash_of(nets->flat);
+  if (hash != recording.net_hash) {
+    complain(
+        fmt::format("the recording is of the net {}, and {} now gives {}: check out the specification "
+                    "it was made with, or name it with --spec",
+                    recording.net_hash, specification->file.string(), hash));
+    return std::nullopt;
+  }
+  return replay::check_legal(recording, nets->flat);
+}
+
+int exit_code_of(Legal verdict) {
+  return verdict == Legal::legal ? ok : verdict == Legal::illegal ? failed : unknown;
+}
+
+bool known_subsystem(const Recording& recording, const std::string& path) {
+  std::vector<std::string> names = recording.instances;
+  names.emplace_back("system");
+  if (path.empty() || std::ranges::count(names, path) > 0) return true;
+  const std::string hint = diagnostics::did_you_mean(path, names);
+  complain("the recording has no subsystem '" + path + "'" + (hint.empty() ? "" : "; " + hint));
+  return false;
+}
+
+bool known_values(const Recording& recording, const std::string& wanted) {
+  if (wanted.empty() || wanted == all_values) return true;
+  std::vector<std::string> names;
+  for (const Recording::Buffer& buffer : recording.buffers) {
+    if (buffer.path.find(wanted) != std::string::npos) return true;
+    names.push_back(buffer.path);
+    names.push_back(buffer.path.substr(buffer.path.rfind('.') + 1));
+  }
+  const std::string hint = diagnostics::did_you_mean(wanted, names);
+  complain("no buffer of the recording has '" + wanted + "' in its path" + (hint.empty() ? "" : "; " + hint));
+  return false;
+}
+
+/// The last run of the project here, wherever its files are kept.
+std::string last_recording() {
+  const fs::path kept = state_folder(fs::canonical(".")) / "last/recording.tsr";
+  return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
+}
+
+int replay_command(ReplayOptions options) {
+  if (options.recording == usual_recording) options.recording = last_recording();
+  std::string error;
+  const std::optional<Recording> recording = read_recording(options.recording, error);
+  if (!recording) return complain(error);
+  if (!known_subsystem(*recording, options.subsystem)) return usage;
+  json result;
+  int exit_code = ok;
+  const bool to_output = options.json == "-" || options.csv == "-" || options.perfetto == "-";
+  const bool show =
+      options.print || (!options.values.empty() && options.csv.empty() && options.perfetto.empty());
+  const bool other = options.check || show || !options.csv.empty() || !options.perfetto.empty();
+  if (!options.values.empty() && recording->buffers.empty())
+    return complain("the recording holds no values of buffers; record with --record-values small or all");
+  if (!known_values(*recording, options.values)) return usage;
+  if (!options.csv.empty()) write_csv(*recording, options);
+  if (!options.perfetto.empty()) write_perfetto_file(*recording, options.perfetto);
+  if (show) replay::print_events(*recording, selection_of(options), std::cout);
+  if (!other || !options.json.empty()) {
+    const std::vector<replay::SubsystemStatistics> all = replay::statistics_of(*recording);
+    result = to_json(*recording, all);
+    if (!other && !to_output) print_summary(*recording, all);
+  }
+  if (options.check) {
+    const std::optional<replay::Legality> legality = check(*recording, options);
+    if (!legality) return failed;
+    exit_code = exit_code_of(legality->verdict);
+    result["check"] = {
+        {"verdict", name_of(legality->verdict)}, {"firings", legality->firings}, {"why", legality->why}};
+    if (!to_output)
+      fmt::print("{}: {} firings of the net {}{}{}\n", name_of(legality->verdict), legality->firings,
+                 recording->net_hash, legality->why.empty() ? "" : "; then ", legality->why);
+  }
+  if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
+  return exit_code;
+}
+
+}  // namespace
+
+void add_replay(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
+  auto options = std::make_shared<ReplayOptions>();
+  command.option("recording", options->recording, "Recording of a run").shows_default();
+  command.flag("--check", options->check,
+               "Play it on the net of its specification: is it a legal firing sequence?");
+  command.option("--spec", options->spec, "That specification (default: beside the recording or above)");
+  command.flag("--print", options->print, "Print the events");
+  command.flag("--values", options->values, all_values,
+               "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
+               "--csv a row per change and a column per field");
+  command.option("--from", options->from_s, "Events from this time on, in seconds");
+  command.option("--to", options->to_s, "Events up to this time, in seconds");
+  command.option("--last", options->last, "The last so many of the events");
+  command.option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
+  command.option("--containing", options->transition, "Events whose text contains this: t6, .snd.motion");
+  command.option("--csv", options->csv, "Write the events as CSV (- is standard output)");
+  command.option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
+  command.option("--json", options->json, "Write summary and check as JSON (- is standard output)");
+  command.footer(
+      "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 3 if "
+      "events\n"
+      "are missing.\n"
+      "Example: tessera replay --check\n"
+      "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
+      "         tessera replay --values=control.motion --csv motion.csv\n"
+      "         tessera replay --to-perfetto run.json");
+  command.callback([options, &exit_code] { exit_code = replay_command(*options); });
+}
+
+}  // namespace tessera::cli

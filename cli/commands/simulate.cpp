@@ -1,0 +1,237 @@
+#include <fmt/core.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/early_checks.hpp"
+#include "cli/launch.hpp"
+#include "cli/outcome.hpp"
+#include "cli/outputs.hpp"
+#include "cli/play_net.hpp"
+#include "cli/terminal.hpp"
+#include "project/files/run_folder.hpp"
+#include "project/files/state_folder.hpp"
+#include "project/process/death.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+struct SimulateOptions : LaunchOptions {
+  std::string json, report, scenario, from;
+  bool realtime = false, interleave = false;
+  std::uint64_t schedules = 0;
+  std::uint64_t steps = PlayOptions{}.steps;
+};
+
+struct RunCommandOptions : LaunchOptions {
+  std::string json, report;
+  bool world = false;
+};
+
+int print_debugger(const Command& command) {
+  Command line{"gdb", "--args"};
+  line.insert(line.end(), command.begin(), command.end());
+  fmt::print("{}\n", shell_line(line));
+  return ok;
+}
+
+// The summary is written even by a run that failed, and says why; only a controller that could not start
+// leaves none.
+int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
+           const Command& command, const std::string& json, const std::string& report_folder) {
+  if (options.debug) return print_debugger(command);
+  const RunFiles files = run_files(options);
+  const std::filesystem::path note = death_note(files);
+  const Exit exit = run(attended(command, note));
+  if (!std::filesystem::exists(files.summary)) {
+    if (const std::string death = describe_death(exit, note); !death.empty())
+      complain(death);
+    else
+      folder.withdraw();
+    return exit.code == 0 ? failed : exit.code;
+  }
+  const RunOutcome outcome = read_outcome(controller, options);
+  if (json != "-") print(outcome);
+  if (!json.empty()) write_output(json, to_json(outcome));
+  if (!report_folder.empty()) write_report(outcome, controller.report, report_folder);
+  return exit.code;
+}
+
+// The command that makes one of the schedules again, alone and recorded.
+std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
+  Command line{"tessera", "simulate",           options.spec, "--interleave",
+               "--seed",  std::to_string(seed), "--for",      options.duration};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) line.insert(line.end(), {option, value});
+  };
+  for (const std::string& value : options.set) add("--set", value);
+  for (const std::string& fault : options.inject) add("--inject", fault);
+  if (options.accept_stuck) line.emplace_back("--accept-stuck");
+  add("--parameters", options.parameters);
+  add("--track", options.track);
+  if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
+  if (!options.start.empty()) line.push_back("--start=" + options.start);
+  add("--scenario", options.scenario);
+  return shell_line(line);
+}
+
+// The controller says what it found; how to look at it only this command knows.
+int launch_schedules(const SimulateOptions& options, Command command) {
+  command.insert(command.end(), {"--schedules", std::to_string(options.schedules)});
+  if (options.debug) return print_debugger(command);
+  const RunFiles files = run_files(options);
+  const Exit exit = run(command);
+  nlohmann::json summary =
+      nlohmann::json::parse(std::ifstream(files.summary), nullptr, /*allow_exceptions=*/false);
+  if (summary.is_discarded()) return exit.code == 0 ? failed : exit.code;
+  if (const nlohmann::json& failure = summary["failure"]; failure.is_object()) {
+    const std::string again = reproduction(options, failure.at("seed").get<std::uint64_t>());
+    fmt::print(stderr, "  make it again: {}\n", again);
+    summary["reproduce"] = again;
+  }
+  if (!options.json.empty()) write_output(options.json, summary.dump(2) + "\n");
+  return exit.code;
+}
+
+// User code again on what a recording says it was given: no world, no recording.
+int run_again(const Controller& controller, const SimulateOptions& options) {
+  const RunFiles files = run_files(options);
+  Command command{controller.program.string(),
+                  "simulate",
+                  "--from",
+                  std::filesystem::absolute(options.from).string(),
+                  "--summary",
+                  files.summary.string()};
+  for (const std::string& value : options.set) command.insert(command.end(), {"--set", value});
+  if (options.debug) return print_debugger(command);
+  const Exit exit = run(command);
+  if (!options.json.empty() && std::filesystem::exists(files.summary))
+    write_output(options.json, nlohmann::json::parse(std::ifstream(files.summary)).dump(2) + "\n");
+  return exit.code;
+}
+
+/// A folder for the run, and its controller there.
+RunFolder folder_for(Controller& controller, LaunchOptions& options, const char* mode, bool is_recorded) {
+  const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
+  RunFolder folder(state_folder(controller.specification.project), mode, shown, terminal());
+  options.folder = folder.path().string();
+  controller.program = folder.own(controller.program);
+  folder.goes_to_children();
+  return folder;
+}
+
+/// Before anything takes time.
+void check_outputs(const LaunchOptions& options, const std::string& json, const std::string& report) {
+  check_recording(options.record);
+  check_replaceable(json, "{");
+  check_report(report);
+}
+
+int simulate_command(SimulateOptions options) {
+  if (options.spec.ends_with(".pnml"))
+    return play_net({options.spec, options.steps, options.seed, options.json});
+  if (const int code = check_run(options, options.from.empty()); code != ok) return code;
+  // A scenario shows a violation: that is what the controller is made for.
+  if (!options.scenario.empty()) options.gate.accept_violations = true;
+  check_outputs(options, options.json, options.report);
+  if (options.from.empty() && !drivers_are_there(options, /*simulated=*/true, terminal())) return failed;
+  std::optional<Controller> controller =
+      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
+  if (!controller) return refused();
+  const bool is_recorded = options.from.empty() && options.schedules == 0;
+  const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
+  const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
+  if (!options.from.empty()) return run_again(*controller, options);
+  if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
+  Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
+  if (options.interleave) command.push_back("--interleave");
+  if (options.realtime) command.push_back("--realtime");
+  if (!options.scenario.empty()) {
+    command.emplace_back("--scenario");
+    command.push_back(std::filesystem::absolute(options.scenario).string());
+  }
+  if (options.schedules > 0) return launch_schedules(options, command);
+  return launch(*controller, folder, options, command, options.json, options.report);
+}
+
+int run_command(RunCommandOptions options) {
+  if (!options.hardware.empty() && !options.world)
+    return complain("--hardware is for simulated runs: this one has real drivers everywhere");
+  if (const int code = check_run(options, options.world); code != ok) return code;
+  if (!drivers_are_there(options, options.world, terminal())) return failed;
+  check_outputs(options, options.json, options.report);
+  std::optional<Controller> controller =
+      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
+  if (!controller) return refused();
+  if (options.world && !controller->specification.model.simulation)
+    return complain("the specification has no `simulation`, so there is nothing to simulate");
+  const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
+  return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
+                options.json, options.report);
+}
+
+}  // namespace
+
+void add_simulate(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
+  auto options = std::make_shared<SimulateOptions>();
+  declare(command, *options);
+  declare_world(command, *options);
+  command
+      .option("--scenario", options->scenario,
+              "Drive the controller through this run first (tessera verify --scenario)")
+      .existing_file();
+  Option from =
+      command
+          .option("--from", options->from,
+                  "Run the code again on what this recording says it was given, and compare what it does")
+          .existing_file();
+  Option schedules = command.option(
+      "--schedules", options->schedules,
+      "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
+      "that breaks an assertion, ends with an error or hangs");
+  command.flag("--interleave", options->interleave,
+               "Subsystems take turns after every firing, as in --schedules, which this makes one of");
+  command.flag("--realtime", options->realtime, "Not faster than the wall clock");
+  command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
+      .shows_default();
+  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command.option("--report", options->report, "Folder for a page and a picture of the run")
+      .excludes(schedules);
+  command.declared("--record").excludes(schedules);
+  for (const char* other :
+       {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
+        "--scenario", "--schedules", "--interleave", "--realtime", "--report", "--hardware"})
+    from.excludes(command.declared(other));
+  for (const char* other : {"--schedules", "--scenario"})
+    command.declared("--hardware").excludes(command.declared(other));
+  command.footer(
+      "Examples:\n"
+      "  tessera simulate --for 60s --seed 1 --report report\n"
+      "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
+      "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
+      "  tessera simulate --from field.tsr               would this code have done the same there?\n"
+      "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
+  command.callback([options, &exit_code] { exit_code = simulate_command(*options); });
+}
+
+void add_run(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("run", "Build the controller and run it on the steady clock with real drivers");
+  auto options = std::make_shared<RunCommandOptions>();
+  declare(command, *options);
+  declare_world(command, *options);
+  command.flag("--world", options->world,
+               "With the simulated drivers, in the simulated world if there is one, in real time");
+  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command.option("--report", options->report, "Folder for a page and a picture of the run");
+  command.footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
+  command.callback([options, &exit_code] { exit_code = run_command(*options); });
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,236 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/commands.hpp"
+#include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
+#include "explore/explore.hpp"
+#include "layers/layers.hpp"
+#include "net/pnml_reader.hpp"
+#include "project/verification/pipeline.hpp"
+#include "project/verification/run_files.hpp"
+#include "project/verification/verdicts.hpp"
+#include "project/verification/violation.hpp"
+#include "verify/communication/abstraction.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+using nlohmann::json;
+
+struct VerifyOptions {
+  std::string spec = ".", json, trace, scenario, timeout = "60s", method = "any";
+  std::vector<std::string> properties, without;
+  bool states = false, explain = false;
+};
+
+std::atomic<bool> searches_stopped{false};
+void stop_searches(int /*signal*/) { searches_stopped.store(true, std::memory_order_relaxed); }
+
+/// Ctrl-C ends the searches, not the command, while this lives.
+class Interruptible {
+ public:
+  Interruptible() : before_(std::signal(SIGINT, stop_searches)) {}
+  ~Interruptible() { std::signal(SIGINT, before_); }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+/// The net to judge, of a specification or of a PNML file.
+struct Judged {
+  std::string file;
+  std::optional<Nets> nets;  ///< of a specification
+  std::optional<net::Net> drawn;
+  std::vector<net::Invariant> invariants;
+
+  [[nodiscard]] const net::Net& net() const { return drawn ? *drawn : nets->flat; }
+  [[nodiscard]] verify::Subject subject() const {
+    if (!nets) return {net(), nullptr, invariants};
+    return {net(), &nets->pages, invariants, nets->properties};
+  }
+  /// Every property that can be asked for by its name.
+  [[nodiscard]] std::vector<std::string> properties() const {
+    std::vector<std::string> names = verify::default_properties();
+    if (nets)
+      for (const net::Property& property : nets->properties) names.push_back(property.name);
+    return names;
+  }
+};
+
+std::optional<Judged> load(const std::string& given) {
+  Judged judged;
+  if (given.ends_with(".pnml")) {
+    diagnostics::Diagnostics source = diagnostics::load(given);
+    if (!source.has_errors()) judged.drawn = net::read_pnml(source);
+    terminal().say(source);
+    judged.file = given;
+    return judged.drawn ? std::optional(std::move(judged)) : std::nullopt;
+  }
+  std::optional<Specification> specification = read(given, terminal());
+  if (!specification || !models_are_sound(*specification, terminal())) return std::nullopt;
+  judged.nets = build(*specification, terminal());
+  if (!judged.nets) return std::nullopt;
+  judged.file = specification->file.string();
+  judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
+  return judged;
+}
+
+std::string shown(const explore::Progress& progress) {
+  return fmt::format("{:.2f} M markings, {:.2f} M/s, {} MB", static_cast<double>(progress.markings) / 1e6,
+                     progress.markings_per_second / 1e6, progress.bytes >> 20U);
+}
+
+verify::Report judge(const Judged& judged, const VerifyOptions& options, Step& step) {
+  verify::ProveOptions how;
+  how.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
+  if (options.method != "any") how.method = options.method;
+  how.only = options.properties;
+  for (const std::string& rule : options.without) static_cast<void>(reduce::switch_off(how.rules, rule));
+  how.stop = &searches_stopped;
+  how.progress = [&](const std::string& property, const explore::Progress& progress) {
+    step.progress(property + ": " + shown(progress));
+  };
+  return verify::prove(judged.subject(), how);
+}
+
+// ---------------------------------------------------------------------------------------------- reports
+
+void print_result(const Judged& judged, const verify::PropertyResult& property, bool explain) {
+  fmt::print("{}", text_of(judged.net(), property));
+  if (!explain) return;
+  if (!property.asks.empty() && property.asks != property.name) fmt::print("  {}\n", property.asks);
+  if (!property.explanation.empty()) fmt::print("  {}\n", property.explanation);
+  if (property.states > 0) fmt::print("  {} markings visited\n", property.states);
+  if (!property.meaning.empty()) fmt::print("  {}\n", property.meaning);
+  fmt::print("  {:.3f} s\n", property.seconds);
+}
+
+/// The run of the first violation that has one; a warning's only if there is no other.
+int write_scenario(const Judged& judged, const verify::Report& report, const VerifyOptions& options) {
+  const std::string& file = options.scenario;
+  const verify::PropertyResult* chosen = nullptr;
+  for (const verify::PropertyResult& property : report.properties)
+    if (property.has_trace && (chosen == nullptr || (chosen->warning && !property.warning)))
+      chosen = &property;
+  if (judged.drawn) return complain("--scenario needs a specification: a PNML net has no controller");
+  if (chosen == nullptr)
+    return complain("no property is violated by a run, so there is no scenario to write");
+  write_output(file, scenario_json(judged.net(), report, *chosen).dump(2) + "\n");
+  fmt::print(
+      stderr,
+      "scenario of {}: {}\nhint: `tessera simulate {} --scenario {}` drives the controller through it\n",
+      chosen->name, file, options.spec, file);
+  return ok;
+}
+
+json count_states(const Judged& judged, const VerifyOptions& options, Step& step) {
+  explore::Limits limits;
+  limits.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
+  limits.stop = &searches_stopped;
+  limits.progress = [&](const explore::Progress& progress) { step.progress("states: " + shown(progress)); };
+  const net::Net net = verify::possible_part(verify::abstract_net(judged.net()));
+  const explore::Count count = explore::count(explore::PtNet(net), limits);
+  json result{{"markings", count.markings}, {"edges", count.edges}, {"complete", count.complete}};
+  if (!count.complete) result["why"] = count.why;
+  return result;
+}
+
+bool known(const std::vector<std::string>& asked, const std::vector<std::string>& names) {
+  bool all = true;
+  for (const std::string& name : asked) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    const std::string hint = diagnostics::did_you_mean(name, names);
+    complain("there is no property '" + name + "'" + (hint.empty() ? "" : "; " + hint));
+    all = false;
+  }
+  return all;
+}
+
+int exit_code_of(const verify::Report& report) {
+  switch (report.overall()) {
+    case verify::Verdict::holds:
+      return ok;
+    case verify::Verdict::violated:
+      return failed;
+    case verify::Verdict::unknown:
+      return unknown;
+  }
+  return unknown;
+}
+
+int verify_command(const VerifyOptions& options) {
+  const std::optional<Judged> judged = load(options.spec);
+  if (!judged) return refused();
+  if (!known(options.properties, judged->properties())) return usage;
+  const Interruptible interruptible;
+  json result;
+  verify::Report report;
+  {
+    Step step(terminal(), "verifying");
+    report = judge(*judged, options, step);
+    result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
+    if (options.states) result["state_space"] = count_states(*judged, options, step);
+  }
+  if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
+  if (!options.trace.empty())
+    write_output(options.trace, traces_json(judged->file, judged->net(),
+                                            judged->nets ? &judged->nets->pages : nullptr, report)
+                                        .dump(2) +
+                                    "\n");
+  if (!options.scenario.empty() && write_scenario(*judged, report, options) != ok) return failed;
+  if (options.json == "-" || options.trace == "-") return exit_code_of(report);
+  for (const verify::PropertyResult& property : report.properties)
+    print_result(*judged, property, options.explain);
+  if (options.states) {
+    const json& space = result["state_space"];
+    fmt::print("states: {} markings, {} edges{}\n", space["markings"].get<std::uint64_t>(),
+               space["edges"].get<std::uint64_t>(), space["complete"].get<bool>() ? "" : " and more");
+  }
+  return exit_code_of(report);
+}
+
+}  // namespace
+
+void add_verify(CommandLine& app, int& exit_code) {
+  Subcommand command =
+      app.add("verify", "Prove that nothing can go wrong in the net, or show the run in which it does");
+  auto options = std::make_shared<VerifyOptions>();
+  command.option("spec", options->spec, "Specification, the folder of its spec.yaml, or a PNML file")
+      .shows_default();
+  command.option("--property", options->properties, "Only this property; may be given several times");
+  command.option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
+      .shows_default();
+  std::vector<std::string> methods = verify::method_names();
+  methods.insert(methods.begin(), "any");
+  command.option("--method", options->method, "Use only this method").one_of(methods).shows_default();
+  std::vector<std::string> rules{"all"};
+  for (const reduce::NamedRule& rule : reduce::named_rules()) rules.emplace_back(rule.name);
+  command.option("--without", options->without, "Do not use this reduction (to check one against the rest)")
+      .one_of(rules);
+  command.flag("--states", options->states, "Count the reachable markings as well");
+  command.option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
+  command.option("--trace", options->trace, "Write the runs that show violations as JSON");
+  command.option("--scenario", options->scenario,
+                 "Write the run of a violation for `tessera simulate --scenario`");
+  command.flag("--explain", options->explain,
+               "Say how each verdict came about, and what it means for the net with conditions");
+  command.footer(
+      "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
+      "2 if a file cannot be read, 3 if a property is unknown.\n"
+      "Example: tessera verify robot/spec.yaml --explain\n"
+      "         tessera verify net.pnml --states --json -");
+  command.callback([options, &exit_code] { exit_code = verify_command(*options); });
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,57 @@
+# One way to declare a module, a test and a benchmark, so that flags are said once.
+include(GNUInstallDirs)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+add_library(tessera_flags INTERFACE)
+# Sources that are compiled together share unnamed namespaces, and a local name may well be one of those. The presets that
+# compile each source on its own warn of shadowing.
+target_compile_options(tessera_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Werror
+  $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # g++ 12 reports it wrongly for string concatenation (GCC bug 105651)
+if(TESSERA_SANITIZE)
+  add_compile_options(-fsanitize=${TESSERA_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${TESSERA_SANITIZE})
+  # g++ 12 reports it wrongly for std::regex in instrumented code.
+  target_compile_options(tessera_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  if(TESSERA_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()
+
+# tessera_module(NAME SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
+# A static library tessera_NAME whose headers are included as "NAME/header.hpp".
+function(tessera_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(tessera_${name} STATIC ${MODULE_SOURCES})
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH above)
+  target_include_directories(tessera_${name} PUBLIC ${above})
+  target_link_libraries(tessera_${name} PUBLIC ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE} tessera_flags)
+endfunction()
+
+# tessera_gtest(NAME SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [LOCK name] [WHOLE])
+# LOCK: its cases share something and run one after the other.
+# WHOLE: ctest lists one case, since what SetUpTestSuite makes takes longer than the cases.
+# An executable test_NAME whose cases ctest lists one by one.
+include(GoogleTest)
+function(tessera_gtest name)
+  cmake_parse_arguments(TEST "WHOLE" "TIMEOUT;LOCK" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 120)
+  endif()
+  add_executable(test_${name} ${TEST_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main tessera_flags)
+  target_compile_definitions(test_${name} PRIVATE TESSERA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TESSERA_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  set(properties TIMEOUT ${TEST_TIMEOUT})
+  if(TEST_LOCK)
+    list(APPEND properties RESOURCE_LOCK ${TEST_LOCK})
+  endif()
+  if(TEST_WHOLE)
+    add_test(NAME ${name} COMMAND test_${name})
+    set_tests_properties(${name} PROPERTIES ${properties} LABELS "${TEST_LABELS}")
+    return()
+  endif()
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 PROPERTIES ${properties} LABELS "${TEST_LABELS}")
+endfunction()

@@ -1,0 +1,350 @@
+#include "tessera/recording.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
+  for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
+                               Recording::Direction::real_input, Recording::Direction::real_output})
+    if (name_of(direction) == name) return direction;
+  return std::nullopt;
+}
+
+[[nodiscard]] bool read_buffers(const nlohmann::json& values, Recording& recording) {
+  values.at("limit").get_to(recording.value_limit);
+  for (const nlohmann::json& buffer : values.at("buffers")) {
+    const auto direction = direction_of(buffer.at(2).get<std::string>());
+    const auto instance = buffer.at(1).get<std::uint32_t>();
+    if (!direction || instance >= recording.instances.size()) return false;
+    recording.buffers.push_back(
+        {buffer.at(0).get<std::string>(), instance, *direction, buffer.at(3).get<std::string>()});
+  }
+  return true;
+}
+
+/// How the run was started.
+void read_run(const nlohmann::json& header, Recording& recording) {
+  if (header.contains("parameters")) header.at("parameters").get_to(recording.parameters);
+  if (header.contains("injected")) header.at("injected").get_to(recording.injected);
+  if (header.contains("behaviours")) header.at("behaviours").get_to(recording.behaviours);
+  if (header.contains("segment")) recording.segment = header.at("segment").get<std::uint64_t>();
+  if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
+}
+
+/// false when the JSON lacks what every recording has.
+[[nodiscard]] bool read_header(Recording& recording) {
+  const nlohmann::json header = nlohmann::json::parse(recording.header, nullptr, /*allow_exceptions=*/false);
+  if (!header.is_object()) return false;
+  try {
+    header.at("system").get_to(recording.system);
+    header.at("net_hash").get_to(recording.net_hash);
+    header.at("verification_hash").get_to(recording.verification_hash);
+    header.at("clock").get_to(recording.clock);
+    header.at("seed").get_to(recording.seed);
+    header.at("instances").get_to(recording.instances);
+    for (const nlohmann::json& transition : header.at("transitions"))
+      recording.transitions.push_back(
+          {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
+    read_run(header, recording);
+    if (header.contains("values")) return read_buffers(header.at("values"), recording);
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+  return true;
+}
+
+constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 1;
+
+/// How many bytes at least a value event with these flags has.
+[[nodiscard]] std::size_t fixed_bytes(std::uint32_t flags) {
+  return ((flags & ValueFlags::stamped) != 0 ? sizeof(std::int64_t) : 0) +
+         ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
+}
+
+[[nodiscard]] bool makes_sense(const Event& event, const Recording& recording) {
+  if (event.instance() != system_instance && event.instance() >= recording.instances.size()) return false;
+  switch (event.kind()) {
+    case Event::Kind::firing:
+      return event.subject < recording.transitions.size();
+    case Event::Kind::log:
+    case Event::Kind::stop:
+    case Event::Kind::overrun:
+    case Event::Kind::marking:
+    case Event::Kind::end:
+    case Event::Kind::safe:
+    case Event::Kind::parameter:
+      return true;
+    case Event::Kind::call:
+      return event.instance() < recording.behaviours.size() &&
+             event.subject < recording.behaviours[event.instance()].size();
+    case Event::Kind::value:
+      return (event.version & buffer_bits) < recording.buffers.size() &&
+             recording.buffers[event.version & buffer_bits].instance == event.instance() &&
+             event.subject >= fixed_bytes(event.version >> buffer_shift);
+    case Event::Kind::fault:
+      return !name_of(static_cast<Fault>(event.version)).empty();
+  }
+  return false;
+}
+
+}  // namespace
+
+void RecordingReader::feed(std::string_view bytes) {
+  if (state_ == State::damaged) return;
+  // Copied only when a piece ends within an entry.
+  if (!pending_.empty()) {
+    pending_.append(bytes);
+    bytes = pending_;
+  }
+  std::size_t taken = state_ == State::header ? take_header(bytes) : 0;
+  if (state_ == State::events) taken += take_events(bytes.substr(taken));
+  pending_ = std::string(bytes.substr(std::min(taken, bytes.size())));
+}
+
+void RecordingReader::give_up(std::string problem) {
+  problem_ = std::move(problem);
+  state_ = State::damaged;
+}
+
+/// 0: it is not whole yet.
+std::size_t RecordingReader::take_header(std::string_view bytes) {
+  std::uint32_t length = 0;
+  const std::size_t before_header = recording_magic.size() + sizeof length;
+  if (!bytes.starts_with(recording_magic.substr(0, bytes.size()))) {
+    give_up("is no recording of Tessera");
+    return 0;
+  }
+  if (bytes.size() < before_header) return 0;
+  std::memcpy(&length, bytes.data() + recording_magic.size(), sizeof length);
+  if (length > longest_recording_header) give_up("has a damaged header");
+  const std::size_t start_of_events = (before_header + length + 7) / 8 * 8;
+  if (state_ == State::damaged || bytes.size() < start_of_events) return 0;
+  recording_.header = bytes.substr(before_header, length);
+  if (!read_header(recording_)) {
+    give_up("has a damaged header");
+    return 0;
+  }
+  state_ = State::events;
+  has_header_ = true;
+  return start_of_events;
+}
+
+std::size_t RecordingReader::take_events(std::string_view bytes) {
+  const std::size_t size = bytes.size();
+  while (bytes.size() >= sizeof(Event)) {
+    Recording::Entry entry;
+    std::memcpy(&entry.event, bytes.data(), sizeof(Event));
+    if (!makes_sense(entry.event, recording_)) {
+      give_up("is damaged");
+      break;
+    }
+    has_ended_ = entry.event.kind() == Event::Kind::end;
+    if (has_ended_) {
+      recording_.lost += entry.event.subject;
+      bytes.remove_prefix(sizeof(Event));
+      continue;
+    }
+    std::size_t padded = 0;
+    if (entry.event.has_text()) {
+      const std::size_t length = entry.event.subject;
+      padded = (length + sizeof(Event) - 1) / sizeof(Event) * sizeof(Event);
+      if (padded > bytes.size() - sizeof(Event)) break;
+      entry.text = bytes.substr(sizeof(Event), length);
+    }
+    bytes.remove_prefix(sizeof(Event) + padded);
+    recording_.entries.push_back(std::move(entry));
+  }
+  return size - bytes.size();
+}
+
+std::string_view name_of(Fault fault) {
+  switch (fault) {
+    case Fault::net:
+      return "net";
+    case Fault::assertion:
+      return "assertion";
+    case Fault::exception:
+      return "exception";
+    case Fault::not_finite:
+      return "not finite";
+    case Fault::device:
+      return "device";
+    case Fault::stale:
+      return "stale";
+    case Fault::stall:
+      return "stall";
+    case Fault::overrun:
+      return "overrun";
+    case Fault::crash:
+      return "crash";
+    case Fault::limit:
+      return "limit";
+  }
+  return "";
+}
+
+std::string_view name_of(Recording::Direction direction) {
+  switch (direction) {
+    case Recording::Direction::input:
+      return "in";
+    case Recording::Direction::output:
+      return "out";
+    case Recording::Direction::real_input:
+      return "real_in";
+    case Recording::Direction::real_output:
+      return "real_out";
+  }
+  return "";
+}
+
+ValueEvent value_of(const Recording::Entry& entry) {
+  ValueEvent value{.buffer = entry.event.version & buffer_bits,
+                   .flags = entry.event.version >> buffer_shift,
+                   .bytes = entry.text};
+  if (value.has(ValueFlags::stamped)) {
+    std::memcpy(&value.stamp_ns, entry.text.data(), sizeof value.stamp_ns);
+    value.bytes.remove_prefix(sizeof value.stamp_ns);
+  }
+  return value;
+}
+
+namespace {
+
+[[nodiscard]] std::optional<Recording> read_segment(const std::string& path, std::string& error) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) {
+    error = fmt::format("cannot read '{}'", path);
+    return std::nullopt;
+  }
+  RecordingReader reader;
+  reader.feed(content);
+  const bool cut = !reader.has_header() && reader.problem().empty();
+  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // of the padding behind the header
+  if (!reader.has_header()) {
+    const bool begins_well = content.size() >= 12 && reader.problem().empty();
+    error = fmt::format("'{}' {}", path,
+                        begins_well                ? "has a damaged header"
+                        : reader.problem().empty() ? "is no recording of Tessera"
+                                                   : reader.problem());
+    return std::nullopt;
+  }
+  reader.recording().truncated = !reader.problem().empty() || !reader.has_ended() || reader.pending() > 0;
+  return std::move(reader.recording());
+}
+
+/// It was full, and the controller was killed before it began the next one.
+[[nodiscard]] bool is_full_segment(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Event last;
+  return file.seekg(-static_cast<std::streamoff>(sizeof last), std::ios::end) &&
+         file.read(reinterpret_cast<char*>(&last), sizeof last) && last.kind() == Event::Kind::end &&
+         last.version != 0;
+}
+
+/// What the headers of segments of one run have in common.
+[[nodiscard]] std::string_view without_segment(std::string_view header) {
+  return header.substr(0, header.rfind(",\"segment\":"));
+}
+
+/// Newest first; at least one.
+[[nodiscard]] Recording joined(std::vector<Recording> segments) {
+  Recording all = std::move(segments.back());
+  for (segments.pop_back(); !segments.empty(); segments.pop_back()) {
+    Recording& next = segments.back();
+    std::move(next.entries.begin(), next.entries.end(), std::back_inserter(all.entries));
+    all.truncated = all.truncated || next.truncated;
+    all.lost += next.lost;
+  }
+  return all;
+}
+
+/// One more than the number of the newest segment beside it; 0: there is none. The newest file is not there,
+/// or has no header yet, when the controller was killed or the disk was full while it was begun.
+[[nodiscard]] std::uint64_t after_newest_number(const std::string& file) {
+  const std::filesystem::path whole(file);
+  std::error_code ignored;
+  std::uint64_t after = 0;
+  const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string path = entry.path().string();
+    if (std::filesystem::path(without_segment_number(path)).filename() != whole.filename()) continue;
+    const std::string digits = entry.path().stem().extension().string().substr(1);
+    std::uint64_t number = 0;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), number).ec == std::errc{})
+      after = std::max(after, number + 1);
+  }
+  return after;
+}
+
+}  // namespace
+
+std::string segment_path(const std::string& path, std::uint64_t number) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path() /
+          fmt::format("{}.{}{}", whole.stem().string(), number, whole.extension().string()))
+      .string();
+}
+
+std::string without_segment_number(const std::string& path) {
+  const std::filesystem::path whole(path), stem = whole.stem();
+  const std::string number = stem.extension().string();
+  if (number.size() < 2 || number.find_first_not_of("0123456789", 1) != std::string::npos) return {};
+  return (whole.parent_path() / (stem.stem().string() + whole.extension().string())).string();
+}
+
+std::optional<std::uint64_t> segment_number_in(const std::string& file) {
+  std::ifstream bytes(file, std::ios::binary);
+  std::string start(recording_magic.size() + sizeof(std::uint32_t), '\0');
+  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) ||
+      !start.starts_with(recording_magic))
+    return std::nullopt;
+  std::uint32_t length = 0;
+  std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);
+  if (length > longest_recording_header) return std::nullopt;
+  std::string header(length, '\0');
+  if (!bytes.read(header.data(), length)) return std::nullopt;
+  constexpr std::string_view key = ",\"segment\":";
+  const std::size_t at = header.rfind(key);
+  std::uint64_t number = 0;
+  if (at == std::string::npos ||
+      std::from_chars(header.data() + at + key.size(), header.data() + header.size(), number).ec !=
+          std::errc{})
+    return std::nullopt;
+  return number;
+}
+
+std::optional<Recording> read_recording(const std::string& path, std::string& error) {
+  const bool folder = std::filesystem::is_directory(path);
+  const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
+  std::optional<Recording> newest = read_segment(file, error);
+  if (newest && (!newest->segment || !without_segment_number(file).empty())) return newest;
+  const bool newest_is_missing = !newest || is_full_segment(file);
+  std::uint64_t number = newest ? *newest->segment : after_newest_number(file);
+  std::vector<Recording> segments;
+  if (newest) segments.push_back(std::move(*newest));
+  while (number > 0) {
+    std::string none;
+    std::optional<Recording> before = read_segment(segment_path(file, --number), none);
+    if (!before ||
+        (!segments.empty() && without_segment(before->header) != without_segment(segments.front().header)))
+      break;
+    segments.push_back(std::move(*before));
+  }
+  if (segments.empty()) return std::nullopt;
+  Recording all = joined(std::move(segments));
+  all.truncated = all.truncated || newest_is_missing;
+  return all;
+}
+
+}  // namespace tessera

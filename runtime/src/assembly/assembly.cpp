@@ -1,0 +1,439 @@
+#include "assembly/assembly.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "subsystem/parameters.hpp"
+
+namespace tessera {
+namespace {
+
+/// Builds in the order in which things depend on each other; stops at the first step that fails.
+class Assembler {
+ public:
+  /// waker: nullptr: nobody is woken.
+  Assembler(Assembly& assembly, const Clock& clock, Waker* waker, std::string& error)
+      : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
+
+  bool run() {
+    return check_version() && read_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
+           read_script() && set_values() && make_devices() && make_channels() && open_recording() &&
+           make_executors();
+  }
+
+  bool run(LooseParts& loose) {
+    if (!check_version() || !read_faults() || !bind() || !link_ports() || !compile_plans() || !check_hash() ||
+        !set_values())
+      return false;
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      for (std::uint32_t port = 0; port < parts_[index].ports.size(); ++port)
+        if (!make_loose_channel(index, port, loose)) return false;
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      loose.parts.push_back({std::move(parts_[index]), plans_[index], net_.first_of_instance[index]});
+    return true;
+  }
+
+ private:
+  bool fail(std::string text) {
+    error_ = std::move(text);
+    return false;
+  }
+
+  bool check_version() {
+    if (system_.tables_version == tables_version) return true;
+    return fail(
+        fmt::format("this controller was generated for version {} of the tables, this runtime has version {}",
+                    system_.tables_version, tables_version));
+  }
+
+  bool bind() {
+    for (const Instance& instance : system_.instances) {
+      SubsystemParts& parts = parts_.emplace_back();
+      parts.path = fmt::format("{}.{}", instance.agent, instance.name);
+      parts.instance = &instance;
+      parts.index = static_cast<std::uint32_t>(parts_.size() - 1);
+      parts.subsystem = instance.make();
+      plant_faults(parts);
+      parts.subsystem->bind(parts.bindings);
+      parts.ports.resize(instance.net->ports.size());
+      ports_.emplace_back();
+      for (std::uint32_t port = 0; port < instance.net->ports.size(); ++port)
+        ports_.back().emplace(instance.net->ports[port].name, port);
+    }
+    return true;
+  }
+
+  bool read_faults() {
+    for (const std::string& text : assembly_.options.inject) {
+      std::optional<Injection> fault =
+          read_injection(text, system_, assembly_.options.seed, assembly_.options.duration, error_);
+      if (!fault) return false;
+      assembly_.faults.push_back(std::make_shared<Injection>(std::move(*fault)));
+    }
+    assembly_.signals = InjectedSignals(assembly_.faults);
+    return true;
+  }
+
+  void plant_faults(SubsystemParts& parts) {
+    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
+      if (fault->instance == parts.index &&
+          (fault->kind == Injection::Kind::device || fault->kind == Injection::Kind::silence))
+        fault->context = &parts.subsystem->context();
+    Injections faults = faults_of(parts.index, "", [](const Injection& fault) {
+      return fault.kind == Injection::Kind::exception || fault.kind == Injection::Kind::stall ||
+             fault.kind == Injection::Kind::number;
+    });
+    if (faults.empty()) return;
+    auto faulty = std::make_unique<FaultySubsystem>(std::move(parts.subsystem), *parts.instance->net,
+                                                    std::move(faults), clock_);
+    parts.faulty = faulty.get();
+    parts.subsystem = std::move(faulty);
+  }
+
+  /// buffer: those of this device; empty: of all parts.
+  template <class Wanted>
+  [[nodiscard]] Injections faults_of(std::uint32_t instance, std::string_view buffer, Wanted wanted) const {
+    Injections found;
+    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
+      if (fault->instance == instance && wanted(*fault) &&
+          (buffer.empty() || fault->part.empty() || fault->part == buffer))
+        found.push_back(fault);
+    return found;
+  }
+
+  /// Which channel is behind each port.
+  bool link_ports() {
+    channel_of_.resize(parts_.size());
+    for (std::size_t index = 0; index < parts_.size(); ++index)
+      channel_of_[index].assign(parts_[index].ports.size(), nullptr);
+    for (const Channel& channel : system_.channels)
+      if (!link(channel, channel.from, channel.to, Side::send) ||
+          !link(channel, channel.to, channel.from, Side::receive))
+        return false;
+    return true;
+  }
+
+  bool link(const Channel& channel, const End& end, const End& other, Side side) {
+    if (end.port.empty()) return true;
+    if (end.instance >= parts_.size()) return fail(fmt::format("channel {} ends nowhere", channel.name));
+    SubsystemParts& parts = parts_[end.instance];
+    const auto found = ports_[end.instance].find(end.port);
+    if (found == ports_[end.instance].end() || parts.instance->net->ports[found->second].side != side)
+      return fail(fmt::format("{} has no port '{}' for channel {}", parts.path, end.port, channel.name));
+    PortLink& link = parts.ports[found->second];
+    channel_of_[end.instance][found->second] = &channel;
+    link.side = side;
+    link.timeout = side == Side::send ? channel.send_timeout : channel.receive_timeout;
+    if (!other.port.empty()) link.peer = other.instance;
+    return find_buffer(parts, parts.instance->net->ports[found->second], link);
+  }
+
+  bool find_buffer(const SubsystemParts& parts, const Port& port, PortLink& link) {
+    const auto find = [&](const auto& buffers) {
+      const auto found = std::find_if(buffers.begin(), buffers.end(),
+                                      [&](const auto& buffer) { return buffer.name == port.buffer; });
+      link.buffer = static_cast<std::uint32_t>(found - buffers.begin());
+      return found != buffers.end();
+    };
+    if (port.side == Side::send ? find(parts.bindings.outputs) : find(parts.bindings.inputs)) return true;
+    return fail(fmt::format("{} has no buffer '{}'", parts.path, port.buffer));
+  }
+
+  /// One plan per net and kinds of channels behind its ports: a fleet shares one.
+  bool compile_plans() {
+    std::map<std::pair<const SubsystemNet*, std::vector<const FusedPlace*>>, std::shared_ptr<const Plan>>
+        known;
+    for (std::size_t index = 0; index < parts_.size(); ++index) {
+      const SubsystemNet& net = *parts_[index].instance->net;
+      std::vector<std::span<const FusedPlace>> fused;
+      std::vector<const FusedPlace*> kinds;
+      for (const Channel* channel : channel_of_[index]) {
+        fused.push_back(channel == nullptr ? std::span<const FusedPlace>{} : channel->places);
+        kinds.push_back(fused.back().data());
+      }
+      std::shared_ptr<const Plan>& plan = known[{&net, kinds}];
+      if (plan == nullptr) {
+        std::string wrong;
+        std::optional<Plan> compiled = compile(net, fused, wrong);
+        if (!compiled) return fail(fmt::format("the net of {}: {}", parts_[index].path, wrong));
+        plan = std::make_shared<const Plan>(std::move(*compiled));
+      }
+      plans_.push_back(plan);
+    }
+    return true;
+  }
+
+  bool check_hash() {
+    net_ = net_of(system_);
+    const std::string hash = net_.hash();
+    if (hash == system_.net_hash) return true;
+    return fail(
+        fmt::format("this controller's tables are not the net that was verified (tables {}, verified {})",
+                    hash, system_.net_hash));
+  }
+
+  bool read_script() {
+    if (assembly_.options.scenario.empty()) return true;
+    if (!clock_.simulated()) return fail("a scenario needs the simulated clock");
+    assembly_.scenario = read_scenario(assembly_.options.scenario, system_, net_, error_);
+    return assembly_.scenario.has_value();
+  }
+
+  [[nodiscard]] std::vector<ParameterOwner> owners() const {
+    std::vector<ParameterOwner> all;
+    for (const SubsystemParts& parts : parts_) all.push_back({parts.path, parts.bindings.parameters});
+    return all;
+  }
+
+  bool set_values() { return set_parameters(owners(), assembly_.options.parameters, error_); }
+
+  /// Only makes the drivers; they are opened when nothing else can fail any more.
+  bool make_devices() {
+    error_.clear();
+    if (!check_hardware()) return false;
+    assembly_.world = open_world(assembly_.options, error_);
+    if (assembly_.world == nullptr && assembly_.options.world) return false;
+    DeviceFinder finder(system_, assembly_.options, assembly_.world.get());
+    for (SubsystemParts& parts : parts_) {
+      SubsystemDevices devices = finder.find(parts.path, parts.bindings);
+      parts.receptors = std::move(devices.receptors);
+      parts.effectors = std::move(devices.effectors);
+      parts.drivers = std::move(devices.drivers);
+      plant_device_faults(parts);
+    }
+    error_ = finder.complaints();
+    return error_.empty();
+  }
+
+  /// Simulated time must not stand still or leap while it moves real devices.
+  bool check_hardware() {
+    const RunOptions& options = assembly_.options;
+    if (options.hardware.empty()) return true;
+    if (!simulates_devices(options))
+      return fail("hardware in the loop is for simulated runs; this one has all");
+    if (clock_.simulated() && options.monitor)
+      return fail("a run with hardware in the loop cannot be paused or sped up, so it cannot be controlled");
+    if (!options.scenario.empty()) return fail("a scenario cannot be followed with hardware in the loop");
+    return true;
+  }
+
+  void plant_device_faults(SubsystemParts& parts) {
+    const auto of_device = [](const Injection& fault) {
+      return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
+    };
+    const auto faults = [&](std::string_view buffer) { return faults_of(parts.index, buffer, of_device); };
+    for (std::size_t index = 0; index < parts.receptors.size(); ++index)
+      parts.receptors[index] = with_faults(std::move(parts.receptors[index]),
+                                           faults(parts.bindings.real_inputs[index].name), clock_);
+    for (std::size_t index = 0; index < parts.effectors.size(); ++index)
+      parts.effectors[index] =
+          with_faults(std::move(parts.effectors[index]), faults(parts.bindings.real_outputs[index].name),
+                      clock_, parts.bindings.real_outputs[index].safe.get());
+  }
+
+  bool make_channels() {
+    for (const Channel& channel : system_.channels) {
+      std::uint32_t marking = 0;
+      for (std::size_t place = 0; place < channel.places.size() && place < SharedChannel::max_places; ++place)
+        if (channel.places[place].tokens > 0) marking |= 1U << place;
+      const std::size_t sent = value_size(channel.from, Side::send),
+                        received = value_size(channel.to, Side::receive);
+      if (sent != 0 && received != 0 && sent != received)
+        return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
+      assembly_.channels.push_back(std::make_unique<SharedChannel>(
+          marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
+      if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
+        return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
+      const bool to_itself = channel.from.instance == channel.to.instance;
+      if (clock_.simulated() || to_itself) assembly_.channels.back()->set_single_threaded();
+    }
+    return true;
+  }
+
+  bool make_loose_channel(std::uint32_t instance, std::uint32_t port, LooseParts& loose) {
+    const Channel& channel = *channel_of_[instance][port];
+    const bool sends = parts_[instance].ports[port].side == Side::send;
+    loose.channels.push_back(std::make_unique<SharedChannel>(
+        0, value_size(sends ? channel.from : channel.to, parts_[instance].ports[port].side),
+        std::max<std::size_t>(channel.slots, 1), value_type(channel)));
+    parts_[instance].ports[port].channel = loose.channels.back().get();
+    return has_its_slots(instance, port) ||
+           fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
+  }
+
+  /// 0: that end is not used.
+  [[nodiscard]] std::size_t value_size(const End& end, Side side) const {
+    if (end.port.empty()) return 0;
+    const SubsystemParts& parts = parts_[end.instance];
+    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
+  }
+
+  /// nullptr: bytes, or no end is used.
+  [[nodiscard]] const ValueType* value_type(const Channel& channel) const {
+    for (const auto& [end, side] :
+         {std::pair{&channel.from, Side::send}, std::pair{&channel.to, Side::receive}}) {
+      if (end->port.empty()) continue;
+      const SubsystemParts& parts = parts_[end->instance];
+      const std::uint32_t buffer = parts.ports[ports_[end->instance].at(end->port)].buffer;
+      return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
+    }
+    return nullptr;
+  }
+
+  /// false: an operation of that end is about a slot that the channel does not have.
+  bool connect(const End& end, Side side) {
+    if (end.port.empty()) return true;
+    const std::uint32_t port = ports_[end.instance].at(end.port);
+    parts_[end.instance].ports[port].channel = assembly_.channels.back().get();
+    assembly_.channels.back()->connect(side, waker_, end.instance, plans_[end.instance]->ports[port].needs);
+    return has_its_slots(end.instance, port);
+  }
+
+  [[nodiscard]] bool has_its_slots(std::uint32_t instance, std::uint32_t port) const {
+    const PortLink& link = parts_[instance].ports[port];
+    const Does::Kind kind = link.side == Side::send ? Does::Kind::write : Does::Kind::read;
+    return std::none_of(
+        plans_[instance]->places.begin(), plans_[instance]->places.end(), [&](const Plan::PlaceEntry& place) {
+          return place.does == kind && place.subject == port && place.slot >= link.channel->slots();
+        });
+  }
+
+  bool open_recording() {
+    const RunOptions& options = assembly_.options;
+    if (options.recording.empty()) return true;
+    const bool simulated = options.clock == RunOptions::Clock::simulated;
+    assembly_.recorder =
+        Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
+                       static_cast<std::uint32_t>(parts_.size()),
+                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_, longest_value(),
+                       options.record_limit,
+                       options.record_limit.segment_bytes == 0
+                           ? nullptr
+                           : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
+    if (assembly_.recorder == nullptr) return false;
+    if (options.values != RunOptions::Values::none) record_values();
+    return true;
+  }
+
+  /// As MarkingTrack wants them.
+  [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
+    std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
+    for (std::uint32_t index = 0; index < parts_.size(); ++index)
+      for (const Plan::TransitionEntry& transition : plans_[index]->transitions)
+        if (transition.port != Plan::none)
+          channels[net_.first_of_instance[index] + transition.index] =
+              static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
+    return channels;
+  }
+
+  /// Larger values are not recorded whole.
+  [[nodiscard]] std::uint64_t value_limit() const {
+    return assembly_.options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
+  }
+
+  [[nodiscard]] std::size_t longest_value() const {
+    std::size_t longest = 0;
+    if (assembly_.options.values == RunOptions::Values::none) return longest;
+    for (const SubsystemParts& parts : parts_)
+      for_buffers(parts.bindings, [&](Recording::Direction, const auto& buffer) {
+        if (buffer.encoding != nullptr)
+          longest = std::max(longest, std::min<std::size_t>(buffer.encoding->most, value_limit()));
+      });
+    return longest;
+  }
+
+  void record_values() {
+    std::uint32_t first = 0;
+    for (SubsystemParts& parts : parts_) {
+      parts.values = std::make_unique<ValueRecorder>(parts.bindings, first, value_limit(),
+                                                     *assembly_.recorder->lane(parts.index));
+      first += count_buffers(parts.bindings);
+    }
+  }
+
+  [[nodiscard]] std::string header(const char* clock) const {
+    nlohmann::ordered_json header{{"system", system_.name},
+                                  {"net_hash", system_.net_hash},
+                                  {"verification_hash", system_.verification_hash}};
+    header["verdicts"] = nlohmann::ordered_json::array();
+    for (const VerifiedProperty& property : system_.verdicts)
+      header["verdicts"].push_back(
+          {{"name", property.name}, {"verdict", property.verdict}, {"method", property.method}});
+    header["seed"] = assembly_.options.seed;
+    header["clock"] = clock;
+    if (!assembly_.options.inject.empty()) header["injected"] = assembly_.options.inject;
+    header["instances"] = nlohmann::ordered_json::array();
+    for (const SubsystemParts& parts : parts_) header["instances"].push_back(parts.path);
+    header["transitions"] = nlohmann::ordered_json::array();
+    for (const FlatNet::FlatTransition& transition : net_.transitions)
+      header["transitions"].push_back(nlohmann::ordered_json::array({transition.name, transition.instance}));
+    if (assembly_.options.values != RunOptions::Values::none) describe_values(header);
+    return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
+  /// And what else `simulate --from` needs to know.
+  void describe_values(nlohmann::ordered_json& header) const {
+    header["parameters"] = assembly_.options.parameters;
+    if (assembly_.options.duration) header["duration_ns"] = assembly_.options.duration->count();
+    header["behaviours"] = nlohmann::ordered_json::array();
+    nlohmann::ordered_json buffers = nlohmann::ordered_json::array();
+    for (const SubsystemParts& parts : parts_) {
+      nlohmann::ordered_json& behaviours = header["behaviours"].emplace_back(nlohmann::ordered_json::array());
+      for (const Behaviour& behaviour : parts.instance->net->behaviours) behaviours.push_back(behaviour.name);
+      for_buffers(parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
+        buffers.push_back(nlohmann::ordered_json::array(
+            {fmt::format("{}.{}", parts.path, buffer.name), parts.index, name_of(direction),
+             buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
+      });
+    }
+    header["values"] = {{"limit", value_limit()}, {"buffers", std::move(buffers)}};
+  }
+
+  bool make_executors() {
+    assembly_.changes = std::make_unique<ParameterChanges>(owners());
+    for (std::uint32_t index = 0; index < parts_.size(); ++index) {
+      RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
+      parts_[index].changes = assembly_.changes.get();
+      assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
+          index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
+          SubsystemExecutor::Shared{assembly_.control, clock_, *waker_, assembly_.options.monitor}, lane));
+      if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
+    }
+    return true;
+  }
+
+  Assembly& assembly_;
+  const System& system_;
+  const Clock& clock_;
+  Waker* waker_;
+  std::string& error_;
+  std::vector<SubsystemParts> parts_;                             // per instance
+  std::vector<std::map<std::string_view, std::uint32_t>> ports_;  // per instance: by name
+  std::vector<std::vector<const Channel*>> channel_of_;           // per instance and port
+  std::vector<std::shared_ptr<const Plan>> plans_;                // per instance
+  FlatNet net_;
+};
+
+}  // namespace
+
+bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error) try {
+  return Assembler(assembly, clock, &waker, error).run();
+} catch (const std::exception& exception) {  // of constructors of the user's: memory, drivers
+  error = exception.what();
+  return false;
+}
+
+bool take_apart(Assembly& assembly, const Clock& clock, LooseParts& parts, std::string& error) try {
+  return Assembler(assembly, clock, nullptr, error).run(parts);
+} catch (const std::exception& exception) {
+  error = exception.what();
+  return false;
+}
+
+}  // namespace tessera

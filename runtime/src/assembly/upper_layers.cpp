@@ -1,0 +1,37 @@
+#include "assembly/upper_layers.hpp"
+
+namespace tessera {
+
+// As FlatNet numbers them: t_in and t_out of the system, then a pair per agent.
+namespace {
+constexpr std::uint32_t system_in = 0, system_out = 1;
+[[nodiscard]] constexpr std::uint32_t agent_in(std::uint32_t agent) { return 2 + 2 * agent; }
+[[nodiscard]] constexpr std::uint32_t agent_out(std::uint32_t agent) { return 3 + 2 * agent; }
+}  // namespace
+
+UpperLayers::UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* lane)
+    : agents_left_(static_cast<std::uint32_t>(agents.size())), lane_(lane) {
+  for (std::uint32_t agent = 0; agent < agents.size(); ++agent) {
+    agent_of_.resize(agents[agent].end, agent);
+    left_.push_back(agents[agent].end - agents[agent].first);
+  }
+}
+
+void UpperLayers::enter(Time now) {
+  fire(system_in, now);
+  for (std::uint32_t agent = 0; agent < left_.size(); ++agent) fire(agent_in(agent), now);
+}
+
+void UpperLayers::subsystem_ended(std::uint32_t instance, Time now) {
+  const std::uint32_t agent = agent_of_[instance];
+  if (--left_[agent] > 0) return;
+  fire(agent_out(agent), now);
+  if (--agents_left_ == 0) fire(system_out, now);
+}
+
+void UpperLayers::fire(std::uint32_t transition, Time now) {
+  ++firings_;
+  if (lane_ != nullptr) lane_->firing(now, transition, 0);
+}
+
+}  // namespace tessera

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nets/flat_net.hpp"
+#include "recorder/recorder.hpp"
+
+namespace tessera {
+
+/// The layers of the system and of the agents: t_in and t_out of each. The driver of a run tells it which
+/// subsystems have ended and asks nothing else of the net.
+///
+/// Threads: the driver's.
+class UpperLayers {
+ public:
+  UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* lane);
+
+  /// Fires t_in of the system and of every agent: after this every subsystem may be entered.
+  void enter(Time now);
+  /// Fires t_out of its agent if it was the last of it, and that of the system if that was the last agent.
+  void subsystem_ended(std::uint32_t instance, Time now);
+  [[nodiscard]] bool ended() const { return agents_left_ == 0; }
+  [[nodiscard]] std::uint64_t firings() const { return firings_; }
+
+ private:
+  void fire(std::uint32_t transition, Time now);
+  std::vector<std::uint32_t> agent_of_;  // per instance
+  std::vector<std::uint32_t> left_;      // per agent: subsystems that have not ended
+  std::uint32_t agents_left_;
+  RecordingLane* lane_;
+  std::uint64_t firings_ = 0;
+};
+
+}  // namespace tessera

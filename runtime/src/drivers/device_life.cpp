@@ -1,0 +1,73 @@
+#include "drivers/device_life.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace tessera {
+
+DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(drivers)) {
+  for (const DriverInUse& driver : drivers_)
+    if (const Duration period = driver.device->heartbeat_period(); period > Duration::zero())
+      beating_.push_back({&driver, period});
+}
+
+/// Empty: it is open. Else why not.
+std::string DeviceLife::opened(const DriverInUse& driver) {
+  try {
+    return driver.device->open() ? "" : "it refuses";
+  } catch (const std::exception& exception) {
+    return exception.what();
+  } catch (...) {
+    return "it threw an exception that is no std::exception";
+  }
+}
+
+bool DeviceLife::open(const std::function<bool(const DriverInUse&)>& secure, std::string& error) {
+  for (; open_ < drivers_.size(); ++open_) {
+    const DriverInUse& driver = drivers_[open_];
+    if (const std::string why = opened(driver); !why.empty()) {
+      error = fmt::format("the device of {} cannot be opened: {}", driver.path, why);
+      return false;
+    }
+    if (secure(driver)) continue;
+    ++open_;
+    error = fmt::format("the device of {} is open and refuses its safe command", driver.path);
+    return false;
+  }
+  return true;
+}
+
+std::vector<std::string> DeviceLife::close() {
+  std::vector<std::string> wrong;
+  while (open_ > 0) {
+    const DriverInUse& driver = drivers_[--open_];
+    try {
+      driver.device->close();
+    } catch (const std::exception& exception) {
+      wrong.push_back(fmt::format("closing the device of {}: {}", driver.path, exception.what()));
+    } catch (...) {
+      wrong.push_back(
+          fmt::format("closing the device of {}: an exception that is no std::exception", driver.path));
+    }
+  }
+  return wrong;
+}
+
+Time DeviceLife::next_beat() const {
+  Time next = Time::max();
+  for (const Beating& one : beating_) next = std::min(next, one.next);
+  return next;
+}
+
+void DeviceLife::beat(Time now, const Around& around) {
+  for (Beating& one : beating_) {
+    if (now < one.next) continue;
+    one.next = now + one.period;
+    around(*one.driver, [&] { one.driver->device->heartbeat(); });
+  }
+}
+
+}  // namespace tessera

@@ -1,0 +1,153 @@
+#include "nets/flat_net.hpp"
+
+#include <fmt/core.h>
+
+#include <unordered_map>
+
+#include "tessera/net_hash.hpp"
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] std::string guard_text(Guard guard) {
+  switch (guard.kind) {
+    case Guard::Kind::none:
+      return "";
+    case Guard::Kind::go_on:
+      return "go_on";
+    case Guard::Kind::terminal:
+      return "terminal";
+    case Guard::Kind::error:
+      return "error";
+    case Guard::Kind::next:
+      return fmt::format("next:{}", guard.entry);
+    case Guard::Kind::elapsed:
+      return "elapsed";
+  }
+  return "";
+}
+
+class Rebuilding {
+ public:
+  explicit Rebuilding(const System& system) : system_(system), agents_(agents_of(system)) {}
+
+  FlatNet result() {
+    add_upper_places();
+    add_fused_places();
+    ports_.resize(system_.instances.size());
+    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel)
+      for (const End& end : {system_.channels[channel].from, system_.channels[channel].to})
+        if (!end.port.empty()) ports_[end.instance].emplace(end.port, channel);
+    for (std::uint32_t instance = 0; instance < system_.instances.size(); ++instance) add_instance(instance);
+    close_upper_layers();
+    return std::move(net_);
+  }
+
+ private:
+  std::uint32_t add_place(std::string name, std::uint32_t tokens = 0) {
+    net_.places.push_back({std::move(name), tokens});
+    return static_cast<std::uint32_t>(net_.places.size() - 1);
+  }
+
+  /// Layers 1 and 2: `in` (one token in that of the system), `out`, t_in, t_out.
+  void add_upper_places() {
+    net_.transitions.push_back({"t_in", system_instance, {add_place("in", 1)}, {}, ""});
+    net_.transitions.push_back({"t_out", system_instance, {}, {add_place("out")}, ""});
+    for (const AgentSpan& agent : agents_) {
+      const std::string prefix = std::string(agent.name) + '.';
+      const std::uint32_t in = add_place(prefix + "in");
+      const std::uint32_t out = add_place(prefix + "out");
+      net_.transitions[0].outputs.push_back(in);
+      net_.transitions[1].inputs.push_back(out);
+      net_.transitions.push_back({prefix + "t_in", system_instance, {in}, {}, ""});
+      net_.transitions.push_back({prefix + "t_out", system_instance, {}, {out}, ""});
+    }
+  }
+
+  void add_fused_places() {
+    for (const Channel& channel : system_.channels) {
+      fused_.push_back(static_cast<std::uint32_t>(net_.places.size()));
+      if (channel.from.port.empty() && channel.to.port.empty()) continue;  // no behaviour uses it
+      for (const FusedPlace& place : channel.places)
+        add_place(fmt::format("{}.{}", channel.name, place.name), place.tokens);
+    }
+  }
+
+  void add_instance(std::uint32_t index) {
+    const Instance& instance = system_.instances[index];
+    const std::string prefix = fmt::format("{}.{}.", instance.agent, instance.name);
+    std::unordered_map<std::string_view, std::uint32_t> places;
+    for (const Place& place : instance.net->places)
+      places.emplace(place.name, add_place(prefix + std::string(place.name)));
+    in_.push_back(places.contains("in") ? places.at("in") : 0);
+    out_.push_back(places.contains("out") ? places.at("out") : 0);
+
+    net_.first_of_instance.push_back(static_cast<std::uint32_t>(net_.transitions.size()));
+    for (const Transition& transition : instance.net->transitions) {
+      FlatNet::FlatTransition flat{
+          prefix + std::string(transition.name), index, {}, {}, guard_text(transition.guard)};
+      for (std::string_view name : transition.inputs) add_end(index, places, name, flat.inputs);
+      for (std::string_view name : transition.outputs) add_end(index, places, name, flat.outputs);
+      net_.transitions.push_back(std::move(flat));
+    }
+  }
+
+  void add_end(std::uint32_t instance, const std::unordered_map<std::string_view, std::uint32_t>& places,
+               std::string_view name, std::vector<std::uint32_t>& ends) const {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string_view::npos) {
+      if (const auto found = places.find(name); found != places.end()) ends.push_back(found->second);
+      return;
+    }
+    const auto port = ports_[instance].find(name.substr(0, slash));
+    if (port == ports_[instance].end()) return;
+    const std::span<const FusedPlace> fused = system_.channels[port->second].places;
+    for (std::uint32_t place = 0; place < fused.size(); ++place)
+      if (fused[place].name == name.substr(slash + 1)) ends.push_back(fused_[port->second] + place);
+  }
+
+  void close_upper_layers() {
+    for (std::size_t agent = 0; agent < agents_.size(); ++agent)
+      for (std::uint32_t instance = agents_[agent].first; instance < agents_[agent].end; ++instance) {
+        net_.transitions[2 + 2 * agent].outputs.push_back(in_[instance]);
+        net_.transitions[3 + 2 * agent].inputs.push_back(out_[instance]);
+      }
+  }
+
+  const System& system_;
+  std::vector<AgentSpan> agents_;
+  FlatNet net_;
+  std::vector<std::uint32_t> fused_;  // per channel: its first fused place
+  std::vector<std::unordered_map<std::string_view, std::uint32_t>> ports_;  // per instance: port -> channel
+  std::vector<std::uint32_t> in_, out_;                                     // per instance
+};
+
+}  // namespace
+
+std::string FlatNet::hash() const {
+  NetHash hash;
+  for (const FlatPlace& place : places) hash.place(place.name, place.tokens);
+  const auto names = [&](const std::vector<std::uint32_t>& ends) {
+    std::vector<std::string_view> result;
+    result.reserve(ends.size());
+    for (std::uint32_t place : ends) result.emplace_back(places[place].name);
+    return result;
+  };
+  for (const FlatTransition& transition : transitions)
+    hash.transition(transition.name, names(transition.inputs), names(transition.outputs), transition.guard);
+  return hash.hex();
+}
+
+std::vector<AgentSpan> agents_of(const System& system) {
+  std::vector<AgentSpan> agents;
+  for (std::uint32_t instance = 0; instance < system.instances.size(); ++instance) {
+    if (agents.empty() || agents.back().name != system.instances[instance].agent)
+      agents.push_back({system.instances[instance].agent, instance, instance});
+    agents.back().end = instance + 1;
+  }
+  return agents;
+}
+
+FlatNet net_of(const System& system) { return Rebuilding(system).result(); }
+
+}  // namespace tessera

@@ -1,0 +1,212 @@
+#include "nets/plan.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "nets/shared_channel.hpp"
+
+namespace tessera {
+namespace {
+
+using Index = std::unordered_map<std::string_view, std::uint32_t>;
+
+template <class Rows>
+[[nodiscard]] Index index_by_name(const Rows& rows, std::string& error) {
+  Index index;
+  for (const auto& row : rows)
+    if (!index.emplace(row.name, static_cast<std::uint32_t>(index.size())).second)
+      error = fmt::format("'{}' is declared twice", row.name);
+  return index;
+}
+
+[[nodiscard]] Outcome outcome_of(Guard::Kind kind) {
+  return kind == Guard::Kind::error      ? Outcome::error
+         : kind == Guard::Kind::terminal ? Outcome::terminal
+                                         : Outcome::go_on;
+}
+
+class Compilation {
+ public:
+  Compilation(const SubsystemNet& net, std::span<const std::span<const FusedPlace>> fused, std::string& error)
+      : net_(net), fused_(fused), error_(error) {}
+
+  std::optional<Plan> result() {
+    error_.clear();
+    places_ = index_by_name(net_.places, error_);
+    behaviours_ = index_by_name(net_.behaviours, error_);
+    ports_ = index_by_name(net_.ports, error_);
+    plan_.ports.resize(net_.ports.size());
+    check_ports();
+    for (const Place& place : net_.places) add(place);
+    for (const Transition& transition : net_.transitions) add(transition);
+    plan_.in = resolve(places_, "in", "place");
+    plan_.out = resolve(places_, "out", "place");
+    if (!error_.empty()) return std::nullopt;
+    index_leaving();
+    return std::move(plan_);
+  }
+
+ private:
+  void fail(std::string text) {
+    if (error_.empty()) error_ = std::move(text);
+  }
+
+  std::uint32_t resolve(const Index& index, std::string_view name, std::string_view what) {
+    const auto found = index.find(name);
+    if (found != index.end()) return found->second;
+    fail(fmt::format("no {} is named '{}'", what, name));
+    return 0;
+  }
+
+  void check_ports() {
+    for (std::size_t port = 0; port < net_.ports.size(); ++port) {
+      if (fused_[port].empty()) fail(fmt::format("port '{}' has no channel", net_.ports[port].name));
+      if (fused_[port].size() > SharedChannel::max_places)
+        fail(fmt::format("the channel of port '{}' has more than {} places", net_.ports[port].name,
+                         SharedChannel::max_places));
+    }
+  }
+
+  void add(const Place& place) {
+    Plan::PlaceEntry entry{.does = place.does.kind};
+    switch (place.does.kind) {
+      case Does::Kind::nothing:
+      case Does::Kind::count:
+        break;
+      case Does::Kind::call:
+      case Does::Kind::decide:
+      case Does::Kind::route:
+        entry.subject = static_cast<std::uint16_t>(resolve(behaviours_, place.does.subject, "behaviour"));
+        break;
+      case Does::Kind::write:
+      case Does::Kind::read:
+        entry.subject = static_cast<std::uint16_t>(resolve(ports_, place.does.subject, "port"));
+        if (place.does.slot == 0) fail(fmt::format("'{}': slots count from 1", place.name));
+        entry.slot = static_cast<std::uint16_t>(place.does.slot - 1);
+        break;
+    }
+    plan_.places.push_back(entry);
+  }
+
+  void add(const Transition& transition) {
+    Plan::TransitionEntry entry;
+    entry.index = static_cast<std::uint32_t>(plan_.transitions.size());
+    entry.guard = {transition.guard.kind, transition.guard.entry};
+    entry.inputs = static_cast<std::uint32_t>(plan_.arcs.size());
+    for (std::string_view name : transition.inputs) add_end(transition, name, entry, entry.taken);
+    entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
+    for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
+    if (!transition.guard.port.empty()) entry.port = resolve(ports_, transition.guard.port, "port");
+    entry.end = static_cast<std::uint32_t>(plan_.arcs.size());
+    if (entry.inputs == entry.outputs)
+      fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
+    if (!error_.empty()) return;
+    find_latch(transition, entry);
+    entry.tells_of_timeout = entry.guard.kind == Guard::Kind::elapsed;
+    if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
+    if (entry.outputs - entry.inputs == 1) {
+      entry.from = plan_.arcs[entry.inputs];
+      if (entry.end - entry.outputs == 1) entry.to = plan_.arcs[entry.outputs];
+    }
+    plan_.transitions.push_back(entry);
+  }
+
+  /// One end of an arc: "place", or "port/place" of a channel.
+  void add_end(const Transition& transition, std::string_view name, Plan::TransitionEntry& entry,
+               std::uint16_t& bits) {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string_view::npos) {
+      plan_.arcs.push_back(resolve(places_, name, "place"));
+      return;
+    }
+    const std::uint32_t port = resolve(ports_, name.substr(0, slash), "port");
+    if (!error_.empty()) return;
+    if (entry.port != Plan::none && entry.port != port)
+      fail(fmt::format("'{}' touches two channels", transition.name));
+    entry.port = port;
+    const std::span<const FusedPlace> fused = fused_[port];
+    const auto found = std::find_if(fused.begin(), fused.end(), [&](const FusedPlace& place) {
+      return place.name == name.substr(slash + 1);
+    });
+    if (found == fused.end())
+      return fail(fmt::format("'{}': its channel has no place '{}'", transition.name, name));
+    bits = static_cast<std::uint16_t>(bits | 1U << (found - fused.begin()));
+  }
+
+  void find_latch(const Transition& transition, Plan::TransitionEntry& entry) {
+    const bool routed = entry.guard.kind == Guard::Kind::next;
+    if (entry.guard.kind == Guard::Kind::none || entry.guard.kind == Guard::Kind::elapsed) {
+      if (entry.guard.kind == Guard::Kind::elapsed && entry.port == Plan::none)
+        fail(fmt::format("'{}' waits for the timeout of no channel", transition.name));
+      return;
+    }
+    for (std::uint32_t arc = entry.inputs; arc < entry.outputs; ++arc) {
+      const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
+      if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = plan_.arcs[arc];
+    }
+    entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
+    if (entry.latch != Plan::none && entry.decided < 64)
+      plan_.places[entry.latch].ways |= std::uint64_t{1} << entry.decided;
+    if (entry.latch == Plan::none)
+      fail(fmt::format("no place decides the condition of '{}'", transition.name));
+  }
+
+  std::uint8_t need(const Transition& transition, std::uint32_t port, std::uint16_t taken) {
+    std::vector<std::uint16_t>& needs = plan_.ports[port].needs;
+    const auto found = std::find(needs.begin(), needs.end(), taken);
+    if (found != needs.end()) return static_cast<std::uint8_t>(found - needs.begin());
+    if (needs.size() == SharedChannel::max_needs)
+      fail(fmt::format("'{}': its port takes in more than {} different ways", transition.name,
+                       SharedChannel::max_needs));
+    needs.push_back(taken);
+    return static_cast<std::uint8_t>(needs.size() - 1);
+  }
+
+  void index_leaving() {
+    std::vector<std::vector<std::uint32_t>> leaving(plan_.places.size());
+    const auto timed = [&](std::uint32_t t) {
+      return plan_.transitions[t].guard.kind == Guard::Kind::elapsed;
+    };
+    for (std::uint32_t t = 0; t < plan_.transitions.size(); ++t)
+      for (std::uint32_t place : plan_.inputs(plan_.transitions[t])) leaving[place].push_back(t);
+    for (std::vector<std::uint32_t>& ways : leaving) {
+      const auto first_timed =
+          std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });
+      plan_.places[plan_.first_leaving.size()].timed = first_timed != ways.end();
+      if (first_timed != ways.end())
+        std::for_each(ways.begin(), first_timed, [&](std::uint32_t t) {
+          plan_.transitions[t].tells_of_timeout = plan_.transitions[t].port != Plan::none;
+        });
+      plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
+      plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
+    }
+    plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
+    for (std::uint32_t t : plan_.leaving) plan_.departures.push_back(plan_.transitions[t]);
+    for (std::uint32_t place = 0; place < plan_.places.size(); ++place) {
+      Plan::PlaceEntry& entry = plan_.places[place];
+      entry.idle = entry.does == Does::Kind::nothing && !entry.timed && place != plan_.out;
+      if (plan_.leaving_of(place).empty()) continue;
+      entry.departure = plan_.departures.data() + plan_.first_leaving[place];
+      plan_.departures[plan_.first_leaving[place + 1] - 1].last = true;
+    }
+    for (Plan::TransitionEntry& transition : plan_.departures)
+      if (transition.to != Plan::none) transition.onward = plan_.places[transition.to].departure;
+  }
+
+  const SubsystemNet& net_;
+  std::span<const std::span<const FusedPlace>> fused_;
+  std::string& error_;
+  Index places_, behaviours_, ports_;
+  Plan plan_;
+};
+
+}  // namespace
+
+std::optional<Plan> compile(const SubsystemNet& net, std::span<const std::span<const FusedPlace>> fused,
+                            std::string& error) {
+  return Compilation(net, fused, error).result();
+}
+
+}  // namespace tessera

@@ -1,0 +1,225 @@
+#include "recorder/recorder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <exception>
+
+#include "system/waker.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr std::int64_t drain_period_ns = 5'000'000;
+
+}  // namespace
+
+// ------------------------------------------------------------------------------------------------ lane
+
+RecordingLane::RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity)
+    : instance_(instance), file_(file), ring_(capacity == 0 ? 0 : std::bit_ceil(capacity)) {}
+
+Event RecordingLane::event(Event::Kind kind, Time time) {
+  return {.time_ns = time.time_since_epoch().count(),
+          .sequence = sequence_++,
+          .origin = instance_ << 8 | static_cast<std::uint32_t>(kind)};
+}
+
+void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t version) {
+  Event fired = event(Event::Kind::firing, time);
+  if (!has_room(1)) return has_lost_firings_.store(true, std::memory_order_relaxed);
+  fired.subject = transition;
+  fired.version = version;
+  push(fired);
+  publish();
+}
+
+void RecordingLane::overrun(Time time, std::uint32_t missed) {
+  Event late = event(Event::Kind::overrun, time);
+  if (!has_room(1)) return;
+  late.subject = missed;
+  push(late);
+  publish();
+}
+
+void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text) {
+  Event head = event(kind, time);
+  if (!has_room(1 + (text.size() + sizeof(Event) - 1) / sizeof(Event))) return;
+  head.subject = static_cast<std::uint32_t>(text.size());
+  head.version = level;
+  push(head);
+  push_bytes(text.data(), text.size());
+  publish();
+}
+
+void RecordingLane::call(Time time, std::uint32_t behaviour, std::uint64_t iteration) {
+  Event begun = event(Event::Kind::call, time);
+  if (!has_room(1)) return;
+  begun.subject = behaviour;
+  begun.version = static_cast<std::uint32_t>(iteration);
+  push(begun);
+  publish();
+}
+
+void RecordingLane::value(Time time, std::uint32_t buffer, std::uint32_t flags,
+                          std::span<const std::byte> head, std::span<const std::byte> bytes) {
+  Event changed = event(Event::Kind::value, time);
+  const std::size_t size = head.size() + bytes.size();
+  if (!has_room(1 + (size + sizeof(Event) - 1) / sizeof(Event))) return;
+  changed.subject = static_cast<std::uint32_t>(size);
+  changed.version = buffer | flags << 24U;
+  push(changed);
+  if (!head.empty()) {
+    std::array<std::byte, sizeof(Event)> first{};
+    const std::size_t count = std::min(bytes.size(), first.size() - head.size());
+    std::copy(head.begin(), head.end(), first.begin());
+    std::copy_n(bytes.begin(), count, first.begin() + static_cast<std::ptrdiff_t>(head.size()));
+    push_bytes(first.data(), head.size() + count);
+    bytes = bytes.subspan(count);
+  }
+  push_bytes(bytes.data(), bytes.size());
+  publish();
+}
+
+bool RecordingLane::has_room(std::uint64_t count) {
+  if (ring_.empty()) return true;
+  if (pushed_ - seen_drained_ + count > ring_.size())
+    seen_drained_ = drained_.load(std::memory_order_acquire);
+  if (pushed_ - seen_drained_ + count <= ring_.size()) return true;
+  ++lost_;
+  return false;
+}
+
+void RecordingLane::push(const Event& event) {
+  if (ring_.empty())
+    file_.append(event);
+  else
+    ring_[pushed_++ & (ring_.size() - 1)] = event;
+}
+
+/// In pieces of the size of an event, the last filled up.
+void RecordingLane::push_bytes(const void* bytes, std::size_t count) {
+  const auto* next = static_cast<const char*>(bytes);
+  while (count > 0) {
+    Event piece{};
+    const std::size_t taken = std::min(count, sizeof piece);
+    std::memcpy(&piece, next, taken);
+    push(piece);
+    next += taken;
+    count -= taken;
+  }
+}
+
+void RecordingLane::publish() { published_.store(pushed_, std::memory_order_release); }
+
+bool RecordingLane::drain(bool in_order) {
+  const std::uint64_t begin = drained_.load(std::memory_order_relaxed);
+  const std::uint64_t end = published_.load(std::memory_order_acquire);
+  std::uint64_t next = begin;
+  while (next != end) {
+    const Event& head = ring_[next & (ring_.size() - 1)];
+    if (in_order && head.kind() == Event::Kind::firing && !file_.track()->may_fire(head)) break;
+    for (const std::uint64_t after = next + 1 + head.pieces(); next != after; ++next)
+      file_.append(ring_[next & (ring_.size() - 1)]);
+  }
+  drained_.store(next, std::memory_order_release);
+  return next != begin;
+}
+
+RecordingLane::Backlog RecordingLane::backlog() const {
+  const std::uint64_t left =
+      published_.load(std::memory_order_acquire) - drained_.load(std::memory_order_relaxed);
+  return {.waits = left > 0,
+          .is_high = left > ring_.size() / 4 * 3,
+          .has_lost = has_lost_firings_.load(std::memory_order_relaxed)};
+}
+
+// ------------------------------------------------------------------------------------------------ recorder
+
+std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_view header,
+                                         std::uint32_t instances, Mode mode, std::string& error,
+                                         std::size_t longest, RunOptions::Limit limit,
+                                         std::unique_ptr<MarkingTrack> track) {
+  std::unique_ptr<Recorder> recorder(new Recorder);
+  if (!recorder->file_.open(path, header, error, limit, std::move(track))) return nullptr;
+  // About 24 MB of rings, up to a quarter of a second at a million events a second for each.
+  const std::size_t least = std::max<std::size_t>(512, 8 * longest / sizeof(Event));
+  const std::size_t capacity =
+      mode == Mode::direct
+          ? 0
+          : std::max(least, std::min((std::size_t{1} << 20) / (instances + 1), std::size_t{1} << 18));
+  for (std::uint32_t instance = 0; instance < instances; ++instance)
+    recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
+  recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));
+  if (mode == Mode::threaded)
+    recorder->writer_ = std::thread([raw = recorder.get()] { raw->write_until_closed(); });
+  return recorder;
+}
+
+Recorder::~Recorder() {
+  if (writer_.joinable()) static_cast<void>(close());
+}
+
+void Recorder::write_until_closed() {
+  WakeWord never;  // only its timeout ends the wait: producers must not pay for waking a writer
+  try {
+    while (closing_.load(std::memory_order_acquire) == 0) {
+      drain();
+      file_.flush();
+      never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
+    }
+  } catch (const std::exception& exception) {  // no memory: what comes now is lost, and counted
+    file_.fail(exception.what());
+  }
+}
+
+void Recorder::drain() {
+  if (file_.track() != nullptr) return drain_in_order();
+  for (const auto& lane : lanes_) lane->drain();
+}
+
+/// Segments can be checked by themselves because every firing comes after those it follows from. A firing
+/// waits for those as long as its thread and theirs need, however busy the machine is: only when one of them
+/// is lost, or events are soon lost, the rest is written as it comes.
+void Recorder::drain_in_order() {
+  bool moved = true, give_up = false;
+  while (moved && !give_up) {
+    moved = false;
+    for (const auto& lane : lanes_) {
+      const bool this_one = lane->drain(/*in_order=*/true);
+      moved = moved || this_one;
+      give_up = give_up || (!this_one && lane->backlog().is_high);
+    }
+  }
+  if (!give_up && !waits_for_what_is_lost()) return;
+  file_.forget_marking();
+  for (const auto& lane : lanes_) lane->drain();
+}
+
+bool Recorder::waits_for_what_is_lost() const {
+  const auto any = [&](bool RecordingLane::Backlog::*what) {
+    return std::ranges::any_of(lanes_, [&](const auto& lane) { return lane->backlog().*what; });
+  };
+  return any(&RecordingLane::Backlog::has_lost) && any(&RecordingLane::Backlog::waits);
+}
+
+Recorder::Result Recorder::close() {
+  closing_.store(1, std::memory_order_release);
+  if (writer_.joinable()) {
+    file_.hurry();
+    writer_.join();
+    drain();
+    for (const auto& lane : lanes_) lane->drain();
+  }
+  std::uint64_t lost = file_.lost();
+  for (const auto& lane : lanes_) lost += lane->lost();
+  file_.put_end(lost);
+  file_.close();
+  if (!file_.failure().empty()) {  // of closing too
+    lost = file_.lost();
+    for (const auto& lane : lanes_) lost += lane->lost();
+  }
+  return {.lost = lost, .failure = file_.failure()};
+}
+
+}  // namespace tessera

@@ -1,0 +1,196 @@
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "recorder/recorder.hpp"
+#include "system/stop_signals.hpp"
+#include "system/waker.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr std::int64_t pipe_patience_ns = 2'000'000'000;  // at the end, with a pipe that nobody reads
+constexpr int look_up_ms = 50;
+static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
+
+/// Segments that an earlier recording of that name has left would be read with this one. Other files of such
+/// a name are not ours to remove or to write over: false and `error`.
+bool remove_segments(const std::string& path, std::string& error) {
+  namespace fs = std::filesystem;
+  const fs::path whole(path);
+  std::error_code ignored;
+  std::vector<fs::path> segments;
+  const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().string();
+    if (fs::path(without_segment_number(name)).filename() != whole.filename()) continue;
+    const auto number = segment_number_in(name);
+    if (!number || fs::path(segment_path(path, *number)).filename() != entry.path().filename()) {
+      error = fmt::format("'{}' is in the way: a recording with a limit leaves files of such names", name);
+      return false;
+    }
+    segments.push_back(entry.path());
+  }
+  for (const fs::path& segment : segments) fs::remove(segment, ignored);
+  return true;
+}
+
+}  // namespace
+
+bool RecordingFile::open(const std::string& path, std::string_view header, std::string& error,
+                         RunOptions::Limit limit, std::unique_ptr<MarkingTrack> track) {
+  path_ = path;
+  header_ = header;
+  limit_ = limit;
+  track_ = limit.segment_bytes == 0 ? nullptr : std::move(track);
+  if (track_ != nullptr) {
+    const std::size_t least = 2 * header.size() + 64 * sizeof(Event);
+    if (limit.segment_bytes < least || limit.segments < 2) {
+      error =
+          fmt::format("the limit of the recording is too small: it needs two segments of {} bytes", least);
+      return false;
+    }
+    if (!remove_segments(path, error)) return false;
+  }
+  if (open_segment()) return true;
+  error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
+  return false;
+}
+
+/// The file and its header.
+bool RecordingFile::open_segment() {
+  descriptor_ = ::open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) return false;
+  if (struct stat status{}; fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode))
+    fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) | O_NONBLOCK);
+  std::string header = header_;
+  if (track_ != nullptr) {
+    header.pop_back();
+    header += fmt::format(",\"segment\":{}}}", segment_);
+  }
+  const auto length = static_cast<std::uint32_t>(header.size());
+  std::string start;
+  start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.append(recording_magic);
+  start.append(reinterpret_cast<const char*>(&length), sizeof length);
+  start.append(header);
+  start.resize((start.size() + 7) / 8 * 8, '\0');
+  segment_bytes_ = start.size();
+  write_all(start.data(), start.size());
+  return true;
+}
+
+RecordingFile::~RecordingFile() { close(); }
+
+void RecordingFile::append(const Event& event) {
+  if (!failure_.empty()) {
+    ++lost_;
+    return;
+  }
+  const bool is_head = pieces_left_ == 0;
+  if (is_head && track_ != nullptr) keep_track(event);
+  pieces_left_ = is_head ? event.pieces() : pieces_left_ - 1;
+  if (is_head) last_ns_ = std::max(last_ns_, event.time_ns);
+  put(event);
+}
+
+void RecordingFile::put(const Event& event) {
+  buffer_[filled_++] = event;
+  segment_bytes_ += sizeof(Event);
+  if (filled_ == buffer_.size()) flush();
+}
+
+/// Each segment ends with an event that says so.
+void RecordingFile::keep_track(const Event& event) {
+  if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
+    begin_segment(event.time_ns);
+  if (event.kind() == Event::Kind::firing) track_->fire(event);
+}
+
+void RecordingFile::put_end(std::uint64_t lost, bool goes_on) {
+  put({.time_ns = last_ns_,
+       .subject = static_cast<std::uint32_t>(std::min<std::uint64_t>(lost, UINT32_MAX)),
+       .version = goes_on ? 1U : 0U,
+       .origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::end)});
+}
+
+void RecordingFile::put_end(std::uint64_t lost) {
+  if (failure_.empty()) put_end(lost, /*goes_on=*/false);
+}
+
+/// The last one gets its number, the one that is too old goes.
+void RecordingFile::begin_segment(std::int64_t time_ns) {
+  put_end(0, /*goes_on=*/true);
+  flush();
+  if (!failure_.empty()) return;
+  ::close(descriptor_);
+  descriptor_ = -1;
+  if (std::rename(path_.c_str(), segment_path(path_, segment_).c_str()) != 0) failure_ = std::strerror(errno);
+  ++segment_;
+  if (segment_ >= limit_.segments) ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
+  if (failure_.empty() && !open_segment()) failure_ = std::strerror(errno);
+  const std::string marked = track_->known() ? track_->marked() : std::string();
+  put({.time_ns = time_ns,
+       .subject = static_cast<std::uint32_t>(marked.size()),
+       .version = track_->known() ? 0U : 1U,
+       .origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::marking)});
+  for (std::size_t at = 0; at < marked.size(); at += sizeof(Event)) {
+    Event piece{};
+    std::memcpy(&piece, marked.data() + at, std::min(marked.size() - at, sizeof piece));
+    put(piece);
+  }
+}
+
+void RecordingFile::flush() {
+  if (filled_ == 0) return;
+  write_all(reinterpret_cast<const char*>(buffer_.data()), filled_ * sizeof(Event));
+  if (!failure_.empty()) lost_ += filled_;
+  filled_ = 0;
+}
+
+void RecordingFile::close() {
+  if (descriptor_ < 0) return;
+  flush();
+  if (::close(descriptor_) != 0 && failure_.empty()) failure_ = std::strerror(errno);
+  descriptor_ = -1;
+}
+
+void RecordingFile::write_all(const char* bytes, std::size_t count) {
+  std::int64_t stuck_ns = 0;
+  while (count > 0 && failure_.empty()) {
+    const ssize_t written = write(descriptor_, bytes, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {
+      await_room(stuck_ns);
+      continue;
+    }
+    stuck_ns = 0;
+    if (written < 0) {
+      failure_ = std::strerror(errno);
+    } else {
+      bytes += written;
+      count -= static_cast<std::size_t>(written);
+    }
+  }
+}
+
+/// Of a pipe. Its reader may be slow; once the run is at its end it must read on, or lose the rest.
+void RecordingFile::await_room(std::int64_t& stuck_ns) {
+  pollfd room{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+  if (poll(&room, 1, look_up_ms) > 0) return;
+  if (!hurry_.load(std::memory_order_relaxed) && StopSignals::pending() == 0) return;
+  const std::int64_t now_ns = monotonic_ns();
+  if (stuck_ns == 0) stuck_ns = now_ns;
+  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = "nobody reads it";
+}
+
+}  // namespace tessera

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "recorder/recorder.hpp"
+#include "tessera/subsystem.hpp"
+#include "tessera/value_encoding.hpp"
+
+namespace tessera {
+
+/// Writes the values of one subsystem's buffers into its lane, when they change, and when its transition
+/// functions begin: what `simulate --from` needs to run the user's code again.
+///
+/// *Order of buffers.* Those of a subsystem are numbered one after the other: inputs, outputs, real inputs,
+/// real outputs.
+///
+/// Threads: the subsystem's. Nothing but the constructor allocates.
+class ValueRecorder {
+ public:
+  /// limit: of larger values only size and hash are written.
+  ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint64_t limit,
+                RecordingLane& lane);
+
+  void call(Time now, std::uint32_t behaviour, std::uint64_t iteration) {
+    lane_.call(now, behaviour, iteration);
+  }
+  /// newer: than all that have been read.
+  void input(std::size_t index, Time now, bool newer);
+  enum class Reading : std::uint8_t { value, silent, failed };
+  void real_input(std::size_t index, Time now, Reading reading);
+  /// Those that have changed.
+  void outputs(Time now);
+
+ private:
+  struct Buffer {
+    Buffer(std::uint32_t its_number, const void* its_value, const ValueEncoding* its_encoding,
+           std::uint64_t limit);
+    std::uint32_t number;
+    const void* value;
+    const ValueEncoding* encoding;  // nullptr: not recorded
+    ValueSink written, now;
+    bool known = false;   // `written` is what the recording says
+    bool silent = false;  // the recording says so
+  };
+  [[nodiscard]] static bool changed(Buffer& buffer);
+  void write(Buffer& buffer, Time now, std::uint32_t flags, std::span<const std::byte> stamp);
+
+  RecordingLane& lane_;
+  std::vector<Buffer> inputs_, outputs_, real_inputs_;
+  std::vector<const Arrival*> arrivals_;  // of inputs_
+};
+
+/// Calls `visit(direction, buffer)` in the order in which they are numbered.
+template <class Visit>
+void for_buffers(const Bindings& bindings, Visit visit) {
+  using Direction = Recording::Direction;
+  for (const Bindings::Incoming& buffer : bindings.inputs) visit(Direction::input, buffer);
+  for (const Bindings::Outgoing& buffer : bindings.outputs) visit(Direction::output, buffer);
+  for (const Bindings::Incoming& buffer : bindings.real_inputs) visit(Direction::real_input, buffer);
+  for (const Bindings::RealOutgoing& buffer : bindings.real_outputs) visit(Direction::real_output, buffer);
+}
+
+/// How many buffers a subsystem has, as they are numbered.
+[[nodiscard]] std::uint32_t count_buffers(const Bindings& bindings);
+
+}  // namespace tessera

@@ -1,0 +1,289 @@
+#include "run/command_line.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "subsystem/parameters.hpp"
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+/// As the user wrote it, before it means anything.
+struct Words {
+  std::string duration, parameter_file, record_limit;
+  std::vector<std::string> parameters, drivers;
+  std::vector<double> start;
+  WorldOptions world;
+  bool unwatched = false, controlled = false;
+};
+
+void describe_common(CLI::App& command, CommandLine& line, Words& words) {
+  RunOptions& options = line.options;
+  command.add_option("--for", words.duration,
+                     "End after this time: 60s, 2min, 500ms (default: run until the net ends)");
+  command
+      .add_option("--set", words.parameters,
+                  "PATH=VALUE: v=0.3 (everywhere), robot.control.v=0.3, robot[*].control.v=0.3")
+      ->allow_extra_args(false);
+  command.add_option("--parameters", words.parameter_file,
+                     "File of 'path = value' lines, applied before --set");
+  command.add_option("--record", options.recording,
+                     "Write every firing, log line and value of a buffer to this file");
+  command.add_option(
+      "--record-limit", words.record_limit,
+      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
+  using Values = RunOptions::Values;
+  command
+      .add_option("--record-values", options.values,
+                  "Which values of buffers: none, small (up to 4 KiB; of larger ones a hash), all")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Values>{
+          {"none", Values::none}, {"small", Values::small}, {"all", Values::all}}))
+      ->default_str("small");
+  command.add_option("--world", words.world.world, "World of the simulated robot (MJCF)");
+  command.add_option("--world-library", options.world_library, "Library that simulates the world");
+  command.add_option("--track", words.world.track, "Floor picture (PNG), dark is line");
+  command.add_option("--metres-per-pixel", words.world.metres_per_pixel, "Scale of the floor picture")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--start", words.start, "x,y,deg: where the robot starts (metres, degrees)")
+      ->delimiter(',')
+      ->expected(3);
+  command
+      .add_option("--footprint", words.world.footprint_m, "Diameter of what a light sensor sees, in metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--trace", words.world.trace, "Write the path driven to this file");
+  command
+      .add_option("--driver", words.drivers,
+                  "BUFFER=KIND:TARGET[,OPTION=NUMBER...]: robot.sensor.left=reflectance:eye_left,noise=0.01")
+      ->allow_extra_args(false);
+  command
+      .add_option("--inject", options.inject,
+                  "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
+                  "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
+                  "signal:SIGINT@2s; WHEN may be `any`")
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--hardware", options.hardware,
+          "SUBSYSTEM or BUFFER that has its real driver in a simulated run (hardware in the loop); the "
+          "simulated clock is then not faster than the wall clock")
+      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
+  command.add_option("--summary", line.summary, "Write what the run came to as JSON; - is standard output");
+  command.add_flag("--accept-stuck", options.accept_stuck,
+                   "A subsystem that waits for ever, while others go on, is no failure");
+  command.add_flag("--progress", options.progress, "Show progress on standard error");
+  command.add_option(
+      "--death-note", options.death_note,
+      "Write to this file where and of what the process died, if it dies in the middle of the run");
+  command
+      .add_option(
+          "--parent", options.parent,
+          "Number of the process that started the controller; when it has ended, the run stops safely")
+      ->check(CLI::PositiveNumber);
+}
+
+/// What is wrong with the words; empty: nothing, and the options are filled.
+[[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
+  if (!words.duration.empty()) {
+    options.duration = parse_duration(words.duration);
+    if (!options.duration)
+      return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+  }
+  if (!words.record_limit.empty()) {
+    const auto limit = parse_record_limit(words.record_limit);
+    if (!limit)
+      return fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit);
+    options.record_limit = *limit;
+  }
+  for (const std::string& assignment : words.parameters) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return fmt::format("--set {}: expected PATH=VALUE", assignment);
+    options.parameters.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  for (const std::string& driver : words.drivers) {
+    std::string error;
+    const std::optional<DriverRequest> request = parse_driver(driver, error);
+    if (!request) return fmt::format("--driver {}: {}", driver, error);
+    options.drivers.push_back(*request);
+  }
+  if (words.world.world.empty()) return "";
+  options.world = words.world;
+  options.world->seed = options.seed;
+  if (words.start.size() == 3) {
+    options.world->start_x_m = words.start[0];
+    options.world->start_y_m = words.start[1];
+    options.world->start_heading_rad = words.start[2] * std::numbers::pi / 180;
+  }
+  return "";
+}
+
+/// What the controller was made of, and what is known about that.
+[[nodiscard]] std::string about(const System& system) {
+  std::string text =
+      fmt::format("{}\nnet {}\nverification {}\n", system.name, system.net_hash, system.verification_hash);
+  for (const VerifiedProperty& property : system.verdicts)
+    text += fmt::format("  {}: {} ({})\n", property.name, property.verdict, property.method);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::optional<Duration> parse_duration(std::string text) {
+  std::erase(text, ' ');
+  const std::size_t unit_at = text.find_first_not_of("0123456789.eE+-");
+  std::string_view unit = unit_at == std::string::npos ? "s" : std::string_view(text).substr(unit_at);
+  struct Unit {
+    std::string_view name;
+    double in_ns;
+  };
+  constexpr std::array units{Unit{"s", 1e9},    Unit{"ms", 1e6}, Unit{"us", 1e3},  Unit{"ns", 1.0},
+                             Unit{"min", 60e9}, Unit{"m", 60e9}, Unit{"h", 3600e9}};
+  const std::optional<double> number = parse_number(std::string_view(text).substr(0, unit_at));
+  for (const Unit& known : units) {
+    if (known.name != unit || !number || *number < 0) continue;
+    const double nanoseconds = std::round(*number * known.in_ns);
+    if (nanoseconds > 9e18) return std::nullopt;
+    return Duration(static_cast<Duration::rep>(nanoseconds));
+  }
+  return std::nullopt;
+}
+
+std::optional<RunOptions::Limit> parse_record_limit(std::string text) {
+  constexpr std::uint32_t segments_of_all = 4;
+  std::erase(text, ' ');
+  RunOptions::Limit limit{.segment_bytes = 0, .segments = segments_of_all};
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const std::optional<double> count = parse_number(std::string_view(text).substr(times + 1));
+    if (!count || *count < 2 || *count > 1e6 || *count != std::floor(*count)) return std::nullopt;
+    limit.segments = static_cast<std::uint32_t>(*count);
+    text.resize(times);
+  }
+  const std::size_t unit_at = text.find_first_not_of("0123456789.");
+  const std::string_view unit = unit_at == std::string::npos ? "B" : std::string_view(text).substr(unit_at);
+  const std::optional<double> number = parse_number(std::string_view(text).substr(0, unit_at));
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  for (const Unit& known :
+       {Unit{"B", 1}, Unit{"kB", 1e3}, Unit{"MB", 1e6}, Unit{"GB", 1e9}, Unit{"TB", 1e12}}) {
+    if (known.name != unit || !number || *number <= 0) continue;
+    const double bytes = *number * known.bytes / (times == std::string::npos ? segments_of_all : 1);
+    if (bytes < 1 || bytes > 1e18) return std::nullopt;
+    limit.segment_bytes = static_cast<std::uint64_t>(bytes);
+    return limit;
+  }
+  return std::nullopt;
+}
+
+std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error) {
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == std::string::npos || equals == 0 || colon == std::string::npos || colon == equals + 1) {
+    error = "expected BUFFER=KIND:TARGET";
+    return std::nullopt;
+  }
+  DriverRequest request{.path = text.substr(0, equals),
+                        .kind = text.substr(equals + 1, colon - equals - 1),
+                        .target = {},
+                        .options = {}};
+  std::istringstream rest(text.substr(colon + 1));
+  std::getline(rest, request.target, ',');
+  for (std::string option; std::getline(rest, option, ',');) {
+    const std::size_t sign = option.find('=');
+    const std::optional<double> value =
+        sign == std::string::npos ? std::nullopt : parse_number(std::string_view(option).substr(sign + 1));
+    if (!value) {
+      error = fmt::format("'{}' is no OPTION=NUMBER", option);
+      return std::nullopt;
+    }
+    request.options[option.substr(0, sign)] = *value;
+  }
+  return request;
+}
+
+std::variant<CommandLine, int> parse_command_line(const System& system, int argc, char** argv) {
+  CommandLine line;
+  Words words;
+  CLI::App app(fmt::format("The controller of {}, generated by Tessera.", system.name));
+  app.footer(
+      "Example: controller simulate --for 60s --seed 1 --record run.tsr --set v=0.3\n"
+      "Exit codes: 0 ended as asked, 1 failed or could not start, 2 usage, 130 interrupted.");
+  app.require_subcommand(1);
+  app.set_version_flag("--about", about(system), "Say which net this is and what was verified of it");
+  app.set_config("--config", "", "Read options from this file (INI or TOML)");
+  CLI::App* simulate =
+      app.add_subcommand("simulate", "Simulated clock: deterministic from the seed, as fast as possible");
+  CLI::App* run = app.add_subcommand(
+      "run", "Real time, a thread per subsystem; with --world or --simulated the robot is simulated");
+  for (CLI::App* command : {simulate, run}) {
+    command->fallthrough();
+    command->configurable();
+    describe_common(*command, line, words);
+  }
+  run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
+  run->add_flag("!--no-guardian", line.options.guardian,
+                "No guardian process, for debuggers that stop the controller (docs/safety.md)");
+  run->add_flag("--simulated", line.options.simulated_drivers,
+                "Simulated drivers in place of the real ones; a --world implies it");
+  simulate->add_option("--scenario", line.options.scenario,
+                       "Follow this run first (tessera verify --scenario), then run on freely");
+  simulate->add_flag("--interleave", line.options.interleave,
+                     "Subsystems take turns after every firing, drawn from the seed");
+  simulate->add_option("--schedules", line.schedules,
+                       "Try so many seeds from --seed on, interleaved; report the first whose run fails");
+  simulate->add_option("--from", line.from,
+                       "Run user code again on what this recording says it was given; compare what it does");
+  simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
+  simulate->add_flag("--controlled", words.controlled,
+                     "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");
+  simulate->add_flag("--paused", line.options.paused, "With --controlled: begin paused");
+  simulate
+      ->add_option("--speed", line.options.speed,
+                   "With --controlled: simulated seconds a second; 0: as fast as possible")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool unreadable = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
+    return app.exit(error) == 0 ? 0 : unreadable ? 1 : 2;
+  }
+  line.options.monitor = run->parsed() ? !words.unwatched : words.controlled;
+  line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;
+  std::string wrong;
+  if (!words.parameter_file.empty() &&
+      !read_parameter_file(words.parameter_file, line.options.parameters, wrong)) {
+    fmt::print(stderr, "error: {}\n", wrong);
+    return 1;
+  }
+  wrong = interpret(words, line.options);
+  if (wrong.empty()) return line;
+  fmt::print(stderr, "error: {}\n", wrong);
+  return 2;
+}
+
+}  // namespace tessera

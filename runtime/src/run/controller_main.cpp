@@ -1,0 +1,98 @@
+#include <cxxabi.h>
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "rerun/rerun.hpp"
+#include "run/command_line.hpp"
+#include "run/schedules.hpp"
+#include "run/summary_text.hpp"
+#include "system/console.hpp"
+#include "system/stop_signals.hpp"
+#include "tessera/controller.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;  // and its number
+
+[[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
+  if (file == "-") return static_cast<bool>(std::cout << json << std::flush);
+  std::ofstream stream(file);
+  stream << json << std::flush;
+  return static_cast<bool>(stream);
+}
+
+[[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
+  const console::Session session;  // a terminal that takes nothing does not hold up the end
+  // Whoever asks for a file shows what is in it.
+  if (summary.failed && line.summary.empty()) console::say(summary_lines(summary));
+  if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  if (summary.failed) return exit_failed;
+  return summary.signal == 0 ? exit_ok : exit_signal + summary.signal;
+}
+
+[[nodiscard]] int run_schedules(const System& system, const CommandLine& line) {
+  std::string error;
+  const std::optional<ScheduleReport> report = try_schedules(system, line.options, line.schedules, error);
+  if (!report) {
+    fmt::print(stderr, "error: {}\n", error);
+    return exit_failed;
+  }
+  fmt::print(stderr, "{}", schedules_line(*report));
+  if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  if (report->failed) return exit_failed;
+  return report->interrupted == 0 ? exit_ok : exit_signal + report->interrupted;
+}
+
+[[nodiscard]] int run_again(const System& system, const CommandLine& line) {
+  std::string error;
+  const std::optional<RerunReport> report = rerun(system, line.options, line.from, error);
+  if (!report) {
+    fmt::print(stderr, "error: {}\n", error);
+    return exit_failed;
+  }
+  if (line.summary != "-") fmt::print("{}", rerun_text(*report));
+  if (!line.summary.empty() && !write_summary(line.summary, rerun_json(*report))) {
+    fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
+    return exit_failed;
+  }
+  return report->first ? exit_failed : exit_ok;
+}
+
+}  // namespace
+
+int controller_main(const System& system, int argc, char** argv) try {
+  const std::variant<CommandLine, int> parsed = parse_command_line(system, argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const CommandLine& line = std::get<CommandLine>(parsed);
+  if (line.schedules > 0) return run_schedules(system, line);
+  if (!line.from.empty()) return run_again(system, line);
+  std::string error;
+  const std::optional<RunSummary> summary = execute(system, line.options, error);
+  if (!summary) {
+    fmt::print(stderr, "error: {}\n", error);
+    const int signal = StopSignals::pending();  // one may have come while devices were opened
+    return signal == 0 ? exit_failed : exit_signal + signal;
+  }
+  return report(*summary, line);
+} catch (const std::exception& exception) {
+  fmt::print(stderr, "error: {}\n", exception.what());
+  return exit_failed;
+} catch (const abi::__forced_unwind&) {
+  throw;
+} catch (...) {
+  fmt::print(stderr, "error: an exception that is no std::exception\n");
+  return exit_failed;
+}
+
+}  // namespace tessera

@@ -1,0 +1,196 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "assembly/upper_layers.hpp"
+#include "run/simulated_run.hpp"
+#include "run/steady_run.hpp"
+#include "safety/companions.hpp"
+#include "safety/last_chance.hpp"
+#include "system/console.hpp"
+#include "system/stop_signals.hpp"
+#include "tessera/controller.hpp"
+#include "watch/stuck.hpp"
+
+namespace tessera {
+namespace {
+
+void warn(RunSummary& summary, std::string text) {
+  console::print(LogLevel::warning, Time(summary.simulated), "tessera", text);
+  summary.warnings.push_back(std::move(text));
+}
+
+void close_recording(Assembly& assembly, RunSummary& summary) {
+  if (assembly.recorder == nullptr) return;
+  const Recorder::Result result = assembly.recorder->close();
+  summary.lost_events = result.lost;
+  if (!result.failure.empty())
+    warn(summary, fmt::format("the recording '{}' is cut: {}", assembly.options.recording, result.failure));
+  else if (result.lost > 0)
+    warn(summary, fmt::format("{} events are missing in the recording: the disk was too slow", result.lost));
+}
+
+void close_world(Assembly& assembly, RunSummary& summary) {
+  if (assembly.world == nullptr) return;
+  std::string error;
+  if (assembly.world->finish(error)) return;
+  summary.failed = true;
+  warn(summary, fmt::format("the world: {}", error));
+}
+
+[[nodiscard]] std::vector<std::string> devices_left_unsafe(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const auto& executor : assembly.executors)
+    std::ranges::move(executor->effectors().unsafe(), std::back_inserter(names));
+  return names;
+}
+
+/// The devices of all subsystems are open while it lives.
+class OpenDevices {
+ public:
+  explicit OpenDevices(Assembly& assembly) : assembly_(assembly) {}
+  OpenDevices(const OpenDevices&) = delete;
+  OpenDevices& operator=(const OpenDevices&) = delete;
+  /// Only for a run that ends by an exception; every other one has given the safe command and called `close`.
+  ~OpenDevices() {
+    if (!open_) return;
+    for (const auto& executor : assembly_.executors) executor->leave();
+    close();
+  }
+
+  /// Effectors come first, so that they are safe soon. false and `error`: the run must not start; nothing is
+  /// open any more.
+  [[nodiscard]] bool open(std::string& error) {
+    open_ = true;
+    for (const bool effectors : {true, false})
+      for (const auto& executor : assembly_.executors) {
+        Operations& operations = executor->operations();
+        if (operations.commands_devices() != effectors) continue;
+        if (StopSignals::pending() == 0 && operations.open_devices(error)) continue;
+        if (error.empty())
+          error = fmt::format("{} while devices were opened", StopSignals::name(StopSignals::pending()));
+        close();
+        return false;
+      }
+    return true;
+  }
+
+  /// Returns what went wrong.
+  std::vector<std::string> close() {
+    open_ = false;
+    std::vector<std::string> wrong;
+    for (const bool effectors : {false, true})
+      for (auto executor = assembly_.executors.rbegin(); executor != assembly_.executors.rend(); ++executor) {
+        if ((*executor)->operations().commands_devices() != effectors) continue;
+        const std::vector<std::string> more = (*executor)->operations().close_devices();
+        wrong.insert(wrong.end(), more.begin(), more.end());
+      }
+    return wrong;
+  }
+
+ private:
+  Assembly& assembly_;
+  bool open_ = false;
+};
+
+/// Everything but what only the driver of the run knows.
+template <class Run>
+[[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
+                                              std::string& error) {
+  if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
+  RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
+  UpperLayers upper(agents_of(assembly.system), lane);
+  OpenDevices devices(assembly);
+  if (!devices.open(error)) return std::nullopt;
+  std::optional<LastChance> last_chance;
+  last_chance.emplace(assembly, run.clock(), assembly.guardian);
+  const std::int64_t start_ns = monotonic_ns();
+  Ending ending = run.run(assembly, upper, signals);
+  const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
+  last_chance.reset();
+  if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
+  ending.failed = ending.failed || !unsafe.empty();
+  const std::vector<std::string> unclosed = devices.close();
+
+  std::string stuck;
+  if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));
+  if (!stuck.empty() && !assembly.options.accept_stuck) {
+    ending.text += "; " + std::exchange(stuck, {});
+    ending.failed = true;
+  }
+
+  RunSummary summary;
+  summary.simulated = ending.at.time_since_epoch();
+  summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
+  summary.failed = ending.failed;
+  summary.signal = ending.signal;
+  summary.world_time = ending.world_time;
+  summary.firings = upper.firings();
+  for (const auto& executor : assembly.executors) {
+    const Operations& operations = executor->operations();
+    summary.firings += executor->firings();
+    summary.subsystems.push_back(
+        {executor->path(), operations.iterations(), executor->overruns(), operations.errors()});
+  }
+  for (const std::string& device : unsafe) {
+    warn(summary, fmt::format("{} has not taken its safe command", device));
+    if (lane != nullptr)
+      lane->text(Event::Kind::safe, ending.at, static_cast<std::uint32_t>(SafeEvent::refused),
+                 fmt::format("{}: has not taken its safe command", device));
+  }
+  if (ending.world_time)
+    warn(summary, fmt::format("the simulated world ran at {:.2f} of real time: {:.3f} s of {:.3f} s",
+                              seconds(*ending.world_time) / seconds(summary.simulated),
+                              seconds(*ending.world_time), seconds(summary.simulated)));
+  if (lane != nullptr) lane->text(Event::Kind::stop, ending.at, ending.failed ? 1 : 0, ending.text);
+  if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
+  summary.ended = std::move(ending.text);
+  if (!stuck.empty()) warn(summary, stuck);
+  for (const std::string& complaint : unclosed) warn(summary, complaint);
+  close_recording(assembly, summary);
+  close_world(assembly, summary);
+  return summary;
+}
+
+[[nodiscard]] std::optional<RunSummary> with_lost_lines(std::optional<RunSummary> summary,
+                                                        const Assembly& assembly, console::Session& session) {
+  if (!summary && assembly.guardian != nullptr) assembly.guardian->dismiss();  // it has not started
+  if (summary) summary->lines_not_printed = session.settle();
+  return summary;
+}
+
+}  // namespace
+
+std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
+  const auto instances = static_cast<std::uint32_t>(system.instances.size());
+  const bool simulated = options.clock == RunOptions::Clock::simulated;
+  const bool nothing_real = simulated && options.hardware.empty();
+  // Before the first driver is made, until the last is gone. Only the steady clock can be suspended.
+  using Suspension = StopSignals::Suspension;
+  const StopSignals signals(nothing_real ? Suspension::usual
+                            : simulated  ? Suspension::ends_run
+                                         : Suspension::noted);
+  // Before there are threads.
+  Companions companions(system, options);
+  if (!companions.start_guardian(error)) return std::nullopt;
+  // Nothing real waits because somebody reads slowly what is printed.
+  using Overflow = console::Session::Overflow;
+  console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
+  companions.watch();
+  Assembly assembly(system, options);
+  assembly.guardian = companions.guardian();
+  if (simulated) {
+    SimulatedRun run(instances, options.seed);
+    return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+  }
+  SteadyRun run(instances);
+  return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+}
+
+}  // namespace tessera

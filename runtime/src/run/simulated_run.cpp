@@ -1,0 +1,265 @@
+#include "run/simulated_run.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "system/console.hpp"
+#include "watch/boundary.hpp"
+#include "watch/stillness.hpp"
+
+namespace tessera {
+namespace {
+
+/// Keeps simulated time from running ahead of the wall clock; a signal or a command ends the wait.
+class Pace {
+ public:
+  /// hardware: time that was lost is not made up for, so that it never goes faster than the wall clock.
+  Pace(bool realtime, bool hardware, RemoteControl* remote, const StopSignals& signals)
+      : speed_(realtime || hardware ? 1 : 0), hardware_(hardware), remote_(remote), signals_(signals) {}
+
+  /// From here time counts anew: it has stood still, or goes faster or slower now.
+  void restart(Time now) {
+    start_ = now;
+    start_ns_ = monotonic_ns();
+  }
+
+  /// false: it is not time yet.
+  [[nodiscard]] bool wait_for(Time time, Time now, Recorder* recorder) {
+    if (remote_ != nullptr && remote_->speed() != speed_) {
+      speed_ = remote_->speed();
+      restart(now);
+    }
+    if (speed_ <= 0) return true;
+    const auto after_ns = static_cast<std::int64_t>(static_cast<double>((time - start_).count()) / speed_);
+    const std::int64_t left_ns = start_ns_ + after_ns - monotonic_ns();
+    if (left_ns <= 0) {
+      if (hardware_) restart(time);
+      return true;
+    }
+    if (recorder != nullptr) recorder->flush();  // there is time, and whoever watches sees what has happened
+    if (remote_ != nullptr) return remote_->wait_for(Duration(left_ns), signals_);
+    timespec left{.tv_sec = left_ns / 1'000'000'000, .tv_nsec = left_ns % 1'000'000'000};
+    pollfd signal{.fd = signals_.descriptor(), .events = POLLIN, .revents = 0};
+    ppoll(&signal, 1, &left, nullptr);
+    return true;
+  }
+
+ private:
+  double speed_;
+  bool hardware_;
+  RemoteControl* remote_;
+  const StopSignals& signals_;
+  Time start_{};
+  std::int64_t start_ns_ = monotonic_ns();
+};
+
+}  // namespace
+
+SimulatedRun::SimulatedRun(std::uint32_t instances, std::uint64_t seed)
+    : random_(seed),
+      is_ready_(instances),
+      has_ended_(instances),
+      deadlines_(instances),
+      beats_(instances),
+      stuck_(instances) {
+  ready_.reserve(instances);
+}
+
+void SimulatedRun::wake(std::uint32_t instance) {
+  if (is_ready_[instance] || has_ended_[instance]) return;
+  is_ready_[instance] = true;
+  ready_.push_back(instance);
+}
+
+std::uint32_t SimulatedRun::draw_ready() {
+  // Not std::uniform_int_distribution: its numbers differ from library to library.
+  if (ready_.size() > 1) std::swap(ready_[random_() % ready_.size()], ready_.back());
+  const std::uint32_t drawn = ready_.back();
+  ready_.pop_back();
+  is_ready_[drawn] = false;
+  return drawn;
+}
+
+void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
+  SubsystemExecutor& executor = *assembly.executors[instance];
+  const bool one = remote_ != nullptr && remote_->one_by_one();
+  if (one) remote_->about_to_fire();
+  const std::uint64_t before = executor.firings();
+  calls_->begin(instance, clock_.now());
+  const SubsystemExecutor::Progress progress =
+      executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
+  calls_->end();
+  if (one && executor.firings() != before) remote_->fired(instance);
+  if (progress.state == SubsystemExecutor::State::ready) {
+    if (!assembly.options.interleave) {
+      unfinished_ = instance;
+      return;
+    }
+    wake(instance);
+  }
+  deadlines_.set(instance,
+                 progress.state == SubsystemExecutor::State::waiting ? progress.deadline : Time::max());
+  beats_.set(instance, progress.state == SubsystemExecutor::State::waiting ? progress.beat : Time::max());
+  if (progress.state != SubsystemExecutor::State::ended) return;
+  has_ended_[instance] = true;
+  upper.subsystem_ended(instance, clock_.now());
+}
+
+void SimulatedRun::move_to(Assembly& assembly, Time time) {
+  clock_.set(time);
+  if (assembly.world == nullptr) return;
+  survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); });
+}
+
+/// All devices at this instant, not when their subsystems have their next turn.
+void SimulatedRun::follow_emergency(Assembly& assembly) {
+  using News = EmergencyWatch::News;
+  const RunControl& control = assembly.control;
+  for (News news = emergencies_.look(control); news != News::none; news = emergencies_.look(control)) {
+    for (const auto& executor : assembly.executors) executor->guard();
+    EmergencyWatch::say(news, control, clock_.now(),
+                        assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
+  }
+}
+
+/// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.
+/// true: it was paused meanwhile.
+bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  bool waited = false;
+  while ((unfinished_ || !ready_.empty()) && !assembly.control.stopping()) {
+    if (remote_ != nullptr) {
+      waited = remote_->wait_while_paused(signals) || waited;
+      if (StopSignals::pending() != 0) break;
+    }
+    const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready();
+    unfinished_.reset();
+    if (!has_ended_[instance]) step(assembly, upper, instance);
+    follow_emergency(assembly);
+  }
+  if (remote_ != nullptr) waited = remote_->wait_while_paused(signals) || waited;
+  return waited;
+}
+
+Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  if (assembly.options.monitor) {
+    remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused, assembly.options.speed);
+    monitor_.emplace(assembly, clock_, remote_.get());
+    monitor_->complain_of_failure(clock_.now());
+  }
+  calls_.emplace(assembly);
+  Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
+  for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
+    if (!has_ended_[instance]) assembly.executors[instance]->leave();
+  for (const auto& executor : assembly.executors) executor->insist();  // nobody waits for who refuses
+  calls_.reset();
+  return ending;
+}
+
+std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLayers& upper) {
+  if (!assembly.scenario) return std::nullopt;
+  const std::vector<Scenario::Step>& steps = assembly.scenario->steps;
+  for (std::size_t index = 0; index < steps.size(); ++index) {
+    const SubsystemExecutor& executor = *assembly.executors[steps[index].instance];
+    if (!follow_step(assembly, upper, index))
+      return Ending{fmt::format("the scenario cannot be followed: {} cannot fire; {}", steps[index].name,
+                                executor.whereabouts(assembly.system)),
+                    true, clock_.now(), 0, std::nullopt};
+    if (const int signal = StopSignals::pending(); signal != 0)
+      return Ending{StopSignals::name(signal), false, clock_.now(), signal, std::nullopt};
+  }
+  for (const auto& executor : assembly.executors) firings_at_scenario_end_.push_back(executor->firings());
+  console::print(LogLevel::info, clock_.now(), "tessera", "end of the scenario; everything runs freely");
+  return std::nullopt;
+}
+
+/// Time passes until the step can be made; false: it never can.
+bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index) {
+  const Scenario::Step& step = assembly.scenario->steps[index];
+  SubsystemExecutor& executor = *assembly.executors[step.instance];
+  for (;;) {
+    calls_->begin(step.instance, clock_.now());
+    const SubsystemExecutor::FollowProgress progress = executor.follow();
+    calls_->end();
+    if (progress.state == SubsystemExecutor::Followed::waiting) {
+      if (progress.deadline == Time::max()) return false;
+      move_to(assembly, std::max(progress.deadline, clock_.now()));
+      continue;
+    }
+    const std::string_view local = std::string_view(step.name).substr(executor.path().size() + 1);
+    executor.note(progress.forced.empty()
+                      ? fmt::format("scenario {}/{}: {}", index + 1, assembly.scenario->steps.size(), local)
+                      : fmt::format("scenario {}/{}: {} (forced: {})", index + 1,
+                                    assembly.scenario->steps.size(), local, progress.forced));
+    if (progress.state == SubsystemExecutor::Followed::ended) {
+      has_ended_[step.instance] = true;
+      upper.subsystem_ended(step.instance, clock_.now());
+    }
+    return true;
+  }
+}
+
+Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
+  std::string stuck;
+  for (std::uint32_t instance = 0; instance < firings_at_scenario_end_.size(); ++instance) {
+    const SubsystemExecutor& executor = *assembly.executors[instance];
+    if (has_ended_[instance] || executor.firings() != firings_at_scenario_end_[instance]) continue;
+    stuck += (stuck.empty() ? "" : "; ") + executor.whereabouts(assembly.system);
+  }
+  if (stuck.empty() || ending.failed) return ending;  // why it failed says more
+  ending.text += "; stuck since the scenario: " + stuck;
+  ending.failed = true;
+  return ending;
+}
+
+Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
+  const std::optional<Duration> duration = assembly.options.duration;
+  Pace pace(assembly.options.realtime, !assembly.options.hardware.empty(), remote_.get(), signals);
+  ProgressLine progress(assembly.options.progress, duration);
+  const auto ending = [&](std::string text, bool failed) {
+    return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt};
+  };
+
+  move_to(assembly, Time{});
+  upper.enter(clock_.now());
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    assembly.executors[instance]->enter();
+    wake(instance);
+  }
+  if (std::optional<Ending> ended = follow_scenario(assembly, upper)) return *ended;
+  const Time end = duration ? clock_.now() + *duration : Time::max();
+  for (;;) {
+    if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());
+    if (const int signal = StopSignals::pending(); signal != 0)
+      return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
+    if (assembly.control.stopping())
+      return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
+    if (upper.ended()) return ending("net ended", false);
+    Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
+    if (next != Time::max()) next = std::min(next, assembly.signals.next());
+    if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
+    stuck_.look(assembly, clock_.now());
+    if (!beats_.empty()) next = std::min(next, beats_.first_time());
+    if (remote_ != nullptr) remote_->keep_recording_live();
+    if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
+    if (next >= end) {
+      move_to(assembly, end);
+      return ending("duration", assembly.control.failed());
+    }
+    move_to(assembly, next);
+    assembly.signals.raise_due(next);
+    progress.update(next);
+    for (DeadlineQueue* queue : {&deadlines_, &beats_})
+      while (!queue->empty() && queue->first_time() <= next) {
+        const std::uint32_t due = queue->first();
+        queue->set(due, Time::max());
+        wake(due);
+      }
+  }
+}
+
+}  // namespace tessera

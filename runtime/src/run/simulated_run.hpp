@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "assembly/upper_layers.hpp"
+#include "system/deadline_queue.hpp"
+#include "system/stop_signals.hpp"
+#include "watch/call_watch.hpp"
+#include "watch/emergency_watch.hpp"
+#include "watch/monitor.hpp"
+#include "watch/remote_control.hpp"
+#include "watch/stuck.hpp"
+
+namespace tessera {
+
+/// How a run ended.
+struct Ending {
+  std::string text;  ///< as RunSummary::ended
+  bool failed = false;
+  Time at{};
+  int signal = 0;                        ///< that ended it; 0: none did
+  std::optional<Duration> world_time{};  ///< of a world that was slower than real time: how far it has come
+};
+
+/// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something
+/// to do take turns in an order drawn from the seed, each until it has to wait, or firing by firing
+/// (RunOptions::interleave); when none has, time jumps to the next deadline, and the
+/// world with it. A scenario comes first: its subsystems take turns as it says, and time waits for them
+/// alone. Everything but the wall clock's speed follows from tables, seed and user code.
+class SimulatedRun final : public Waker {
+ public:
+  SimulatedRun(std::uint32_t instances, std::uint64_t seed);
+  [[nodiscard]] const SimulatedClock& clock() const { return clock_; }
+  void wake(std::uint32_t instance) override;
+  [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+
+ private:
+  [[nodiscard]] Ending run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  /// nullopt: followed to its end, or there is none.
+  [[nodiscard]] std::optional<Ending> follow_scenario(Assembly& assembly, UpperLayers& upper);
+  [[nodiscard]] bool follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index);
+  /// Says who has done nothing since the scenario: that is what it was for.
+  [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
+  [[nodiscard]] std::uint32_t draw_ready();
+  [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
+  void move_to(Assembly& assembly, Time time);
+  void follow_emergency(Assembly& assembly);
+
+  SimulatedClock clock_;
+  std::mt19937_64 random_;
+  std::vector<std::uint32_t> ready_;
+  std::vector<bool> is_ready_, has_ended_;
+  std::optional<std::uint32_t> unfinished_;  // has fired, and its turn is not over
+  std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
+  DeadlineQueue deadlines_, beats_;
+  EmergencyWatch emergencies_;
+  std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
+  StuckWatch stuck_;
+  std::optional<CallWatch> calls_;
+  std::optional<Monitor> monitor_;  // the last: it looks at the others
+};
+
+}  // namespace tessera

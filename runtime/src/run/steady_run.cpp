@@ -1,0 +1,389 @@
+#include "run/steady_run.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <optional>
+#include <utility>
+
+#include "safety/death.hpp"
+#include "system/console.hpp"
+#include "system/realtime.hpp"
+#include "system/thread_role.hpp"
+#include "watch/boundary.hpp"
+#include "watch/liveness.hpp"
+#include "watch/stillness.hpp"
+#include "watch/watchdogs.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr Duration world_step = std::chrono::milliseconds(1);
+constexpr Duration longest_world_step = std::chrono::milliseconds(10);  // what a stop may have to wait for
+constexpr Duration most_behind = std::chrono::milliseconds(200);  // that a slow world tries to make up for
+constexpr Duration progress_step = std::chrono::milliseconds(200);
+constexpr Duration security_delay = std::chrono::milliseconds(20);  // then devices get their safe command
+constexpr Duration first_patience = std::chrono::seconds(1);        // then it says whom it waits for
+
+[[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
+  return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
+}
+
+}  // namespace
+
+SteadyRun::SteadyRun(std::uint32_t instances)
+    : wake_words_(std::make_unique<WakeWord[]>(instances)),
+      gone_(std::make_unique<std::atomic<bool>[]>(instances)),
+      collected_(instances),
+      stuck_(instances),
+      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+SteadyRun::~SteadyRun() {
+  if (news_ >= 0) close(news_);
+}
+
+void SteadyRun::tell_supervisor() const {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
+}
+
+/// By pthread_exit.
+void SteadyRun::complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control) {
+  std::array<char, 256> place_room, reason_room;
+  const std::string_view place = where_a_subsystem_is(executor, place_room);
+  const auto end =
+      fmt::format_to_n(reason_room.data(), reason_room.size(),
+                       "{}: user code has ended the thread of the subsystem (pthread_exit)", place);
+  const std::string_view reason(reason_room.data(), std::min(end.size, reason_room.size()));
+  control.request_stop(reason, /*fault=*/true);
+  executor.record_death(reason);
+}
+
+void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
+  // However this thread ends (user code may call pthread_exit), its devices are left safe.
+  struct Leaving {
+    SteadyRun& run;
+    SubsystemExecutor& executor;
+    std::uint32_t instance;
+    RunControl& control;
+    bool orderly = false;
+    ~Leaving() {
+      if (!orderly) complain_of_ended_thread(executor, control);
+      if (control.stopping()) run.tell_supervisor();  // now: the devices may take their time
+      if (!control.has_ended(instance)) executor.leave();
+      executor.insist();
+      run.gone_[instance].store(true, std::memory_order_release);
+      run.tell_supervisor();
+    }
+  } leaving{*this, executor, instance, control};
+  const AlternateStack stack;
+  survives_in_thread(control, executor.path(), [&] {
+    // Releases are exact to what the timer can do; by default the kernel may add 50 us to spare itself a
+    // wake-up.
+    prctl(PR_SET_TIMERSLACK, 1UL);
+    const Instance& its = *executor.operations().parts().instance;
+    if (const std::string denied = schedule_this_thread(its.policies.realtime); !denied.empty()) deny(denied);
+    step_until_end(executor, wake_words_[instance], control);
+  });
+  leaving.orderly = true;
+}
+
+void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
+                               const RunControl& control) const {
+  while (!control.stopping()) {
+    const std::uint32_t ticket = wakes.ticket();
+    const SubsystemExecutor::Progress progress = executor.step();
+    if (progress.state != SubsystemExecutor::State::waiting) break;
+    sleep(executor, wakes, ticket, progress);
+  }
+}
+
+/// Until there may be something to do. Heartbeats are no work of the net: a subsystem that does nothing else
+/// is at rest (Stillness).
+void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+                      const SubsystemExecutor::Progress& progress) const {
+  const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
+  if (progress.deadline != Time::max() || progress.beat == Time::max())
+    return wakes.sleep(ticket, limit(std::min(progress.deadline, progress.beat)));
+  Time beat = progress.beat;
+  for (bool again = false; !wakes.rest_until(ticket, limit(beat), again); again = true)
+    beat = executor.beat(clock_.now());
+}
+
+/// One warning a run: a thousand threads may be denied the same.
+void SteadyRun::deny(const std::string& what) {
+  if (denied_.exchange(true, std::memory_order_relaxed)) return;
+  console::print(LogLevel::warning, clock_.now(), "tessera",
+                 fmt::format("not in real time, as the specification asks ({}); give the permission with "
+                             "CAP_SYS_NICE and CAP_IPC_LOCK, or limits rtprio and memlock",
+                             what));
+}
+
+/// A world that is slower than real time falls behind: it is moved in short steps, so that nobody waits long
+/// for it, and what it cannot make up for is left out (Ending::world_time).
+void SteadyRun::run_world(World& world, RunControl& control) {
+  const AlternateStack stack;
+  const bool survived = survives_in_thread(control, "the world", [&] {
+    Duration left_out{};
+    for (Time next{}; !control.stopping();) {
+      const std::uint32_t ticket = world_wakes_.ticket();
+      const Time now = clock_.now();
+      left_out += std::max(now - left_out - world_time_ - most_behind, Duration::zero());
+      if (left_out > Duration::zero()) say_world_is_slow();
+      world_time_ = std::min(now - left_out, world_time_ + longest_world_step);
+      world.advance_to(world_time_);
+      if (world_time_ + longest_world_step < clock_.now() - left_out) continue;  // it catches up
+      next = std::max(next, clock_.now()) + world_step;
+      if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next));
+    }
+  });
+  if (!survived) tell_supervisor();
+}
+
+void SteadyRun::say_world_is_slow() {
+  if (std::exchange(world_is_slow_, true)) return;
+  console::print(LogLevel::warning, clock_.now(), "tessera",
+                 "the simulated world is slower than real time: its time falls behind that of the run");
+}
+
+Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& /*signals*/) {
+  if (wants_realtime(assembly.system.instances))
+    if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
+  clock_.restart();
+  assembly.control.tell_of_emergencies(news_);
+  if (const int signal = StopSignals::pending(); signal != 0)
+    assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
+  upper.enter(clock_.now());
+  for (const auto& executor : assembly.executors) executor->enter();
+  {
+    const RealTimePriority priority(supervisor_priority(assembly.system.instances));
+    if (!priority.denied().empty()) deny(priority.denied());
+    Securing securing(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
+    std::vector<std::thread> threads;
+    survives_in_thread(assembly.control, "no thread for every subsystem",
+                       [&] { start_threads(assembly, threads); });
+    survives_in_thread(assembly.control, "the supervisor", [&] { supervise(assembly, upper, securing); });
+    wake_all(static_cast<std::uint32_t>(assembly.executors.size()));
+    while (
+        !survives_in_thread(assembly.control, "the supervisor", [&] { await_threads(assembly, securing); }))
+      continue;
+    for (std::thread& thread : threads) thread.join();
+    for (std::uint32_t instance = started_; instance < assembly.executors.size(); ++instance) {
+      assembly.executors[instance]->leave();  // there was no thread for it
+      assembly.executors[instance]->insist();
+    }
+    securing.collect(lane_of_system(assembly));
+  }
+  collect_ended(assembly, upper);
+  return ending(assembly, upper);
+}
+
+Ending SteadyRun::ending(const Assembly& assembly, const UpperLayers& upper) const {
+  const Time now = clock_.now();
+  Ending ending{fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(), now};
+  if (const int signal = StopSignals::pending(); signal != 0) {
+    ending.text = StopSignals::name(signal);
+    ending.signal = signal;
+  }
+  if (duration_over_) ending.text = "duration";
+  if (upper.ended()) ending.text = "net ended";
+  if (duration_over_ || upper.ended()) ending.signal = 0;
+  if (world_is_slow_) ending.world_time = world_time_.time_since_epoch();
+  return ending;
+}
+
+void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& threads) {
+  threads.reserve(assembly.executors.size() + 1);
+  if (assembly.world != nullptr) threads.emplace_back([&] { run_world(*assembly.world, assembly.control); });
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
+    threads.emplace_back([this, &assembly, instance] {
+      run_subsystem(*assembly.executors[instance], instance, assembly.control);
+    });
+    ++started_;
+  }
+  if (!assembly.options.monitor) return;
+  monitor_.emplace(assembly, clock_);
+  monitor_->complain_of_failure(clock_.now());
+}
+
+void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {
+  const Time end = assembly.options.duration ? Time(*assembly.options.duration) : Time::max();
+  ProgressLine progress(assembly.options.progress, assembly.options.duration);
+  RunControl& control = assembly.control;
+  RecordingLane* const lane = lane_of_system(assembly);
+  Watchdogs watchdogs(
+      assembly.executors,
+      [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
+  Stillness stillness(started_);
+  Liveness liveness(assembly, assembly.guardian);
+  EmergencyWatch emergencies;
+  const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
+  while (!control.stopping()) {
+    collect_ended(assembly, upper);
+    securing.collect(lane);
+    follow_emergency(emergencies, control, securing, lane);
+    const Time now = clock_.now();
+    if (upper.ended()) {
+      control.request_stop("net ended", /*fault=*/false);
+    } else if (const int signal = StopSignals::pending(); signal != 0) {
+      control.request_stop(StopSignals::name(signal), /*fault=*/false);
+    } else if (StopSignals::suspension_asked()) {
+      liveness.suspend();
+      suspend(assembly, securing);
+      liveness.resume();
+    } else if (now >= end) {
+      duration_over_ = true;
+      control.request_stop("duration", /*fault=*/false);
+    } else if (stillness.look(now, wake_words_.get(), gone)) {
+      control.request_stop(why_nothing_happens(assembly), /*fault=*/true);
+    } else {
+      if (stillness.changed()) look_for_stuck(assembly, stillness, securing, now);
+      progress.update(now);
+      assembly.signals.raise_due(now);
+      // Watchdogs first: what they find is told.
+      const Time watched = watchdogs.check(now);
+      const Time next =
+          std::min({end, stillness.next(), watched, assembly.signals.next(), liveness.show(now)});
+      await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
+    }
+  }
+}
+
+/// Devices first; subsystems whose user code runs long do not look for themselves.
+void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
+                                 RecordingLane* lane) const {
+  using News = EmergencyWatch::News;
+  for (News news = emergencies.look(control); news != News::none; news = emergencies.look(control)) {
+    if (news == News::begins)
+      for (std::uint32_t instance = 0; instance < started_; ++instance)
+        securing.secure(instance, {SafeReason::Kind::emergency});
+    EmergencyWatch::say(news, control, clock_.now(), lane);
+  }
+}
+
+/// Safe commands first; then the process stops until somebody continues it, and the clock of the run with it.
+void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
+  RunControl& control = assembly.control;
+  RecordingLane* const lane = lane_of_system(assembly);
+  control.suspend();
+  const Time since = clock_.now();
+  for (std::uint32_t instance = 0; instance < started_; ++instance)
+    securing.secure(instance, {SafeReason::Kind::suspended});
+  while (!securing.done() && StopSignals::pending() == 0) await_news(clock_.now() + progress_step);
+  securing.collect(lane);
+  if (any_owing(assembly))
+    return control.request_stop("a real effector refuses its safe command: the run is not suspended",
+                                /*fault=*/true);
+  if (const int signal = StopSignals::pending(); signal != 0)
+    return control.request_stop(StopSignals::name(signal), /*fault=*/false);
+  stop_process(since, lane);
+  StopSignals::resume();
+  control.resume(clock_.now() + Duration(1));
+}
+
+bool SteadyRun::any_owing(const Assembly& assembly) {
+  return std::any_of(assembly.executors.begin(), assembly.executors.end(),
+                     [](const auto& executor) { return executor->operations().effectors().owing(); });
+}
+
+void SteadyRun::stop_process(Time since, RecordingLane* lane) {
+  const auto say = [&](std::string_view text) {
+    console::print(LogLevel::info, clock_.now(), "tessera", text);
+    if (lane != nullptr) lane->text(Event::Kind::log, clock_.now(), 0, text);
+  };
+  say(fmt::format("suspended by SIGTSTP; the devices have their safe commands ({:.1f} ms)",
+                  seconds(clock_.now() - since) * 1e3));
+  clock_.freeze();
+  const std::int64_t stopped_ns = monotonic_ns();
+  kill(getpid(), SIGSTOP);
+  const double away_s = static_cast<double>(monotonic_ns() - stopped_ns) * 1e-9;
+  clock_.thaw();
+  say(fmt::format("goes on after {:.1f} s; each effector waits for new values", away_s));
+}
+
+void SteadyRun::look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now) {
+  const std::vector<std::uint32_t> stuck = stuck_among_resting(assembly, stillness.resting());
+  if (stuck.empty() || !stillness.rest_still(wake_words_.get(), stuck)) return;
+  stuck_.found(assembly, stuck, now,
+               [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stuck}); });
+}
+
+void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
+  for (std::uint32_t instance = 0; instance < collected_.size(); ++instance) {
+    if (collected_[instance] || !assembly.control.has_ended(instance)) continue;
+    collected_[instance] = true;
+    upper.subsystem_ended(instance, clock_.now());
+  }
+}
+
+void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
+  const Time since = clock_.now();
+  Duration patience = first_patience;
+  bool secured = false;
+  const auto all_gone = [&] {
+    for (std::uint32_t instance = 0; instance < started_; ++instance)
+      if (!gone_[instance].load(std::memory_order_acquire)) return false;
+    return securing.done();
+  };
+  while (!all_gone()) {
+    await_news(since + (secured ? patience : security_delay));
+    securing.collect(lane_of_system(assembly));
+    const Duration waited = clock_.now() - since;
+    if (!secured && waited >= security_delay) {
+      secure_devices(securing);
+      secured = true;
+    }
+    if (waited < patience) continue;
+    say_waiting(assembly, securing, waited);
+    patience = 2 * waited;
+  }
+}
+
+void SteadyRun::secure_devices(Securing& securing) const {
+  for (std::uint32_t instance = 0; instance < started_; ++instance)
+    if (!gone_[instance].load(std::memory_order_acquire))
+      securing.secure(instance, {SafeReason::Kind::leaves});
+}
+
+void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const {
+  for (std::uint32_t instance = 0; instance < started_; ++instance) {
+    if (gone_[instance].load(std::memory_order_acquire)) {
+      if (securing.is_under_way(instance))
+        console::print(LogLevel::warning, clock_.now(), "tessera",
+                       fmt::format("waits for the devices of {} ({:.1f} s)",
+                                   assembly.executors[instance]->path(), seconds(since)));
+      continue;
+    }
+    const SubsystemExecutor& executor = *assembly.executors[instance];
+    const std::uint16_t behaviour = executor.gauges().behaviour.load(std::memory_order_relaxed);
+    const SubsystemNet& net = *executor.operations().parts().instance->net;
+    console::print(LogLevel::warning, clock_.now(), "tessera",
+                   fmt::format("waits for {} in {} ({:.1f} s)", executor.path(),
+                               net.behaviours[behaviour].name, seconds(since)));
+  }
+}
+
+/// Of a subsystem, of a thread that secures devices, or a signal.
+void SteadyRun::await_news(Time until) const {
+  std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0}};
+  const Duration left = std::max(until - clock_.now(), Duration::zero());
+  const timespec limit{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
+  ppoll(sources.data(), sources.size(), until == Time::max() ? nullptr : &limit, nullptr);
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
+  StopSignals::take_news();
+}
+
+void SteadyRun::wake_all(std::uint32_t instances) {
+  world_wakes_.wake();
+  for (std::uint32_t instance = 0; instance < instances; ++instance) wake_words_[instance].wake();
+}
+
+}  // namespace tessera

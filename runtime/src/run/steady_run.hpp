@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "assembly/upper_layers.hpp"
+#include "run/simulated_run.hpp"
+#include "safety/securing.hpp"
+#include "system/stop_signals.hpp"
+#include "watch/emergency_watch.hpp"
+#include "watch/monitor.hpp"
+#include "watch/stillness.hpp"
+#include "watch/stuck.hpp"
+
+namespace tessera {
+
+/// Runs every subsystem in a thread of its own, in real time; one more moves the simulated world, if there is
+/// one. The calling thread fires the transitions of the upper layers, watches the clock and the signals, and
+/// wakes everybody when the run is to end.
+class SteadyRun final : public Waker {
+ public:
+  explicit SteadyRun(std::uint32_t instances);
+  SteadyRun(const SteadyRun&) = delete;
+  SteadyRun& operator=(const SteadyRun&) = delete;
+  ~SteadyRun() override;
+  [[nodiscard]] const SteadyClock& clock() const { return clock_; }
+  void wake(std::uint32_t instance) override { wake_words_[instance].wake(); }
+  [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+
+ private:
+  static void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control);
+  void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
+  void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+             const SubsystemExecutor::Progress& progress) const;
+  void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
+  void run_world(World& world, RunControl& control);
+  void say_world_is_slow();
+  void start_threads(Assembly& assembly, std::vector<std::thread>& threads);
+  void tell_supervisor() const;
+  void deny(const std::string& what);
+  void supervise(Assembly& assembly, UpperLayers& upper, Securing& securing);
+  void follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
+                        RecordingLane* lane) const;
+  void suspend(Assembly& assembly, Securing& securing);
+  [[nodiscard]] static bool any_owing(const Assembly& assembly);
+  void stop_process(Time since, RecordingLane* lane);
+  [[nodiscard]] Ending ending(const Assembly& assembly, const UpperLayers& upper) const;
+  void look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now);
+  void collect_ended(const Assembly& assembly, UpperLayers& upper);
+  void await_news(Time until) const;
+  /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.
+  void await_threads(const Assembly& assembly, Securing& securing);
+  void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
+  void secure_devices(Securing& securing) const;
+  void wake_all(std::uint32_t instances);
+
+  SteadyClock clock_;
+  std::unique_ptr<WakeWord[]> wake_words_;
+  std::unique_ptr<std::atomic<bool>[]> gone_;  // per instance: its thread has ended
+  WakeWord world_wakes_;
+  std::vector<bool> collected_;
+  StuckWatch stuck_;
+  int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
+  std::uint32_t started_ = 0;  // threads of the first so many instances
+  bool duration_over_ = false;
+  Time world_time_{};                // the world's thread's, while that runs
+  bool world_is_slow_ = false;       // the same
+  std::atomic<bool> denied_{false};  // that real time was not permitted has been said
+  std::optional<Monitor> monitor_;   // the last: it looks at the others
+};
+
+}  // namespace tessera

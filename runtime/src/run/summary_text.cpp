@@ -1,0 +1,45 @@
+#include "run/summary_text.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace tessera {
+
+std::string summary_json(const RunSummary& summary, const RunOptions& options) {
+  const double simulated_s = seconds(summary.simulated);
+  nlohmann::ordered_json json{
+      {"simulated_s", simulated_s},
+      {"wall_s", summary.wall_s},
+      {"real_time_factor", summary.wall_s > 0 ? simulated_s / summary.wall_s : 0.0},
+      {"firings", summary.firings},
+      {"ended", summary.ended},
+      {"failed", summary.failed},
+      {"signal", summary.signal},
+      {"recording", options.recording},
+      {"lost_events", summary.lost_events},
+      {"lines_not_printed", summary.lines_not_printed},
+      {"warnings", summary.warnings},
+  };
+  if (summary.world_time) json["world_s"] = seconds(*summary.world_time);
+  if (options.world && !options.world->track.empty()) json["track"] = options.world->track;
+  json["subsystems"] = nlohmann::ordered_json::array();
+  for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
+    json["subsystems"].push_back({{"path", subsystem.path},
+                                  {"iterations", subsystem.iterations},
+                                  {"overruns", subsystem.overruns},
+                                  {"errors", subsystem.errors}});
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string summary_lines(const RunSummary& summary) {
+  std::string text = fmt::format("{} after {:.3f} s: {} firings\n", summary.ended, seconds(summary.simulated),
+                                 summary.firings);
+  for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
+    fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
+                   subsystem.iterations, subsystem.overruns, subsystem.errors);
+  return text;
+}
+
+}  // namespace tessera

@@ -1,0 +1,293 @@
+// The guardian's side: everything here runs in its own process, which has one thread.
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <exception>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "drivers/devices.hpp"
+#include "drivers/whole_driver.hpp"
+#include "safety/guardian_shared.hpp"
+#include "system/service.hpp"
+#include "system/waker.hpp"
+
+namespace tessera {
+namespace {
+
+using Stage = Guardian::Shared::Stage;
+
+constexpr int guardian_looks_every_ms = 50;
+constexpr int dies_within_ms = 50;  // after it has said that it dies; a core dump takes longer
+constexpr std::int64_t between_guardian_attempts_ns = 5'000'000;
+
+/// A driver of the guardian's own, and the safe values of the buffers that it serves.
+struct Patient {
+  std::string path;
+  Bindings* bindings = nullptr;
+  Device* device = nullptr;
+  std::vector<std::unique_ptr<RealEffector>> buffers{};
+  std::size_t first = 0;  // of Bindings::real_outputs
+};
+
+/// What is behind them.
+struct Subject {
+  std::unique_ptr<Subsystem> subsystem;
+  Bindings bindings;
+};
+
+void say_as_guardian(const std::string& text) {
+  const std::string line = fmt::format("{}tessera guardian: {}\n", writes_to_journal() ? "<3>" : "", text);
+  pollfd target{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+  if (poll(&target, 1, 0) != 1 || (target.revents & POLLOUT) == 0) return;
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+}
+
+/// Opens the device, gives the safe command, and closes it. false, or an exception: not this time.
+[[nodiscard]] bool treat(const Patient& patient) {
+  if (!patient.device->open()) return false;
+  bool taken = true;
+  for (std::size_t index = 0; index < patient.buffers.size(); ++index) {
+    const Bindings::RealOutgoing& output = patient.bindings->real_outputs[patient.first + index];
+    taken = patient.buffers[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) &&
+            taken;
+  }
+  patient.device->close();
+  return taken;
+}
+
+[[noreturn]] void treat_until_taken(const Patient& patient) {
+  const std::int64_t until_ns = monotonic_ns() + Guardian::patience.count();
+  while (monotonic_ns() < until_ns) {
+    try {
+      if (treat(patient)) _exit(0);
+    } catch (...) {  // tried again
+    }
+    const timespec pause{.tv_sec = 0, .tv_nsec = between_guardian_attempts_ns};
+    nanosleep(&pause, nullptr);
+  }
+  _exit(1);
+}
+
+class GuardianProcess {
+ public:
+  GuardianProcess(Guardian::Shared& shared, int news, pid_t controller)
+      : shared_(shared), news_(news), pid_(controller), controller_(controller) {}
+
+  void make_drivers(const System& system, const RunOptions& options) {
+    for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
+  }
+
+  /// Until the controller has ended, or does not need it any more.
+  void watch() {
+    for (;;) {
+      const bool ended = controller_.await_end(news_, guardian_looks_every_ms);
+      std::uint64_t count = 0;
+      [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
+      if (shared_.stage.load() == Stage::dismissed) return;
+      if (ended) return make_safe("the controller has died");
+      if (shared_.dying.load()) return outlive();
+      if (!stands_still()) continue;
+      if (!is_stopped()) return kill_controller();
+      make_safe("the controller stands still, since it is stopped");
+    }
+  }
+
+ private:
+  void make_driver(const System& system, const CppDriver& driver) {
+    for (const Instance& instance : system.instances) {
+      const std::string path = fmt::format("{}.{}", instance.agent, instance.name);
+      const bool whole = driver.path == path;
+      if (!whole && !(driver.path.starts_with(path) && driver.path.substr(path.size()).starts_with('.')))
+        continue;
+      Subject& subject = subject_of(path, instance);
+      Patient patient{.path = std::string(driver.path), .bindings = &subject.bindings};
+      auto made = driver.effector(
+          DriverSetup(std::string(driver.path), {driver.options.begin(), driver.options.end()}));
+      patient.device = made.get();
+      if (whole)
+        patient.buffers = parts_of(std::move(made), subject.bindings);
+      else if (find_buffer(driver.path.substr(path.size() + 1), patient))
+        patient.buffers.push_back(std::move(made));
+      if (!patient.buffers.empty()) patients_.push_back(std::move(patient));
+      return;
+    }
+  }
+
+  Subject& subject_of(const std::string& path, const Instance& instance) {
+    std::unique_ptr<Subject>& subject = subjects_[path];
+    if (subject == nullptr) {
+      subject = std::make_unique<Subject>();
+      subject->subsystem = instance.make();
+      subject->subsystem->bind(subject->bindings);
+    }
+    return *subject;
+  }
+
+  [[nodiscard]] static bool find_buffer(std::string_view name, Patient& patient) {
+    const auto& outputs = patient.bindings->real_outputs;
+    while (patient.first < outputs.size() && outputs[patient.first].name != name) ++patient.first;
+    return patient.first < outputs.size();
+  }
+
+  /// Counted in looks of this process, not in time: a machine that sleeps or is overloaded holds up both.
+  [[nodiscard]] bool stands_still() {
+    constexpr auto enough = static_cast<unsigned>(
+        std::chrono::duration_cast<std::chrono::milliseconds>(Guardian::stands_still_after).count() /
+        guardian_looks_every_ms);
+    const std::uint64_t beats = shared_.beats.load(std::memory_order_relaxed);
+    if (shared_.stage.load() != Stage::beating || beats != beats_) {
+      beats_ = beats;
+      looks_ = 0;
+      treated_ = false;
+      return false;
+    }
+    return ++looks_ >= enough && !treated_;
+  }
+
+  /// By SIGSTOP, or by a debugger.
+  [[nodiscard]] bool is_stopped() const {
+    std::array<char, 512> text{};
+    const int file = open(fmt::format("/proc/{}/stat", pid_).c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const ssize_t count = read(file, text.data(), text.size());
+    close(file);
+    const std::string_view stat(text.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    const std::size_t name_end = stat.rfind(')');  // the name may hold anything
+    if (name_end == std::string_view::npos || name_end + 2 >= stat.size()) return false;
+    return stat[name_end + 2] == 'T' || stat[name_end + 2] == 't';
+  }
+
+  void kill_controller() {
+    say_as_guardian("the controller stands still, and is killed");
+    kill(pid_, SIGKILL);
+    outlive();
+  }
+
+  /// It may hold a device, or write to it, until it is gone; a core dump may take long.
+  void outlive() {
+    if (!controller_.await_end(-1, dies_within_ms)) {
+      make_safe("the controller is dying");
+      static_cast<void>(controller_.await_end(-1, -1));
+    }
+    make_safe("the controller has died");
+  }
+
+  /// A process for each driver, so that one that hangs or crashes holds up no other.
+  void make_safe(const std::string& why) {
+    shared_.has_acted = true;
+    treated_ = true;
+    const std::int64_t start_ns = monotonic_ns();
+    std::map<pid_t, const Patient*> working;
+    std::string refused;
+    const auto note = [&](const Patient& patient) {
+      refused += (refused.empty() ? "" : ", ") + patient.path;
+    };
+    for (const Patient& patient : patients_) {
+      const pid_t process = fork();
+      if (process == 0) treat_until_taken(patient);
+      if (process > 0) working.emplace(process, &patient);
+      if (process < 0) note(patient);
+    }
+    const std::int64_t until_ns = start_ns + Guardian::patience.count() + 1'000'000'000;
+    while (!working.empty() && monotonic_ns() < until_ns) {
+      int status = 0;
+      const pid_t ended = waitpid(-1, &status, WNOHANG);
+      if (const auto found = working.find(ended); found != working.end()) {
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) note(*found->second);
+        working.erase(found);
+      } else {
+        const timespec pause{.tv_sec = 0, .tv_nsec = 500'000};
+        nanosleep(&pause, nullptr);
+      }
+    }
+    for (const auto& [process, patient] : working) {
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+      note(*patient);
+    }
+    report(why, refused, static_cast<double>(monotonic_ns() - start_ns) * 1e-6);
+  }
+
+  void report(const std::string& why, const std::string& refused, double took_ms) const {
+    if (refused.empty())
+      say_as_guardian(
+          fmt::format("{}; the devices have got the safe command, after {:.1f} ms", why, took_ms));
+    else
+      say_as_guardian(fmt::format("{}; NOT SAFE, since they do not take the safe command: {}", why, refused));
+  }
+
+  Guardian::Shared& shared_;
+  int news_;
+  pid_t pid_;
+  OtherProcess controller_;
+  std::map<std::string, std::unique_ptr<Subject>> subjects_;  // by the path of the subsystem
+  std::vector<Patient> patients_;
+  std::uint64_t beats_ = 0;
+  unsigned looks_ = 0;    // without a beat
+  bool treated_ = false;  // since the last beat
+};
+
+/// It lives as long as the controller does, whoever wants to end both.
+void become_independent(const System& system) {
+  setsid();
+  prctl(PR_SET_NAME, "tessera-guard");
+  for (int signal = 1; signal <= SIGRTMAX; ++signal) {
+    const bool needed = signal == SIGCHLD || signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE ||
+                        signal == SIGILL || signal == SIGABRT || signal == SIGSYS || signal == SIGTRAP;
+    std::signal(signal, needed ? SIG_DFL : SIG_IGN);
+  }
+  // Above every thread of the controller, if one asks for real time and that is permitted.
+  int highest = 0;
+  for (const Instance& instance : system.instances)
+    highest = std::max(highest, instance.policies.realtime.priority);
+  if (highest == 0) return;
+  sched_param priority{};
+  priority.sched_priority = std::min(highest + 2, 99);
+  static_cast<void>(sched_setscheduler(0, SCHED_FIFO, &priority));
+}
+
+}  // namespace
+
+std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOptions& options) {
+  std::vector<const CppDriver*> drivers;
+  for (const CppDriver& driver : system.real_drivers)
+    if (driver.guarded && driver.effector != nullptr && opens_real_driver(options, driver.path))
+      drivers.push_back(&driver);
+  return drivers;
+}
+
+void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared, int news,
+                      pid_t controller) {
+  try {
+    become_independent(system);
+    GuardianProcess guardian(shared, news, controller);
+    guardian.make_drivers(system, options);
+    Stage starts = Stage::starts;
+    shared.stage.compare_exchange_strong(starts, Stage::ready);
+    guardian.watch();
+    _exit(0);
+  } catch (const std::exception& exception) {
+    std::strncpy(shared.error, exception.what(), sizeof shared.error - 1);
+  } catch (...) {
+    std::strncpy(shared.error, "an exception that is no std::exception", sizeof shared.error - 1);
+  }
+  shared.stage = Stage::failed;
+  _exit(1);
+}
+
+}  // namespace tessera

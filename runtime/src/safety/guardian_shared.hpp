@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "safety/guardian.hpp"
+
+namespace tessera {
+
+/// In memory that both processes have mapped.
+struct Guardian::Shared {
+  enum class Stage : std::uint32_t {
+    starts,    ///< the guardian makes its drivers
+    ready,     ///< it watches the life of the controller
+    failed,    ///< it cannot make its drivers
+    beating,   ///< it watches the beats too
+    dismissed  ///< it ends
+  };
+  std::atomic<Stage> stage{Stage::starts};
+  std::atomic<bool> dying{false}, has_acted{false};
+  std::atomic<std::uint64_t> beats{0};
+  char error[1024]{};  ///< of failed
+};
+static_assert(std::atomic<Guardian::Shared::Stage>::is_always_lock_free &&
+              std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+/// The life of the guardian's process. Does not return.
+[[noreturn]] void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared,
+                                   int news, pid_t controller);
+
+/// The real drivers of effectors that such a run opens and that a guardian can serve.
+[[nodiscard]] std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOptions& options);
+
+}  // namespace tessera

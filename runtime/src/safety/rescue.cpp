@@ -1,0 +1,118 @@
+#include "safety/rescue.hpp"
+
+#include <csetjmp>
+#include <csignal>
+#include <ctime>
+#include <system_error>
+
+#include "system/realtime.hpp"
+#include "system/thread_role.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr std::int64_t between_rescue_attempts_ns = 2'000'000;
+
+/// Of the thread of a Rescuer: where it goes on when a driver crashes.
+struct WayOut {
+  sigjmp_buf place;
+  volatile bool open = false;
+};
+thread_local constinit WayOut* way_out = nullptr;
+
+/// What is sent to the process is for others.
+void block_all_signals() {
+  sigset_t all;
+  sigfillset(&all);
+  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
+    sigdelset(&all, deadly);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
+}  // namespace
+
+Rescuer::Rescuer(std::span<const std::unique_ptr<SubsystemExecutor>> executors, int priority) {
+  for (const auto& executor : executors)
+    for (std::size_t index = 0; index < executor->effectors().size(); ++index)
+      patients_.push_back({&executor->effectors(), index});
+  thread_ = std::thread([this, priority] { run(priority); });
+}
+
+Rescuer::~Rescuer() {
+  state_.store(State::leaves, std::memory_order_release);
+  asked_.wake();
+  thread_.join();
+}
+
+bool Rescuer::rescue(const void* dead, Duration limit) {
+  const std::int64_t until_ns = monotonic_ns() + limit.count();
+  dead_.store(dead, std::memory_order_relaxed);
+  until_ns_.store(until_ns, std::memory_order_relaxed);
+  state_.store(State::is_asked, std::memory_order_release);
+  asked_.wake();
+  State state = State::is_asked;
+  while (monotonic_ns() < until_ns) {
+    const std::uint32_t ticket = answered_.ticket();
+    state = state_.load(std::memory_order_acquire);
+    if (state != State::is_asked) break;
+    answered_.sleep(ticket, until_ns);
+  }
+  return state == State::has_succeeded;
+}
+
+void Rescuer::leave_crashed_driver() {
+  if (way_out == nullptr || !way_out->open) return;
+  way_out->open = false;
+  siglongjmp(way_out->place, 1);
+}
+
+void Rescuer::run(int priority) {
+  block_all_signals();
+  const RealTimePriority realtime(priority);
+  const AlternateStack stack;
+  WayOut own;
+  way_out = &own;
+  for (;;) {
+    const std::uint32_t ticket = asked_.ticket();
+    const State state = state_.load(std::memory_order_acquire);
+    if (state == State::leaves) return;
+    if (state == State::is_asked) make_all_safe();
+    asked_.sleep(ticket, -1);
+  }
+}
+
+/// Those that are in use are tried again and again. The others are not held up by them.
+void Rescuer::make_all_safe() {
+  static_cast<void>(try_all(/*dead_too=*/false));
+  bool all = try_all(/*dead_too=*/true);
+  while (!all && monotonic_ns() < until_ns_.load(std::memory_order_relaxed)) {
+    const timespec pause{.tv_sec = 0, .tv_nsec = between_rescue_attempts_ns};
+    nanosleep(&pause, nullptr);
+    all = try_all(/*dead_too=*/true);
+  }
+  state_.store(all ? State::has_succeeded : State::has_tried, std::memory_order_release);
+  answered_.wake();
+}
+
+bool Rescuer::try_all(bool dead_too) {
+  const void* const dead = dead_.load(std::memory_order_relaxed);
+  bool all = true;
+  for (Patient& patient : patients_) {
+    const bool is_dead = dead != nullptr && patient.effectors->device(patient.index) == dead;
+    if (!patient.safe && !patient.crashed && (dead_too || !is_dead)) try_one(patient);
+    all = all && patient.safe;
+  }
+  return all;
+}
+
+/// A driver that crashes has refused. What its frames held is not released: the process ends.
+void Rescuer::try_one(Patient& patient) {
+  patient.crashed = true;  // unless it comes back
+  if (sigsetjmp(way_out->place, /*save the signal mask*/ 1) != 0) return;
+  way_out->open = true;
+  patient.safe = patient.effectors->rescue(patient.index, dead_.load(std::memory_order_relaxed));
+  way_out->open = false;
+  patient.crashed = false;
+}
+
+}  // namespace tessera

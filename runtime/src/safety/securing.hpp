@@ -1,0 +1,56 @@
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "subsystem/subsystem_executor.hpp"
+
+namespace tessera {
+
+/// Gives safe commands to devices of subsystems whose own threads do not: each subsystem's in a thread of its
+/// own, for a driver may not return. Tries again what is refused or in use, for as long as
+/// Effectors::patience.
+///
+/// Threads: the supervisor's.
+class Securing {
+ public:
+  /// priority: of its threads, real time; 0: as usual. news: called by a thread that has done its work.
+  Securing(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors, int priority,
+           std::function<void()> news);
+  Securing(const Securing&) = delete;
+  Securing& operator=(const Securing&) = delete;
+  /// Waits for its threads.
+  ~Securing();
+
+  /// Returns at once. Nothing new is begun for a subsystem whose devices are being secured.
+  void secure(std::uint32_t instance, SafeReason why);
+  /// Records what has been done. lane: the supervisor's.
+  void collect(RecordingLane* lane);
+  /// Nothing is under way.
+  [[nodiscard]] bool done() const;
+  [[nodiscard]] bool is_under_way(std::uint32_t instance) const;
+
+ private:
+  struct Job {
+    Effectors* effectors = nullptr;
+    SafeReason why{};
+    const Securing* owner = nullptr;
+    pthread_t thread{};
+    bool started = false;  // and not joined
+    std::atomic<bool> done{false};
+  };
+  static void* run(void* job);
+  [[nodiscard]] bool start(Job& job, bool realtime) const;
+  void join(Job& job);
+
+  const std::vector<std::unique_ptr<SubsystemExecutor>>& executors_;
+  int priority_;
+  std::function<void()> news_;
+  std::vector<std::unique_ptr<Job>> jobs_;  // per instance; nullptr: none yet
+};
+
+}  // namespace tessera

@@ -1,0 +1,277 @@
+#include "subsystem/injection.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <csignal>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "system/nearest.hpp"
+#include "tessera/given_values.hpp"
+#include "tessera/signals.hpp"
+
+namespace tessera {
+
+bool Injection::happens(Time now) {
+  if (now < from || now >= until || done_) return false;
+  done_ = once;
+  return true;
+}
+
+void Injection::announce() {
+  if (context != nullptr && !std::exchange(announced_, true)) context->warn("injected: {}", text);
+}
+
+// ------------------------------------------------------------------------------------------------ reading
+
+namespace {
+
+/// Reads one `--inject`. Throws std::invalid_argument with what is wrong.
+class Reader {
+ public:
+  Reader(const System& system, std::uint64_t seed, std::optional<Duration> duration)
+      : system_(system), seed_(seed), duration_(duration) {}
+
+  Injection read(const std::string& text) {
+    fault_.text = text;
+    const std::size_t at = text.rfind('@');
+    const std::size_t colon = text.find(':');
+    if (at == std::string::npos || colon == std::string::npos || colon > at)
+      throw std::invalid_argument("expected FAULT@WHEN, for example robot.control:throw@2.5s");
+    const std::string front = text.substr(0, colon), back = text.substr(colon + 1, at - colon - 1);
+    if (front == "signal")
+      signal(back);
+    else if (front == "device" || front == "silent")
+      device(front, back);
+    else
+      function(front, back);
+    when(text.substr(at + 1));
+    return fault_;
+  }
+
+ private:
+  void signal(const std::string& name) {
+    fault_.kind = Injection::Kind::signal;
+    for (const HandledSignal& one : handled_signals)
+      if (one.use == SignalUse::stop && one.name == name) fault_.signal = one.number;
+    if (fault_.signal == 0)
+      throw std::invalid_argument("'" + name + "' is no signal that stops a run, such as SIGINT or SIGHUP");
+  }
+
+  void device(const std::string& kind, const std::string& path) {
+    fault_.kind = kind == "device" ? Injection::Kind::device : Injection::Kind::silence;
+    find(path, [&](const Instance& instance) {
+      std::vector<std::string> names;
+      Bindings bindings;
+      instance.make()->bind(bindings);
+      for (const Bindings::Incoming& input : bindings.real_inputs) names.emplace_back(input.name);
+      if (fault_.kind == Injection::Kind::device)
+        for (const Bindings::RealOutgoing& output : bindings.real_outputs) names.emplace_back(output.name);
+      return names;
+    });
+  }
+
+  void function(const std::string& path, const std::string& what) {
+    const std::size_t equals = what.find('=');
+    const std::string name = what.substr(0, equals);
+    const std::vector<std::string> known{"throw", "stall", "nan", "inf"};
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw std::invalid_argument(fmt::format(
+          "unknown fault '{}'{}; there are throw, stall=TIME, nan, inf, and the prefixes device:, "
+          "silent:, signal:",
+          name, did_you_mean(name, known)));
+    if ((name == "stall") != (equals != std::string::npos))
+      throw std::invalid_argument(name == "stall" ? "stall needs a time, for example stall=200ms"
+                                                  : "'" + name + "' takes no value");
+    fault_.kind = name == "throw"   ? Injection::Kind::exception
+                  : name == "stall" ? Injection::Kind::stall
+                                    : Injection::Kind::number;
+    fault_.number =
+        name == "inf" ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    if (name == "stall") fault_.delay = time(what.substr(equals + 1));
+    find(path, [](const Instance& instance) {
+      std::vector<std::string> names;
+      for (const Behaviour& behaviour : instance.net->behaviours) names.emplace_back(behaviour.name);
+      return names;
+    });
+  }
+
+  /// The subsystem at `path`, or the part of one that parts_of names.
+  template <class PartsOf>
+  void find(const std::string& path, PartsOf parts_of) {
+    std::vector<std::string> known;
+    for (std::uint32_t index = 0; index < system_.instances.size(); ++index) {
+      const Instance& instance = system_.instances[index];
+      const std::string its = fmt::format("{}.{}", instance.agent, instance.name);
+      known.push_back(its);
+      fault_.instance = index;
+      const std::vector<std::string> parts = parts_of(instance);
+      if (path == its) {
+        if (parts.empty()) throw std::invalid_argument("'" + path + "' has no such device");
+        return;
+      }
+      for (const std::string& part : parts) {
+        fault_.part = part;
+        known.push_back(fmt::format("{}.{}", its, part));
+        if (path == known.back()) return;
+      }
+      fault_.part.clear();
+    }
+    throw std::invalid_argument(fmt::format("unknown '{}'{}", path, did_you_mean(path, known)));
+  }
+
+  void when(const std::string& text) {
+    const std::size_t dots = text.find("..");
+    if (text == "any") {
+      if (!duration_) throw std::invalid_argument("'any' needs a run with a duration");
+      std::uint64_t mixed = seed_;  // several in one run come at several times
+      for (const char letter : fault_.text)
+        mixed = (mixed ^ static_cast<unsigned char>(letter)) * 1099511628211U;
+      std::mt19937_64 random(mixed);
+      fault_.from = Time(Duration(
+          static_cast<Duration::rep>(random() % static_cast<std::uint64_t>(duration_->count() + 1))));
+      return;
+    }
+    fault_.from = Time(time(text.substr(0, dots)));
+    if (dots == std::string::npos) return;
+    fault_.once = false;
+    const std::string end = text.substr(dots + 2);
+    if (!end.empty()) fault_.until = Time(time(end));
+    if (fault_.until <= fault_.from) throw std::invalid_argument("'" + text + "' ends before it begins");
+  }
+
+  [[nodiscard]] static Duration time(const std::string& text) {
+    const std::optional<Duration> read = parse_duration(text);
+    if (!read) throw std::invalid_argument("'" + text + "' is no time such as 2.5s or 200ms");
+    return *read;
+  }
+
+  const System& system_;
+  std::uint64_t seed_;
+  std::optional<Duration> duration_;
+  Injection fault_;
+};
+
+}  // namespace
+
+std::optional<Injection> read_injection(const std::string& text, const System& system, std::uint64_t seed,
+                                        std::optional<Duration> duration, std::string& error) try {
+  return Reader(system, seed, duration).read(text);
+} catch (const std::invalid_argument& wrong) {
+  error = fmt::format("--inject {}: {}", text, wrong.what());
+  return std::nullopt;
+}
+
+// ------------------------------------------------------------------------------------------------ planting
+
+FaultySubsystem::FaultySubsystem(std::unique_ptr<Subsystem> inner, const SubsystemNet& net, Injections faults,
+                                 const Clock& clock)
+    : inner_(std::move(inner)), net_(net), faults_(std::move(faults)), clock_(clock) {}
+
+void FaultySubsystem::bind(Bindings& bindings) {
+  inner_->bind(bindings);
+  outputs_ = bindings.outputs;
+  outputs_.insert(outputs_.end(), bindings.real_outputs.begin(), bindings.real_outputs.end());
+}
+
+void FaultySubsystem::call(std::uint16_t behaviour) {
+  std::vector<Injection*> now;
+  for (const std::shared_ptr<Injection>& fault : faults_)
+    if ((fault->part.empty() || fault->part == net_.behaviours[behaviour].name) &&
+        fault->happens(clock_.now()))
+      now.push_back(fault.get());
+  for (const Injection* fault : now) context().warn("injected: {}", fault->text);
+  for (const Injection* fault : now)
+    if (fault->kind == Injection::Kind::exception) throw std::runtime_error("injected");
+  inner_->call(behaviour);
+  for (Injection* fault : now) apply(*fault);
+}
+
+void FaultySubsystem::apply(Injection& fault) {
+  if (fault.kind == Injection::Kind::stall) {
+    if (clock_.simulated())
+      delay_ += fault.delay;
+    else
+      std::this_thread::sleep_for(fault.delay);
+  }
+  if (fault.kind == Injection::Kind::number)
+    for (const Bindings::Outgoing& output : outputs_)
+      if (output.fill != nullptr) output.fill(output.value, fault.number);
+}
+
+InjectedSignals::InjectedSignals(const Injections& faults) {
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->kind == Injection::Kind::signal) left_.push_back(fault);
+  std::sort(left_.begin(), left_.end(), [](const auto& a, const auto& b) { return a->from > b->from; });
+}
+
+void InjectedSignals::raise_due(Time now) {
+  for (; next() <= now; left_.pop_back()) raise(left_.back()->signal);
+}
+
+namespace {
+
+/// Whether one of them happens now.
+[[nodiscard]] Injection* happening(Injections& faults, Time now) {
+  const auto found =
+      std::find_if(faults.begin(), faults.end(), [&](const auto& one) { return one->happens(now); });
+  return found == faults.end() ? nullptr : found->get();
+}
+
+class FaultyReceptor final : public RealReceptor {
+ public:
+  FaultyReceptor(std::unique_ptr<RealReceptor> inner, Injections faults, const Clock& clock)
+      : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock) {}
+  bool read(std::span<std::byte> value) override {
+    Injection* const fault = happening(faults_, clock_.now());
+    if (fault == nullptr) return inner_->read(value);
+    fault->announce();
+    if (fault->kind == Injection::Kind::silence) return false;
+    throw std::runtime_error("injected: " + fault->text);
+  }
+
+ private:
+  std::unique_ptr<RealReceptor> inner_;
+  Injections faults_;
+  const Clock& clock_;
+};
+
+/// Refuses commands.
+class FaultyEffector final : public RealEffector {
+ public:
+  FaultyEffector(std::unique_ptr<RealEffector> inner, Injections faults, const Clock& clock, const void* safe)
+      : inner_(std::move(inner)), faults_(std::move(faults)), clock_(clock), safe_(safe) {}
+  bool write(std::span<const std::byte> value) override {
+    const bool is_safe = value.data() == safe_;
+    Injection* const fault = is_safe ? nullptr : happening(faults_, clock_.now());
+    if (fault == nullptr) return inner_->write(value);
+    fault->announce();
+    return false;
+  }
+
+ private:
+  std::unique_ptr<RealEffector> inner_;
+  Injections faults_;
+  const Clock& clock_;
+  const void* safe_;
+};
+
+}  // namespace
+
+std::unique_ptr<RealReceptor> with_faults(std::unique_ptr<RealReceptor> device, Injections faults,
+                                          const Clock& clock) {
+  if (device == nullptr || faults.empty()) return device;
+  return std::make_unique<FaultyReceptor>(std::move(device), std::move(faults), clock);
+}
+
+std::unique_ptr<RealEffector> with_faults(std::unique_ptr<RealEffector> device, Injections faults,
+                                          const Clock& clock, const void* safe) {
+  if (device == nullptr || faults.empty()) return device;
+  return std::make_unique<FaultyEffector>(std::move(device), std::move(faults), clock, safe);
+}
+
+}  // namespace tessera

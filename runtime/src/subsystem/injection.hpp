@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "system/clock.hpp"
+#include "tessera/context.hpp"
+#include "tessera/device.hpp"
+#include "tessera/tables.hpp"
+
+namespace tessera {
+
+/// A fault to plant in a run, as `--inject` names it.
+struct Injection {
+  enum class Kind : std::uint8_t {
+    exception,  ///< instead of the transition function
+    stall,      ///< the transition function takes `delay` longer
+    number,     ///< every floating-point number of the outputs becomes `number`
+    device,     ///< the device throws (receptor) or refuses (effector)
+    silence,    ///< the real receptor has no value
+    signal      ///< `signal` comes
+  } kind = Kind::exception;
+  std::string text;            ///< as it was written
+  std::uint32_t instance = 0;  ///< into System::instances
+  std::string part;            ///< behaviour or real buffer; empty: all of the subsystem
+  Duration delay{0};
+  double number = 0;
+  int signal = 0;
+  Time from{};
+  Time until = Time::max();
+  bool once = true;  ///< only the first that happens from `from` on
+
+  Context* context = nullptr;  ///< of the subsystem whose device it strikes
+
+  /// Whether it happens now; counts that.
+  [[nodiscard]] bool happens(Time now);
+  /// Says so, of a device: where it begins. Threads: the subsystem's.
+  void announce();
+
+ private:
+  bool done_ = false, announced_ = false;
+};
+
+/// One that strikes a subsystem with several devices strikes the first that comes.
+using Injections = std::vector<std::shared_ptr<Injection>>;
+
+/// Reads what `--inject` was given:
+///
+///     SUBSYSTEM[.BEHAVIOUR]:throw@WHEN   :stall=TIME@WHEN   :nan@WHEN   :inf@WHEN
+///     device:SUBSYSTEM[.BUFFER]@WHEN     silent:RECEPTOR[.BUFFER]@WHEN
+///     signal:SIGINT@WHEN                 (or another signal that stops a run)
+///
+/// WHEN: `2s` the first chance from then on; `2s..` every one from then on; `2s..3s` every one in between;
+/// `any` the first from a time on that is drawn from the seed, within the run's duration.
+///
+/// Errors: another form, names that the system does not have (with the nearest that it has), `any` without a
+/// duration: nullopt and `error`.
+[[nodiscard]] std::optional<Injection> read_injection(const std::string& text, const System& system,
+                                                      std::uint64_t seed, std::optional<Duration> duration,
+                                                      std::string& error);
+
+/// A subsystem with faults in its transition functions. The rest is that of the subsystem within.
+class FaultySubsystem final : public Subsystem {
+ public:
+  FaultySubsystem(std::unique_ptr<Subsystem> inner, const SubsystemNet& net, Injections faults,
+                  const Clock& clock);
+  void bind(Bindings& bindings) override;
+  void call(std::uint16_t behaviour) override;
+  [[nodiscard]] Outcome decide(std::uint16_t behaviour, bool failed) override {
+    return inner_->decide(behaviour, failed);
+  }
+  [[nodiscard]] int route(std::uint16_t behaviour, bool failed) override {
+    return inner_->route(behaviour, failed);
+  }
+  void keep_outputs() override { inner_->keep_outputs(); }
+  void restore_outputs() override { inner_->restore_outputs(); }
+  [[nodiscard]] Context& context() override { return inner_->context(); }
+
+  /// Simulated time that the last call takes longer; once.
+  [[nodiscard]] Duration take_delay() { return std::exchange(delay_, Duration{0}); }
+
+ private:
+  void apply(Injection& fault);
+  std::unique_ptr<Subsystem> inner_;
+  const SubsystemNet& net_;
+  Injections faults_;
+  const Clock& clock_;
+  std::vector<Bindings::Outgoing> outputs_;
+  Duration delay_{0};
+};
+
+/// The signals among the faults, which strike the run itself.
+class InjectedSignals {
+ public:
+  InjectedSignals() = default;
+  explicit InjectedSignals(const Injections& faults);
+  /// Time::max(): none any more.
+  [[nodiscard]] Time next() const { return left_.empty() ? Time::max() : left_.back()->from; }
+  void raise_due(Time now);
+
+ private:
+  Injections left_;  // the last is the next
+};
+
+/// The device, or one with faults around it.
+[[nodiscard]] std::unique_ptr<RealReceptor> with_faults(std::unique_ptr<RealReceptor> device,
+                                                        Injections faults, const Clock& clock);
+/// safe: where the command is that the faults let pass, for what is tested is whether it is given.
+[[nodiscard]] std::unique_ptr<RealEffector> with_faults(std::unique_ptr<RealEffector> device,
+                                                        Injections faults, const Clock& clock,
+                                                        const void* safe);
+
+}  // namespace tessera

@@ -1,0 +1,20 @@
+#include "subsystem/parameter_changes.hpp"
+
+#include <fmt/core.h>
+
+namespace tessera {
+
+std::string ParameterChanges::ask(const std::string& path, const std::string& value) {
+  std::vector<CheckedValue> checked;
+  if (std::string wrong = check_parameter(owners_, path, value, checked); !wrong.empty()) return wrong;
+  for (CheckedValue& one : checked) {
+    Waiting& waiting = waiting_[one.owner];
+    std::string text = fmt::format("{}.{}={}", owners_[one.owner].path, one.parameter.name, value);
+    const std::lock_guard lock(waiting.mutex);
+    waiting.changes.push_back({std::move(one), std::move(text)});
+    waiting.any.store(true, std::memory_order_release);
+  }
+  return "";
+}
+
+}  // namespace tessera

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subsystem/parameters.hpp"
+
+namespace tessera {
+
+/// New values of parameters while the system runs.
+///
+/// An operator asks for a change; what does not fit the parameter's type and range is refused at once. Each
+/// subsystem takes its changes itself, just before it calls a transition function, so that a function and the
+/// conditions after it see one value.
+class ParameterChanges {
+ public:
+  /// owners: per instance; what they refer to must outlive this.
+  explicit ParameterChanges(std::vector<ParameterOwner> owners)
+      : owners_(std::move(owners)), waiting_(std::make_unique<Waiting[]>(owners_.size())) {}
+
+  /// What is wrong with it; empty: it will take place. path: as set_parameters.
+  /// Threads: any.
+  [[nodiscard]] std::string ask(const std::string& path, const std::string& value);
+
+  /// Makes the changes that wait for a subsystem, in the order in which they were asked for, and calls
+  /// `tell("robot.control.v=0.3")` for each. Never waits: while somebody asks, they come with the next call.
+  /// Threads: the subsystem's.
+  template <class Tell>
+  void take(std::uint32_t instance, Tell&& tell) {
+    Waiting& waiting = waiting_[instance];
+    if (!waiting.any.load(std::memory_order_acquire)) return;
+    const std::unique_lock lock(waiting.mutex, std::try_to_lock);
+    if (!lock.owns_lock()) return;
+    for (const Change& change : waiting.changes) {
+      change.value.give();
+      tell(change.text);
+    }
+    waiting.changes.clear();
+    waiting.any.store(false, std::memory_order_relaxed);
+  }
+
+ private:
+  struct Change {
+    CheckedValue value;
+    std::string text;
+  };
+  struct Waiting {
+    std::atomic<bool> any{false};
+    std::mutex mutex;
+    std::vector<Change> changes;
+  };
+  std::vector<ParameterOwner> owners_;
+  std::unique_ptr<Waiting[]> waiting_;  // per instance
+};
+
+}  // namespace tessera

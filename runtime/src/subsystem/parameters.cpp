@@ -1,0 +1,180 @@
+#include "subsystem/parameters.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "system/nearest.hpp"
+
+namespace tessera {
+namespace {
+
+using Parameter = Bindings::Parameter;
+
+/// "robot[3].control" against "robot[*].control".
+[[nodiscard]] bool matches(std::string_view pattern, std::string_view path) {
+  constexpr std::string_view any = "[*]";
+  while (true) {
+    const std::size_t star = pattern.find(any);
+    if (star == std::string_view::npos) return pattern == path;
+    if (path.substr(0, star) != pattern.substr(0, star)) return false;
+    pattern.remove_prefix(star + any.size());
+    path.remove_prefix(star);
+    if (!path.starts_with('[') || path.find(']') == std::string_view::npos) return false;
+    path.remove_prefix(path.find(']') + 1);
+  }
+}
+
+/// Every way to name a parameter.
+[[nodiscard]] std::vector<std::string> names_of(std::span<const ParameterOwner> owners) {
+  std::vector<std::string> names;
+  for (const ParameterOwner& owner : owners)
+    for (const Parameter& parameter : owner.parameters) {
+      names.emplace_back(parameter.name);
+      names.push_back(fmt::format("{}.{}", owner.path, parameter.name));
+    }
+  return names;
+}
+
+// Each `store` returns what is wrong with the text; empty: nothing.
+
+template <class Number>
+[[nodiscard]] std::string store_number(const Parameter& parameter, std::string_view text) {
+  Number value{};
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem == std::errc::result_out_of_range) return "does not fit its type";
+  if (problem != std::errc{} || end != text.data() + text.size())
+    return std::is_integral_v<Number> ? "is no whole number" : "is no number (write it without a unit)";
+  const auto real = static_cast<double>(value);
+  if (!std::isfinite(real)) return "is not finite";
+  if (real < parameter.minimum || real > parameter.maximum)
+    return fmt::format("is out of range {} to {}", parameter.minimum, parameter.maximum);
+  std::memcpy(parameter.value, &value, sizeof value);
+  return "";
+}
+
+[[nodiscard]] std::string store_bool(const Parameter& parameter, std::string_view text) {
+  const bool value = text == "true" || text == "1";
+  if (!value && text != "false" && text != "0") return "is neither true nor false";
+  std::memcpy(parameter.value, &value, sizeof value);
+  return "";
+}
+
+[[nodiscard]] std::string store_string(const Parameter& parameter, std::string_view text) {
+  if (text.size() > parameter.capacity) return fmt::format("is longer than {} bytes", parameter.capacity);
+  // As BoundedString lies in memory: its size, then its bytes.
+  const auto size = static_cast<std::uint32_t>(text.size());
+  auto* bytes = static_cast<std::byte*>(parameter.value);
+  std::memset(bytes, 0, parameter.size);
+  std::memcpy(bytes, &size, sizeof size);
+  std::memcpy(bytes + sizeof size, text.data(), text.size());
+  return "";
+}
+
+[[nodiscard]] std::string store(const Parameter& parameter, std::string_view text) {
+  switch (parameter.kind) {
+    case ValueKind::boolean:
+      return store_bool(parameter, text);
+    case ValueKind::int8:
+      return store_number<std::int8_t>(parameter, text);
+    case ValueKind::int16:
+      return store_number<std::int16_t>(parameter, text);
+    case ValueKind::int32:
+      return store_number<std::int32_t>(parameter, text);
+    case ValueKind::int64:
+      return store_number<std::int64_t>(parameter, text);
+    case ValueKind::uint8:
+      return store_number<std::uint8_t>(parameter, text);
+    case ValueKind::uint16:
+      return store_number<std::uint16_t>(parameter, text);
+    case ValueKind::uint32:
+      return store_number<std::uint32_t>(parameter, text);
+    case ValueKind::uint64:
+      return store_number<std::uint64_t>(parameter, text);
+    case ValueKind::float32:
+      return store_number<float>(parameter, text);
+    case ValueKind::float64:
+      return store_number<double>(parameter, text);
+    case ValueKind::string:
+      return store_string(parameter, text);
+    case ValueKind::other:
+      return "cannot be given: the parameter is a structure or an array";
+  }
+  return "";
+}
+
+[[nodiscard]] std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
+}
+
+}  // namespace
+
+std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
+                            const std::string& value, std::vector<CheckedValue>& checked) {
+  const std::size_t dot = path.rfind('.');
+  const std::string_view name =
+      dot == std::string::npos ? std::string_view(path) : std::string_view(path).substr(dot + 1);
+  std::vector<CheckedValue> found;
+  for (std::uint32_t index = 0; index < owners.size(); ++index) {
+    const ParameterOwner& owner = owners[index];
+    if (dot != std::string::npos && !matches(std::string_view(path).substr(0, dot), owner.path)) continue;
+    for (const Parameter& parameter : owner.parameters) {
+      if (parameter.name != name) continue;
+      CheckedValue one{index, parameter, std::vector<std::byte>(parameter.size)};
+      Parameter scratch = parameter;
+      scratch.value = one.bytes.data();
+      if (const std::string wrong = store(scratch, value); !wrong.empty())
+        return fmt::format("parameter {} = {}: {} {}", path, value, value.empty() ? "nothing" : value, wrong);
+      found.push_back(std::move(one));
+    }
+  }
+  if (found.empty())
+    return fmt::format("unknown parameter '{}'{}", path, did_you_mean(path, names_of(owners)));
+  std::ranges::move(found, std::back_inserter(checked));
+  return "";
+}
+
+bool set_parameters(std::span<const ParameterOwner> owners,
+                    std::span<const std::pair<std::string, std::string>> values, std::string& error) {
+  error.clear();
+  std::vector<CheckedValue> checked;
+  for (const auto& [path, value] : values)
+    if (const std::string wrong = check_parameter(owners, path, value, checked); !wrong.empty())
+      error += (error.empty() ? "" : "\n") + wrong;
+  for (const CheckedValue& one : checked) one.give();
+  return error.empty();
+}
+
+bool read_parameter_file(const std::string& file, std::vector<std::pair<std::string, std::string>>& values,
+                         std::string& error) {
+  std::ifstream stream(file);
+  if (!stream) {
+    error = fmt::format("cannot read the parameters in '{}'", file);
+    return false;
+  }
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const std::string text = trimmed(std::string_view(line).substr(0, line.find('#')));
+    if (text.empty()) continue;
+    const std::size_t equals = text.find('=');
+    const std::string path = trimmed(std::string_view(text).substr(0, equals));
+    if (equals == std::string::npos || path.empty()) {
+      error = fmt::format("{}:{}: expected 'path = value'", file, number);
+      return false;
+    }
+    values.emplace_back(path, trimmed(std::string_view(text).substr(equals + 1)));
+  }
+  return true;
+}
+
+}  // namespace tessera

@@ -1,0 +1,93 @@
+#include "subsystem/scenario.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <unordered_map>
+
+#include "recorder/recorder.hpp"
+
+namespace tessera {
+namespace {
+
+constexpr std::string_view none_suffix = ".out none";
+
+/// "robot.control.follow.out none": the instance it is of; nullopt: of none.
+[[nodiscard]] std::optional<std::uint32_t> owner_of(const System& system, std::string_view name) {
+  for (std::uint32_t index = 0; index < system.instances.size(); ++index) {
+    const Instance& instance = system.instances[index];
+    if (name.starts_with(fmt::format("{}.{}.", instance.agent, instance.name))) return index;
+  }
+  return std::nullopt;
+}
+
+class Reading {
+ public:
+  Reading(const System& system, const FlatNet& net) : system_(system), net_(net) {
+    for (std::uint32_t index = 0; index < net.transitions.size(); ++index)
+      known_.emplace(net.transitions[index].name, index);
+  }
+
+  /// "" or what is wrong.
+  [[nodiscard]] std::string read(const nlohmann::json& json, Scenario& scenario) const {
+    if (json.value("scenario", 0) != 1) return "is no scenario of this version of Tessera";
+    const std::string hash = json.at("net_hash").get<std::string>();
+    if (hash != system_.net_hash)
+      return fmt::format("is a scenario of another net ({}, this controller's is {}): verify again", hash,
+                         system_.net_hash);
+    for (const nlohmann::json& firing : json.at("firings"))
+      if (!add(firing.get<std::string>(), scenario))
+        return fmt::format("names '{}', which is no transition of this net", firing.get<std::string>());
+    return "";
+  }
+
+ private:
+  [[nodiscard]] bool add(const std::string& name, Scenario& scenario) const {
+    if (name.ends_with(none_suffix)) {
+      const std::optional<std::uint32_t> owner = owner_of(system_, name);
+      if (owner) scenario.steps.push_back({*owner, Scenario::none_holds, name});
+      return owner.has_value();
+    }
+    const auto found = known_.find(name);
+    if (found == known_.end()) return false;
+    const std::uint32_t instance = net_.transitions[found->second].instance;
+    if (instance != system_instance)
+      scenario.steps.push_back({instance, found->second - net_.first_of_instance[instance], name});
+    return true;
+  }
+
+  const System& system_;
+  const FlatNet& net_;
+  std::unordered_map<std::string_view, std::uint32_t> known_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> Scenario::of_instance(std::uint32_t instance) const {
+  std::vector<std::uint32_t> own;
+  for (const Step& step : steps)
+    if (step.instance == instance) own.push_back(step.transition);
+  return own;
+}
+
+std::optional<Scenario> read_scenario(const std::string& file, const System& system, const FlatNet& net,
+                                      std::string& error) {
+  std::ifstream stream(file);
+  if (!stream) {
+    error = fmt::format("cannot read '{}'", file);
+    return std::nullopt;
+  }
+  Scenario scenario;
+  try {
+    error = Reading(system, net).read(nlohmann::json::parse(stream), scenario);
+  } catch (const nlohmann::json::exception&) {
+    error = "is no scenario: write one with `tessera verify --scenario FILE`";
+  }
+  if (error.empty()) return scenario;
+  error = fmt::format("'{}' {}", file, error);
+  return std::nullopt;
+}
+
+}  // namespace tessera

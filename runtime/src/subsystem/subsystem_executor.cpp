@@ -1,0 +1,447 @@
+#include "subsystem/subsystem_executor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "system/thread_role.hpp"
+
+namespace tessera {
+
+SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
+                                     std::shared_ptr<const Plan> plan, std::uint32_t first_transition,
+                                     Shared shared, RecordingLane* lane)
+    : index_(index),
+      operations_(std::move(parts), shared.control, shared.clock, lane),
+      plan_(std::move(plan)),
+      first_transition_(first_transition),
+      control_(shared.control),
+      clock_(shared.clock),
+      waker_(shared.waker),
+      lane_(lane),
+      watched_(shared.watched || operations_.parts().instance->policies.watchdog > Duration::zero()),
+      simulated_(shared.clock.simulated()),
+      ports_(operations_.parts().ports.data()),
+      places_(plan_->places.data()),
+      tokens_(plan_->places.size()),
+      wants_(plan_->ports.size()),
+      wants_next_(plan_->ports.size()) {
+  marked_.reserve(plan_->places.size());
+  const auto timed = [](const Plan::PlaceEntry& place) { return place.timed; };
+  watches_time_ = simulated_ || operations_.parts().instance->period > Duration::zero() ||
+                  operations_.watches_time() ||
+                  std::any_of(plan_->places.begin(), plan_->places.end(), timed);
+}
+
+void SubsystemExecutor::enter() { put(plan_->in); }
+
+SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
+  const RunningSubsystem running(*this);
+  if (watches_time_)
+    renew_time();
+  else
+    time_is_known_ = false;
+  if (blocked_since_ != Time::max()) waited_ += now_ - std::exchange(blocked_since_, Time::max());
+  bool up_to_date = true;  // nothing has happened since the clock was read
+  for (;;) {
+    if (control_.stopping()) return {State::stopped};
+    if (at_end_) {
+      end();
+      return {State::ended};
+    }
+    if (most-- == 0) return {State::ready};
+    if (fire_one()) {
+      up_to_date = false;
+      if (simulated_ && time_stands_still())
+        fault(marked_.front(), "time stands still: it fires for ever at one instant");
+      continue;
+    }
+    if (advance_operations()) {
+      up_to_date = false;
+      continue;
+    }
+    if (outwait_peer()) continue;
+    if (watches_time_ && !std::exchange(up_to_date, true)) {
+      renew_time();
+      continue;
+    }
+    operations_.guard_effectors(now_, name_of(marked_.front()));
+    if (!register_waits()) continue;
+    if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
+    if (std::exchange(waits_after_, firings_) != firings_) waits_since_ = now();
+    return {State::waiting, next_deadline(), operations_.next_beat()};
+  }
+}
+
+// -------------------------------------------------------------------------------------------- time
+
+void SubsystemExecutor::renew_time() {
+  now_ = clock_.now();
+  time_is_known_ = true;
+}
+
+/// The time since the last code of the user's, or a later one: firings take next to none.
+Time SubsystemExecutor::now() {
+  if (!time_is_known_) renew_time();
+  return now_;
+}
+
+// -------------------------------------------------------------------------------------------- firing
+
+bool SubsystemExecutor::fire_one() {
+  if (marked_.size() == 1) return walk();
+  for (const std::uint32_t place : marked_) {
+    if (tokens_[place].phase != Phase::finished) continue;
+    if (const Plan::TransitionEntry* const fired = fire_one_of(places_[place].departure); fired != nullptr) {
+      if (firings_ % look_up == 0) renew_time();
+      move_tokens(*fired);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can. On the
+/// way no token has a position: no transition that takes several tokens is enabled.
+bool SubsystemExecutor::walk() {
+  std::uint32_t place = marked_.front();
+  const Plan::TransitionEntry* departure = places_[place].departure;
+  tokens_[place].position = Plan::none;
+  bool walked = false;
+  for (std::uint32_t left = simulated_ ? 1 : look_up; tokens_[place].phase == Phase::finished; --left) {
+    if (left == 0) {  // it looks up: at the clock, and whether the run is to stop
+      renew_time();
+      break;
+    }
+    const Plan::TransitionEntry* const fired = fire_one_of(departure);
+    if (fired == nullptr) break;
+    walked = true;
+    if (fired->to == Plan::none) {
+      tokens_[place].position = 0;
+      move_tokens(*fired);
+      return true;
+    }
+    departure = fired->onward;
+    place = marked_.front() = fired->to;
+    arrive(place);
+  }
+  tokens_[place].position = 0;
+  return walked;
+}
+
+/// Of the departures of a place. The tokens still lie where they were.
+inline const Plan::TransitionEntry* SubsystemExecutor::fire_one_of(const Plan::TransitionEntry* departure) {
+  if (departure == nullptr) return nullptr;
+  for (;; ++departure) {
+    if ((departure->from != Plan::none || locally_enabled(*departure)) && fire_enabled(*departure))
+      return departure;
+    if (departure->last) return nullptr;
+  }
+}
+
+bool SubsystemExecutor::try_fire(std::uint32_t index) {
+  const Plan::TransitionEntry& transition = plan_->transitions[index];
+  if (!locally_enabled(transition) || !fire_enabled(transition)) return false;
+  move_tokens(transition);
+  return true;
+}
+
+/// Everything that firing does but moving the tokens of the subsystem.
+inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
+  if (!condition_holds(transition)) return false;
+  std::uint32_t version = 0;
+  if (transition.port != Plan::none) {
+    const PortLink& link = ports_[transition.port];
+    version = link.channel->fire(link.side, transition.taken, transition.produced);
+    if (version == 0) {
+      if (link.channel->held()) held_ = link.channel;
+      return false;
+    }
+    if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
+      --registrations_;  // firing voids them
+  }
+  ++firings_;
+  if (lane_ != nullptr) {
+    renew_time();
+    lane_->firing(now_, first_transition_ + transition.index, version);
+    last_fired_ = transition.index;
+  }
+  if (transition.tells_of_timeout) tell_of_timeout(transition);
+  return true;
+}
+
+void SubsystemExecutor::tell_of_timeout(const Plan::TransitionEntry& transition) {
+  if (transition.guard.kind == Guard::Kind::elapsed)
+    operations_.note_timeout(transition.port);
+  else
+    operations_.note_answer(transition.port);
+}
+
+/// Some transition waits for nothing but a peer that is reading or writing: that is shorter than a sleep.
+bool SubsystemExecutor::outwait_peer() {
+  const SharedChannel* const channel = std::exchange(held_, nullptr);
+  return channel != nullptr && !simulated_ && channel->outwait();
+}
+
+bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition) const {
+  const auto has_finished = [this](std::uint32_t place) {
+    return tokens_[place].position != Plan::none && tokens_[place].phase == Phase::finished;
+  };
+  const auto inputs = plan_->inputs(transition);
+  return std::all_of(inputs.begin(), inputs.end(), has_finished);
+}
+
+bool SubsystemExecutor::wants_to_fire(std::uint32_t transition) const {
+  return locally_enabled(plan_->transitions[transition]) && condition_holds(plan_->transitions[transition]);
+}
+
+Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
+  const Duration timeout = operations_.parts().ports[transition.port].timeout;
+  if (timeout == Duration::zero()) return Time::max();
+  Time arrival = Time::min();
+  for (const std::uint32_t place : plan_->inputs(transition))
+    arrival = std::max(arrival, tokens_[place].arrival);
+  return arrival + timeout;
+}
+
+// -------------------------------------------------------------------------------------------- tokens,
+// operations
+
+void SubsystemExecutor::move_tokens(const Plan::TransitionEntry& transition) {
+  for (const std::uint32_t place : plan_->inputs(transition)) take(place);
+  for (const std::uint32_t place : plan_->outputs(transition)) put(place);
+}
+
+void SubsystemExecutor::take(std::uint32_t place) {
+  const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
+  marked_[hole] = marked_.back();
+  tokens_[marked_[hole]].position = hole;
+  tokens_[place].position = Plan::none;  // also when it was the last itself
+  marked_.pop_back();
+}
+
+void SubsystemExecutor::put(std::uint32_t place) {
+  Token& token = tokens_[place];
+  if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
+  token.position = static_cast<std::uint32_t>(marked_.size());
+  marked_.push_back(place);
+  arrive(place);
+}
+
+/// Starts the operation.
+inline void SubsystemExecutor::arrive(std::uint32_t place) {
+  const Plan::PlaceEntry& entry = places_[place];
+  Token& token = tokens_[place];
+  token.phase = Phase::finished;
+  if (entry.idle) return;
+  if (entry.timed) {
+    renew_time();
+    token.arrival = now_;
+  }
+  switch (entry.does) {
+    case Does::Kind::nothing:
+      if (place == plan_->out) arrive_at_end();
+      break;
+    case Does::Kind::call:
+      token.phase = Phase::released_later;
+      token.due = release();
+      break;
+    case Does::Kind::count:
+      operations_.count();
+      break;
+    case Does::Kind::write:
+      operations_.write(entry.subject, entry.slot, now());
+      break;
+    case Does::Kind::read:
+      operations_.read(entry.subject, entry.slot, now());
+      break;
+    case Does::Kind::decide:
+      decide(place);
+      break;
+    case Does::Kind::route:
+      route(place);
+      break;
+  }
+}
+
+/// A decision without a transition would leave the token where it is for ever.
+inline void SubsystemExecutor::check_way_out(std::uint32_t place) {
+  const std::int32_t decided = tokens_[place].latched;
+  if (decided < 64 && (places_[place].ways >> decided & 1U) != 0) return;
+  look_for_way_out(place);
+}
+
+void SubsystemExecutor::look_for_way_out(std::uint32_t place) {
+  const auto leaving = plan_->leaving_of(place);
+  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
+  if (std::none_of(leaving.begin(), leaving.end(), may_fire))
+    fault(place, "what was decided has no transition: the generated code does not fit its net");
+}
+
+void SubsystemExecutor::decide(std::uint32_t place) {
+  Token& token = tokens_[place];
+  if (const Plan::TransitionEntry* const next = decided_by_script(place)) {
+    operations_.accept_outcome(static_cast<Outcome>(next->decided));
+    token.latched = next->decided;
+    return;
+  }
+  token.latched = static_cast<std::int32_t>(operations_.decide(places_[place].subject, time_of_conditions()));
+  check_way_out(place);
+}
+
+void SubsystemExecutor::route(std::uint32_t place) {
+  Token& token = tokens_[place];
+  if (const Plan::TransitionEntry* next = decided_by_script(place)) {
+    token.latched = next->guard.entry;
+    return;
+  }
+  token.latched = Operations::no_entry;
+  if (script_ends_without_choice()) return;
+  token.latched = operations_.route(places_[place].subject, time_of_conditions());
+  if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
+  if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
+  if (token.latched >= 0) check_way_out(place);
+}
+
+void SubsystemExecutor::arrive_at_end() {
+  at_end_ = true;
+  if (operations_.ended_by_error())
+    fault(plan_->out, "ended by an error that no `next` leads to another behaviour");
+}
+
+Time SubsystemExecutor::release() {
+  const Instance& instance = *operations_.parts().instance;
+  const Duration period = instance.period;
+  const Duration waited = std::exchange(waited_, Duration::zero());
+  if (period == Duration::zero()) return Time::min();
+  renew_time();
+  const Time arrival = now_;
+  const auto first_not_before = [&](Time time) {
+    return (time.time_since_epoch() + period - Duration(1)) / period;
+  };
+  if (next_release_ < 0) {
+    next_release_ = arrival.time_since_epoch() / period;  // the first call starts at once
+  } else {
+    const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
+    count_overruns(without_waiting);
+    if (instance.policies.overrun != Overrun::catch_up)
+      next_release_ = std::max(next_release_, now);
+    else
+      next_release_ =
+          std::max(next_release_, now - std::max<std::int64_t>(0, without_waiting - next_release_));
+  }
+  return Time(period * next_release_++);
+}
+
+/// Instants before `end` that no call has been made for.
+void SubsystemExecutor::count_overruns(std::int64_t end) {
+  const std::int64_t missed = end - std::max(next_release_, counted_to_);
+  if (missed <= 0) return;
+  counted_to_ = end;
+  overruns_ += static_cast<std::uint64_t>(missed);
+  if (operations_.parts().instance->policies.overrun == Overrun::fault)
+    missed_ = static_cast<std::uint64_t>(missed);
+  if (lane_ != nullptr)
+    lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
+}
+
+bool SubsystemExecutor::advance_operations() {
+  for (const std::uint32_t place : marked_)
+    if (tokens_[place].phase != Phase::finished && now_ >= tokens_[place].due && advance(place)) return true;
+  return false;
+}
+
+/// Begins or ends a transition function; false when that has to wait.
+bool SubsystemExecutor::advance(std::uint32_t place) {
+  Token& token = tokens_[place];
+  const Duration watchdog = operations_.parts().instance->policies.watchdog;
+  if (token.phase == Phase::released_later) {
+    // User code may take long: nobody must be held back meanwhile by a wait that is over.
+    if (registrations_ > 0 && !register_waits()) return true;
+    const std::uint16_t behaviour = plan_->places[place].subject;
+    const Time begin = now();
+    gauges_.begin_call(behaviour, begin);
+    operations_.start_call(behaviour, begin, std::exchange(missed_, 0));
+    time_is_known_ = false;
+    token.phase = Phase::running;
+    token.due = Time::min();
+    if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (watchdog > Duration::zero() && token.due > begin + watchdog)
+      returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
+    if (token.due > begin) return true;
+  }
+  if (returns_ != Time{}) {
+    token.due = std::exchange(returns_, Time{});
+    if (mark_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed))) {
+      effectors().make_safe({SafeReason::Kind::stalls}, Effectors::Busy::leaves_out);
+      tell_alarm(lane_);
+      effectors().record(lane_);
+    }
+    return true;
+  }
+  if (watched_ || operations_.commands_devices()) renew_time();
+  operations_.finish_call(now_);
+  gauges_.end_call(now_);
+  if (watchdog > Duration::zero()) end_alarm();
+  show();
+  token.phase = Phase::finished;
+  return true;
+}
+
+bool SubsystemExecutor::mark_alarm(std::int64_t since_ns) {
+  control_.mark_stalled(index_, true);
+  // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
+  // the call and both looks are sequentially consistent.
+  if (!gauges_.calling.load(std::memory_order_seq_cst) ||
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns) {
+    control_.mark_stalled(index_, false);
+    return false;
+  }
+  wake_receivers();
+  return true;
+}
+
+void SubsystemExecutor::tell_alarm(RecordingLane* lane) const {
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
+}
+
+void SubsystemExecutor::end_alarm() {
+  gauges_.calling.store(false, std::memory_order_seq_cst);
+  if (!control_.is_stalled(index_)) return;
+  control_.mark_stalled(index_, false);
+  wake_receivers();
+}
+
+void SubsystemExecutor::wake_receivers() {
+  for (const PortLink& port : operations_.parts().ports)
+    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
+}
+
+/// Once an iteration, for those who watch.
+void SubsystemExecutor::show() {
+  gauges_.iterations.store(operations_.iterations(), std::memory_order_relaxed);
+  gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
+  gauges_.firings.store(firings_, std::memory_order_relaxed);
+  gauges_.overruns.store(overruns_, std::memory_order_relaxed);
+}
+
+// -------------------------------------------------------------------------------------------- ends
+
+void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
+  operations_.report(Fault::net, name_of(place), text);
+  std::array<char, 512> reason;
+  const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
+  control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
+}
+
+void SubsystemExecutor::end() {
+  static_cast<void>(register_waits());  // withdraws: nobody must yield to a subsystem that has ended
+  leave();
+  control_.mark_ended(index_);
+  wake_receivers();
+}
+
+}  // namespace tessera

@@ -1,0 +1,242 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nets/plan.hpp"
+#include "subsystem/gauges.hpp"
+#include "subsystem/operations.hpp"
+
+namespace tessera {
+
+/// Executes the net of one subsystem: fires what may fire, starts the operations of the places that get
+/// tokens, and says what it waits for. Resumable, so that one thread can run all of a system in simulated
+/// time, or a thread each in real time.
+///
+/// The rule of firing: a transition fires if its places in the subsystem hold tokens whose operations have
+/// finished, its condition holds, and the channel it touches, if any, makes its part of the firing
+/// (SharedChannel::fire) - the only step that other threads can interfere with, and it comes last. Where a
+/// transition with a timeout has alternatives, these are tried first.
+///
+/// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
+/// not before the token's arrival and later than that of the call before; the grid is one for all behaviours.
+/// The first call starts at once. Instants passed over are overruns, unless the time went by waiting for
+/// other subsystems; Overrun::catch_up makes up for them, one call after the other.
+///
+/// *Ends.* The token in `out`: the subsystem has ended. It is a fault, which stops the system, when that
+/// happens after an error (nobody routed it to another behaviour), and when no condition of `next` holds or
+/// one throws.
+///
+/// Threads: the subsystem's. No allocation and no lock in `step`, apart from what user code does.
+class SubsystemExecutor {
+ public:
+  struct Shared {
+    RunControl& control;
+    const Clock& clock;
+    Waker& waker;
+    bool watched = false;  ///< somebody may look at the gauges
+  };
+  /// first_transition: how the recording numbers the net's transitions.
+  SubsystemExecutor(std::uint32_t index, SubsystemParts parts, std::shared_ptr<const Plan> plan,
+                    std::uint32_t first_transition, Shared shared, RecordingLane* lane);
+
+  /// Puts the token into `in`: t_in of the agent has fired.
+  void enter();
+
+  enum class State : std::uint8_t { waiting, ended, stopped, ready };
+  struct Progress {
+    State state = State::waiting;
+    Time deadline = Time::max();  ///< of waiting: step again then, or when woken
+    Time beat = Time::max();      ///< of waiting: when a device wants a heartbeat; nothing else happens then
+  };
+  /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
+  /// most: how many firings and operations at most; ready: it could have gone on.
+  [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
+
+  /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
+  /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
+  void set_script(std::vector<std::uint32_t> transitions) { script_ = std::move(transitions); }
+  /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
+  /// (Time::max()); fired: done. Precondition: there is a next one.
+  enum class Followed : std::uint8_t { fired, ended, waiting };
+  struct FollowProgress {
+    Followed state = Followed::waiting;
+    Time deadline = Time::max();
+    std::string_view forced{};  ///< what a condition was made to say
+  };
+  [[nodiscard]] FollowProgress follow();
+  /// A line on the console and in the recording.
+  void note(std::string_view text) { operations_.log(LogLevel::info, text); }
+
+  /// The transition function of call `since` has run longer than the watchdog allows: marks that, and those
+  /// who receive from here look at their devices; false: it has returned meanwhile. Threads: any.
+  [[nodiscard]] bool mark_alarm(std::int64_t since_ns);
+  /// Says so. Threads: any, with a lane of its own.
+  void tell_alarm(RecordingLane* lane) const;
+
+  /// Gives the safe command if something asks for it by now. Threads: as `step`.
+  void guard() {
+    if (!marked_.empty()) operations_.guard_effectors(clock_.now(), name_of(marked_.front()));
+  }
+  /// The safe command, on every way out of the run; insist tries again where a device has refused it.
+  void leave() { operations_.leave(); }
+  void insist() { operations_.insist(); }
+  /// Threads: as its members say.
+  [[nodiscard]] Effectors& effectors() { return operations_.effectors(); }
+  /// Calls the heartbeats that are due, while it waits, and returns when the next one is.
+  Time beat(Time now) {
+    operations_.beat(now, name_of(marked_.front()));
+    return operations_.next_beat();
+  }
+
+  /// Tokens of one channel that a transition lacks, which has everything else or needs only time.
+  struct Lack {
+    std::uint32_t port;
+    std::uint16_t tokens;  ///< fused places, as bits
+  };
+  /// Everything that it can ever fire from here lacks: per transition. nullopt: it can go on by itself, it
+  /// has something to do or waits for a time. Threads: when it does not run.
+  [[nodiscard]] std::optional<std::vector<Lack>> lacks() const;
+  /// Per port, the fused places that it may give tokens to from here on, whatever its conditions say.
+  /// helped: per port, whether the other end may give tokens too. Threads: when it does not run.
+  [[nodiscard]] std::vector<std::uint16_t> may_give(const std::vector<bool>& helped) const;
+  /// When it fired last before it began to wait; Time::max(): it has not waited yet.
+  [[nodiscard]] Time waits_since() const { return waits_since_; }
+
+  /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread does not
+  /// run.
+  [[nodiscard]] std::string whereabouts(const System& system) const;
+
+  [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
+  [[nodiscard]] const Operations& operations() const { return operations_; }
+  [[nodiscard]] Operations& operations() { return operations_; }
+  /// What has happened to the thread of the subsystem, for the recording. Threads: that one.
+  /// Async-signal-safe.
+  void record_death(std::string_view text) { operations_.record_death(text); }
+  [[nodiscard]] const Gauges& gauges() const { return gauges_; }
+  [[nodiscard]] std::uint64_t firings() const { return firings_; }
+  [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
+  /// A token is in that place of the table.
+  [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
+
+  /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
+  [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
+  /// Its tokens in this subsystem are there, and its condition holds; channels may still be in its way.
+  [[nodiscard]] bool wants_to_fire(std::uint32_t transition) const;
+
+  /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
+  static constexpr std::uint32_t firings_per_instant = 100'000;
+
+  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock and at
+  /// RunControl.
+  static constexpr std::uint32_t look_up = 64;
+
+ private:
+  enum class Phase : std::uint8_t { released_later, running, finished };
+  struct Token {
+    Time arrival{};  // in places from which a timeout counts
+    Time due{};      // of released_later and running
+    Phase phase = Phase::finished;
+    std::int32_t latched = 0;             // the outcome or the entry of `next`
+    std::uint32_t position = Plan::none;  // in marked_
+  };
+
+  void renew_time();
+  [[nodiscard]] Time now();
+  [[nodiscard]] Time time_of_conditions() { return operations_.has_inputs() ? now() : now_; }
+
+  [[nodiscard]] bool fire_one();
+  [[nodiscard]] bool try_fire(std::uint32_t transition);
+  [[nodiscard]] bool walk();
+  [[nodiscard]] const Plan::TransitionEntry* fire_one_of(const Plan::TransitionEntry* departure);
+  [[nodiscard]] bool fire_enabled(const Plan::TransitionEntry& transition);
+  [[nodiscard]] bool outwait_peer();
+  [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
+  [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
+  [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
+  void tell_of_timeout(const Plan::TransitionEntry& transition);
+
+  void move_tokens(const Plan::TransitionEntry& transition);
+  void take(std::uint32_t place);
+  void put(std::uint32_t place);
+  void arrive(std::uint32_t place);
+  void check_way_out(std::uint32_t place);
+  void look_for_way_out(std::uint32_t place);
+  void arrive_at_end();
+  [[nodiscard]] bool advance_operations();
+  [[nodiscard]] bool advance(std::uint32_t place);
+  [[nodiscard]] Time release();
+  void count_overruns(std::int64_t end);
+  void end_alarm();
+  void wake_receivers();
+  [[nodiscard]] std::string_view name_of(std::uint32_t place) const {
+    return operations_.parts().instance->net->places[place].name;
+  }
+  void show();
+
+  // Scripts.
+  [[nodiscard]] const Plan::TransitionEntry* decided_by_script(std::uint32_t place) const;
+  [[nodiscard]] bool script_ends_without_choice() const;
+  void decide(std::uint32_t place);
+  void route(std::uint32_t place);
+  [[nodiscard]] Time script_deadline(std::uint32_t transition) const;
+
+  [[nodiscard]] bool register_waits();
+  [[nodiscard]] Time next_deadline() const;
+  [[nodiscard]] bool time_stands_still();
+  void fault(std::uint32_t place, std::string_view text);
+  void end();
+
+  std::uint32_t index_;
+  Operations operations_;
+  std::shared_ptr<const Plan> plan_;
+  std::uint32_t first_transition_;
+  RunControl& control_;
+  const Clock& clock_;
+  Waker& waker_;
+  RecordingLane* lane_;
+
+  Time now_{};                  // of the last look at the clock
+  bool time_is_known_ = false;  // no code of the user's has run since
+  bool watched_, simulated_;
+  bool watches_time_ = true;        // what it does next may depend on the time: a rate, a timeout, a device
+  bool at_end_ = false;             // the token is in `out`
+  const PortLink* ports_;           // of operations_
+  const Plan::PlaceEntry* places_;  // of plan_
+  const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
+
+  std::vector<Token> tokens_;              // per place
+  std::vector<std::uint32_t> marked_;      // places with a token; room for all
+  std::vector<std::uint16_t> wants_;       // per port: registered in its channel
+  std::vector<std::uint16_t> wants_next_;  // per port: scratch of register_waits
+  std::uint32_t registrations_ = 0;        // ports with wants_
+
+  std::vector<std::uint32_t> script_;  // transitions to follow, or Plan::none: no initial condition holds
+  std::size_t followed_ = 0;           // of the script
+
+  std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
+  std::uint64_t missed_ = 0;        // instants that the next call has to fail for
+  std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
+  Time returns_{};                  // simulated: when a call returns whose watchdog comes first
+  Time blocked_since_ = Time::max();
+  Duration waited_{0};  // for other subsystems, since the last call
+  Time waits_since_ = Time::max();
+  std::uint64_t waits_after_ = UINT64_MAX;  // firings_ at waits_since_
+  std::uint64_t firings_ = 0, overruns_ = 0;
+  std::uint32_t last_fired_ = Plan::none;
+  Gauges gauges_;
+  Time instant_ = Time::min();
+  std::uint32_t fired_at_instant_ = 0;
+};
+
+inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
+  if (transition.guard.kind == Guard::Kind::none) return true;
+  if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
+  return tokens_[transition.latch].latched == transition.decided;
+}
+
+}  // namespace tessera

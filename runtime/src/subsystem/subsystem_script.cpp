@@ -1,0 +1,73 @@
+// How a subsystem follows a script: the transitions that a scenario says, in its order.
+
+#include <algorithm>
+#include <string_view>
+
+#include "subsystem/subsystem_executor.hpp"
+
+namespace tessera {
+namespace {
+
+std::string_view forced_by(Guard::Kind guard) {
+  switch (guard) {
+    case Guard::Kind::go_on:
+      return "neither error nor terminal";
+    case Guard::Kind::terminal:
+      return "terminal";
+    case Guard::Kind::error:
+      return "error";
+    case Guard::Kind::next:
+      return "this initial condition";
+    case Guard::Kind::none:
+    case Guard::Kind::elapsed:  // waited for
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
+  const std::uint32_t transition = script_[followed_++];
+  if (transition == Plan::none) {
+    fault(marked_.front(), "no condition of `next` holds");
+    return {Followed::fired, Time::max(), "no initial condition"};
+  }
+  renew_time();
+  while (advance_operations()) continue;
+  operations_.guard_effectors(now_, name_of(marked_.front()));
+  if (!try_fire(transition)) {
+    --followed_;
+    return {Followed::waiting, script_deadline(transition)};
+  }
+  if (at_end_) end();
+  return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
+          forced_by(plan_->transitions[transition].guard.kind)};
+}
+
+/// The transition of the script that will take a token that has just arrived; nullptr: none of it.
+const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
+  for (std::size_t index = followed_; index < script_.size(); ++index) {
+    if (script_[index] == Plan::none) continue;
+    const Plan::TransitionEntry& transition = plan_->transitions[script_[index]];
+    if (transition.latch == place) return &transition;
+  }
+  return nullptr;
+}
+
+bool SubsystemExecutor::script_ends_without_choice() const {
+  return followed_ < script_.size() && script_[followed_] == Plan::none;
+}
+
+/// When an operation has finished that the transition waits for, or its timeout has passed.
+Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
+  const Plan::TransitionEntry& transition = plan_->transitions[index];
+  Time deadline = Time::max();
+  for (const std::uint32_t place : marked_)
+    if (tokens_[place].phase != Phase::finished) deadline = std::min(deadline, tokens_[place].due);
+  if (deadline != Time::max() || transition.guard.kind != Guard::Kind::elapsed) return deadline;
+  const Time elapsed = locally_enabled(transition) ? elapses(transition) : Time::max();
+  return elapsed > now_ ? elapsed : Time::max();
+}
+
+}  // namespace tessera

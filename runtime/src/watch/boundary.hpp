@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cxxabi.h>
+
+#include <exception>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "drivers/run_control.hpp"
+
+namespace tessera {
+
+/// Runs `code` as the outermost of a thread of ours: what it throws stops the run, as a fault, and not the
+/// process. false: it has thrown. The end of a thread (pthread_exit) goes on.
+template <class Code>
+bool survives_in_thread(RunControl& control, std::string_view who, Code&& code) {
+  std::string_view what = "an exception that is no std::exception";
+  std::string text;
+  try {
+    std::forward<Code>(code)();
+    return true;
+  } catch (const abi::__forced_unwind&) {
+    throw;
+  } catch (const std::exception& exception) {
+    try {
+      text = std::string(who) + ": " + exception.what();
+      what = text;
+    } catch (...) {
+      what = who;  // no memory for more
+    }
+  } catch (...) {
+  }
+  control.request_stop(what, /*fault=*/true);
+  return false;
+}
+
+}  // namespace tessera

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "assembly/assembly.hpp"
+
+namespace tessera {
+
+/// Watches the one thread of a simulated run from another: code of the user's that does not return holds up
+/// the whole run, which cannot even see that it has been told to stop.
+///
+/// A turn that has not ended after a second of the wall clock is told of, then after two, four and so on. A
+/// second after a signal has asked the run to stop, and in the same turn still, the process ends with 128 and
+/// the number of the signal: the devices get their safe command and the recording is written out before.
+///
+/// Threads: the run's, but for what its own does.
+class CallWatch {
+ public:
+  explicit CallWatch(Assembly& assembly);
+  CallWatch(const CallWatch&) = delete;
+  CallWatch& operator=(const CallWatch&) = delete;
+  ~CallWatch();
+
+  /// Between begin and end that subsystem has the thread.
+  void begin(std::uint32_t instance, Time now) {
+    instance_.store(instance, std::memory_order_relaxed);
+    now_.store(now, std::memory_order_relaxed);
+    turns_.store(turns_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
+  void end() {
+    // Sequentially consistent with the look of the one who gives up: either that one sees the turn end, or
+    // this does not go on beside it.
+    turns_.store(turns_.load(std::memory_order_relaxed) + 1, std::memory_order_seq_cst);
+    if (gives_up_.load(std::memory_order_seq_cst)) wait_for_decision();
+  }
+
+ private:
+  struct Look {
+    std::uint64_t turn = 0;
+    double began_s = 0, said_s = 0, asked_s = -1;
+  };
+  void watch();
+  void look(Look& last);
+  void give_up(const Look& last);
+  void wait_for_decision() const;
+  [[nodiscard]] std::string function() const;
+
+  Assembly& assembly_;
+  std::atomic<std::uint64_t> turns_{0};  // odd: in a turn
+  std::atomic<std::uint32_t> instance_{0};
+  std::atomic<Time> now_{Time{}};
+  std::atomic<bool> gives_up_{false};
+  std::mutex mutex_;
+  std::condition_variable over_;
+  bool is_over_ = false;
+  std::thread thread_;  // the last: it looks at the others
+};
+
+}  // namespace tessera

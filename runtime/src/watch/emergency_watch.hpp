@@ -1,0 +1,34 @@
+#pragma once
+
+#include "drivers/run_control.hpp"
+#include "recorder/recorder.hpp"
+#include "system/clock.hpp"
+
+namespace tessera {
+
+/// Notices that an emergency stop begins or ends, and says so on the terminal and in the recording.
+///
+/// Threads: who runs the subsystems.
+class EmergencyWatch {
+ public:
+  enum class News : std::uint8_t { none, begins, ends };
+  [[nodiscard]] News look(const RunControl& control) {
+    // Counted: one may end, and another begin, between two looks.
+    if (const std::uint32_t begun = control.emergencies(); begun != begun_) {
+      begun_ = begun;
+      stands_ = true;
+      return News::begins;
+    }
+    if (!stands_ || control.emergency()) return News::none;
+    stands_ = false;
+    return News::ends;
+  }
+  /// After the safe commands were given. lane: the calling thread's; nullptr: nothing is recorded.
+  static void say(News news, const RunControl& control, Time now, RecordingLane* lane);
+
+ private:
+  std::uint32_t begun_ = 0;
+  bool stands_ = false;
+};
+
+}  // namespace tessera

@@ -1,0 +1,224 @@
+#include "watch/remote_control.hpp"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace tessera {
+namespace {
+
+using nlohmann::json;
+
+constexpr double fastest = 1000;
+
+}  // namespace
+
+RemoteControl::RemoteControl(Assembly& assembly, bool paused, double speed)
+    : assembly_(assembly), paused_(paused), speed_(speed), news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  update();
+}
+
+RemoteControl::~RemoteControl() { close(news_); }
+
+// -------------------------------------------------------------------------------------------- the watcher's
+
+std::string RemoteControl::command(const json& command) {
+  const std::lock_guard lock(mutex_);
+  const std::string what = command.is_object() ? command.value("command", "") : "";
+  std::string wrong;
+  if (what == "pause" || what == "resume") {
+    paused_ = what == "pause";
+    firings_left_ = 0;
+    to_iteration_ = false;
+    broke_at_.clear();
+  } else if (what == "step_firing") {
+    paused_ = true;
+    ++firings_left_;
+  } else if (what == "step_iteration") {
+    wrong = step_iteration(command);
+  } else if (what == "speed") {
+    const json value = command.value("value", json());
+    const double speed = value.is_number() ? value.get<double>() : -1;
+    if (std::isfinite(speed) && speed >= 0 && speed <= fastest)
+      speed_ = speed;
+    else
+      wrong = "a speed is a number from 0 (as fast as possible) to 1000";
+  } else if (what == "breakpoints") {
+    wrong = set_breakpoints(command);
+  } else {
+    wrong = "there is no such command";
+  }
+  if (!wrong.empty()) return wrong;
+  update();
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
+  return {};
+}
+
+std::string RemoteControl::step_iteration(const json& command) {
+  const std::string path = command.value("subsystem", "");
+  std::uint32_t found = UINT32_MAX;
+  for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance)
+    if (assembly_.executors[instance]->path() == path) found = instance;
+  if (!path.empty() && found == UINT32_MAX) return "there is no subsystem '" + path + "'";
+  paused_ = true;
+  to_iteration_ = true;
+  iterating_ = found;
+  iterations_.clear();
+  return {};
+}
+
+std::string RemoteControl::set_breakpoints(const json& command) {
+  using When = Breakpoint::When;
+  std::vector<Breakpoint> wanted;
+  if (assembly_.recorder == nullptr && !command.value("transitions", json::array()).empty())
+    return "a breakpoint on a transition needs a run that is recorded";
+  for (const auto& [list, when] : {std::pair{"places", When::marked}, std::pair{"transitions", When::fires},
+                                   std::pair{"conditions", When::enabled}})
+    for (const json& name : command.value(list, json::array())) {
+      Breakpoint one{.when = when, .name = name.is_string() ? name.get<std::string>() : std::string()};
+      if (!find(one))
+        return std::string("no subsystem or channel of the controller has the ") +
+               (when == When::marked ? "place '" : "transition '") + one.name + "'";
+      wanted.push_back(std::move(one));
+    }
+  breakpoints_ = std::move(wanted);
+  return {};
+}
+
+bool RemoteControl::find(Breakpoint& breakpoint) const {
+  const std::string& name = breakpoint.name;
+  const auto is_in = [&](const auto& elements, std::string_view owner) {
+    for (breakpoint.index = 0; breakpoint.index < elements.size(); ++breakpoint.index) {
+      const std::string_view local = elements[breakpoint.index].name;
+      if (name.size() == owner.size() + 1 + local.size() && name.starts_with(owner) &&
+          name[owner.size()] == '.' && name.ends_with(local))
+        return true;
+    }
+    return false;
+  };
+  const bool is_place = breakpoint.when == Breakpoint::When::marked;
+  for (breakpoint.instance = 0; breakpoint.instance < assembly_.executors.size(); ++breakpoint.instance) {
+    const SubsystemNet& net = *assembly_.system.instances[breakpoint.instance].net;
+    const std::string& owner = assembly_.executors[breakpoint.instance]->path();
+    if (is_place ? is_in(net.places, owner) : is_in(net.transitions, owner)) return true;
+  }
+  breakpoint.instance = UINT32_MAX;
+  for (breakpoint.channel = 0; is_place && breakpoint.channel < assembly_.system.channels.size();
+       ++breakpoint.channel) {
+    const Channel& channel = assembly_.system.channels[breakpoint.channel];
+    if (is_in(channel.places, channel.name)) return true;
+  }
+  return false;
+}
+
+RemoteControl::Shown RemoteControl::shown() const {
+  const std::lock_guard lock(mutex_);
+  return {resting(), speed_, broke_at_, pauses_};
+}
+
+void RemoteControl::abandon() {
+  assembly_.control.request_stop("who started it has gone", /*fault=*/false);
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
+}
+
+// -------------------------------------------------------------------------------------------- the run's
+
+void RemoteControl::update() { one_by_one_ = paused_ || !breakpoints_.empty(); }
+
+void RemoteControl::take_news() const {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
+}
+
+bool RemoteControl::wait_while_paused(const StopSignals& signals) {
+  bool waited = false;
+  while (StopSignals::pending() == 0 && !assembly_.control.stopping()) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!resting()) return waited;
+      if (!waited) {
+        ++pauses_;
+        if (assembly_.recorder != nullptr) assembly_.recorder->flush();
+      }
+    }
+    std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
+                                  pollfd{.fd = signals.descriptor(), .events = POLLIN, .revents = 0}};
+    poll(sources.data(), sources.size(), -1);
+    take_news();
+    waited = true;
+  }
+  return waited;
+}
+
+bool RemoteControl::wait_for(Duration time, const StopSignals& signals) {
+  std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = signals.descriptor(), .events = POLLIN, .revents = 0}};
+  const timespec left{.tv_sec = time.count() / 1'000'000'000, .tv_nsec = time.count() % 1'000'000'000};
+  const bool interrupted = ppoll(sources.data(), sources.size(), &left, nullptr) > 0;
+  take_news();
+  return !interrupted;
+}
+
+bool RemoteControl::holds(const Breakpoint& breakpoint) const {
+  if (breakpoint.when == Breakpoint::When::enabled)
+    return assembly_.executors[breakpoint.instance]->wants_to_fire(breakpoint.index);
+  if (breakpoint.instance != UINT32_MAX)
+    return assembly_.executors[breakpoint.instance]->holds(breakpoint.index);
+  return (assembly_.channels[breakpoint.channel]->marking() >> breakpoint.index & 1U) != 0;
+}
+
+void RemoteControl::about_to_fire() {
+  const std::lock_guard lock(mutex_);
+  if (to_iteration_ && iterations_.empty())
+    for (const auto& executor : assembly_.executors)
+      iterations_.push_back(executor->operations().iterations());
+  for (Breakpoint& one : breakpoints_) {
+    if (one.when == Breakpoint::When::fires || std::exchange(one.known, true)) continue;
+    one.held = holds(one);
+  }
+}
+
+/// Pauses if it has come to hold, or if it was this transition that has fired.
+void RemoteControl::look_at(Breakpoint& breakpoint, std::uint32_t fired) {
+  bool reached = false;
+  if (breakpoint.when == Breakpoint::When::fires) {
+    reached = breakpoint.instance == fired && assembly_.executors[fired]->last_fired() == breakpoint.index;
+  } else {
+    const bool holds_now = holds(breakpoint);
+    reached = holds_now && !breakpoint.held;
+    breakpoint.held = holds_now;
+    breakpoint.known = true;
+  }
+  if (!reached) return;
+  paused_ = true;
+  firings_left_ = 0;
+  to_iteration_ = false;
+  broke_at_ = breakpoint.name;
+}
+
+void RemoteControl::fired(std::uint32_t instance) {
+  const std::lock_guard lock(mutex_);
+  if (firings_left_ > 0) --firings_left_;
+  const bool counts = iterating_ == UINT32_MAX || iterating_ == instance;
+  if (to_iteration_ && !iterations_.empty() && counts &&
+      assembly_.executors[instance]->operations().iterations() > iterations_.at(instance))
+    to_iteration_ = false;
+  for (Breakpoint& one : breakpoints_) look_at(one, instance);
+  update();
+}
+
+void RemoteControl::keep_recording_live() {
+  if (!recording_wanted_.load(std::memory_order_relaxed)) return;
+  recording_wanted_.store(false, std::memory_order_relaxed);
+  if (assembly_.recorder != nullptr) assembly_.recorder->flush();
+}
+
+}  // namespace tessera

@@ -1,0 +1,231 @@
+#include "project/build/transition_functions.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <set>
+#include <utility>
+
+#include "project/files/files.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// As the generated CMakeLists.txt compiles them, and what they may include.
+bool is_source(const fs::path& file) {
+  static const std::set<std::string> endings{".cpp", ".cc",  ".cxx", ".hpp", ".hh",  ".hxx",
+                                             ".h",   ".inl", ".ipp", ".tpp", ".inc", ".def"};
+  return endings.contains(file.extension().string()) && !file.filename().string().starts_with('.');
+}
+
+bool is_compiled(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".cpp" || ending == ".cc" || ending == ".cxx";
+}
+
+std::string whole_file(const codegen::Stub& stub) {
+  return stub.preamble + "\n" + stub.body + "\n" + stub.closing;
+}
+
+}  // namespace
+
+TransitionFunctions::TransitionFunctions(fs::path project, std::vector<codegen::Stub> wanted)
+    : project_(std::move(project)), wanted_(std::move(wanted)) {
+  const fs::path folder = project_ / "src";
+  if (!fs::is_directory(folder)) return;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
+    if (entry.is_regular_file() && is_source(entry.path())) read(entry.path());
+}
+
+void TransitionFunctions::read(const fs::path& file) {
+  std::error_code problem;
+  const fs::path known = fs::canonical(file, problem);
+  if (problem || scans_.contains(known)) return;
+  const std::string text = content_of(known);
+  hashes_[known] = hash_of(text);
+  const SourceScan& scan = scans_[known] = scan_source(text);
+  for (const std::string& include : scan.includes)
+    for (const fs::path& folder : {known.parent_path(), project_ / "src"})
+      if (fs::is_regular_file(folder / include, problem)) read(folder / include);
+}
+
+fs::path TransitionFunctions::shown(const fs::path& file) const {
+  std::error_code ignored;
+  const fs::path relative = file.lexically_relative(fs::canonical(project_, ignored));
+  return relative.empty() || *relative.begin() == ".." ? file : relative;
+}
+
+TransitionFunctions::Presence TransitionFunctions::presence(const codegen::Stub& stub) const {
+  if (!places(stub).empty()) return Presence::defined;
+  const bool possible = std::ranges::any_of(scans_, [&](const auto& one) {
+    const SourceScan& scan = one.second;
+    const auto word = scan.words.find(stub.function);
+    if (word == scan.words.end()) return scan.makes_names;
+    // Other subsystems may have functions of that name, and so may agents that had other names before.
+    const std::string system = stub.space.substr(0, stub.space.find(':')) + "::";
+    const auto others = std::ranges::count_if(scan.functions, [&](const ScannedFunction& function) {
+      return function.name == stub.function && (is_wanted(function) || function.space.starts_with(system));
+    });
+    return scan.makes_names || word->second > static_cast<std::size_t>(others);
+  });
+  return possible ? Presence::unclear : Presence::missing;
+}
+
+bool TransitionFunctions::is_wanted(const ScannedFunction& function) const {
+  return std::ranges::any_of(wanted_, [&](const codegen::Stub& stub) {
+    return stub.function == function.name && stub.space == function.space;
+  });
+}
+
+std::vector<TransitionFunctions::Place> TransitionFunctions::places(const codegen::Stub& stub) const {
+  std::vector<Place> found;
+  for (const auto& [file, scan] : scans_)
+    for (const ScannedFunction& function : scan.functions)
+      if (function.name == stub.function && function.space == stub.space)
+        found.push_back({shown(file), function.line, function.space});
+  return found;
+}
+
+std::vector<TransitionFunctions::Place> TransitionFunctions::elsewhere(const codegen::Stub& stub) const {
+  std::vector<Place> found;
+  for (const auto& [file, scan] : scans_)
+    for (const ScannedFunction& function : scan.functions)
+      if (function.name == stub.function && !is_wanted(function))
+        found.push_back({shown(file), function.line, function.space});
+  return found;
+}
+
+fs::path TransitionFunctions::home(const codegen::Stub& stub) const {
+  for (const auto& [file, scan] : scans_) {
+    if (!is_compiled(file)) continue;
+    for (const ScannedFunction& function : scan.functions)
+      if (function.space == stub.space) return shown(file);
+  }
+  return stub.file;
+}
+
+bool TransitionFunctions::knows(const fs::path& file) const {
+  return std::ranges::any_of(scans_, [&](const auto& one) { return shown(one.first) == file; });
+}
+
+std::string TransitionFunctions::identity() const {
+  std::string all;
+  for (const auto& [file, hash] : hashes_) all += file.string() + " " + hash + "\n";
+  return hash_of(all);
+}
+
+fs::path TransitionFunctions::add(const codegen::Stub& stub) {
+  const fs::path file = project_ / home(stub);
+  std::string text = content_of(file);
+  const SourceScan before = scan_source(text);
+  const auto end = before.ends.find(stub.space);
+  if (text.empty())
+    text = whole_file(stub);
+  else if (end != before.ends.end())
+    text.insert(end->second, stub.body + "\n");
+  else
+    text += (text.ends_with('\n') ? "\n" : "\n\n") + whole_file(stub);
+  write_file(file, text);
+  scans_[fs::canonical(file)] = scan_source(text);
+  hashes_[fs::canonical(file)] = hash_of(text);
+  return file;
+}
+
+namespace {
+
+std::string notes_of(const std::vector<TransitionFunctions::Place>& places, const codegen::Stub& stub) {
+  std::string text;
+  for (const auto& place : places)
+    text += fmt::format(
+        "{}:{}: note: a function '{}' is here in {}; that of {} belongs in the namespace {}\n",
+        place.file.string(), place.line, stub.function,
+        place.space.empty() ? "no namespace" : "the namespace " + place.space, stub.subsystem, stub.space);
+  return text;
+}
+
+/// A line of a linker names the symbol as a whole.
+bool names(std::string_view line, const std::string& symbol) {
+  for (std::size_t at = line.find(symbol); at != std::string_view::npos; at = line.find(symbol, at + 1)) {
+    const char before = at == 0 ? ' ' : line[at - 1];
+    if (std::isalnum(static_cast<unsigned char>(before)) == 0 && before != '_' && before != ':') return true;
+  }
+  return false;
+}
+
+bool has_any(std::string_view line, std::initializer_list<std::string_view> parts) {
+  return std::ranges::any_of(parts, [&](std::string_view part) { return line.find(part) != line.npos; });
+}
+
+/// GNU ld and gold, lld, mold.
+bool is_missing(std::string_view line) {
+  return has_any(line, {"undefined reference to", "undefined symbol"});
+}
+bool is_double(std::string_view line) {
+  return has_any(line, {"multiple definition of", "duplicate symbol"});
+}
+
+std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
+  std::string text;
+  for (const auto& place : functions.places(stub)) {
+    if (text.empty())
+      text = fmt::format("{}:{}: error: the function '{}' of {} is defined more than once\n",
+                         place.file.string(), place.line, stub.function, stub.subsystem);
+    else
+      text += fmt::format("{}:{}: note: here too\n", place.file.string(), place.line);
+  }
+  if (text.empty())
+    text = fmt::format("error: the function '{}' of {} is defined more than once\n", stub.function,
+                       stub.subsystem);
+  return text + "hint: keep one of them; every source in src/ is part of the controller\n";
+}
+
+}  // namespace
+
+std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
+  const fs::path home = functions.home(stub);
+  const bool is_new = !functions.knows(home);
+  return fmt::format(
+      "{}: error: {} has no function '{}'\n{}hint: add it (or run `tessera generate --stubs`):\n\n{}\n",
+      home.string(), stub.subsystem, stub.function, notes_of(functions.elsewhere(stub), stub),
+      is_new ? whole_file(stub) : stub.body);
+}
+
+std::string explain_build_errors(const std::string& text, const TransitionFunctions& functions) {
+  const std::vector<codegen::Stub>& all = functions.wanted();
+  std::set<std::size_t> missing, twice;
+  std::string rest;
+  bool more = false;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string_view line = std::string_view(text).substr(start, end - start);
+    start = end + 1;
+    bool explained = false;
+    for (std::size_t stub = 0; stub < all.size(); ++stub) {
+      if (!names(line, all[stub].space + "::" + all[stub].function + "(")) continue;
+      if (is_missing(line)) missing.insert(stub);
+      if (is_double(line)) twice.insert(stub);
+      explained = explained || is_missing(line) || is_double(line) || line.find("in function") != line.npos;
+    }
+    if (explained) continue;
+    rest += std::string(line) + "\n";
+    more = more || is_missing(line) || is_double(line) ||
+           (line.find("error:") != line.npos && line.find("ld returned") == line.npos);
+  }
+  std::string explanation;
+  if (missing.empty() && twice.empty()) {
+    for (const codegen::Stub& stub : all)
+      if (functions.places(stub).empty()) explanation += notes_of(functions.elsewhere(stub), stub);
+    return text + explanation;
+  }
+  for (const std::size_t stub : missing) explanation += missing_text(all[stub], functions);
+  for (const std::size_t stub : twice) explanation += twice_text(all[stub], functions);
+  return explanation + (more ? rest : "");
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "codegen/codegen.hpp"
+#include "project/build/source_scan.hpp"
+
+namespace tessera::project {
+
+/// What is known of the user's transition functions before a compiler has seen them: by the text of every
+/// source in src/, and of what these include by "...".
+///
+/// Threads: one at a time.
+class TransitionFunctions {
+ public:
+  /// wanted: all of them. Reads the sources; a project without src/ has none.
+  TransitionFunctions(std::filesystem::path project, std::vector<codegen::Stub> wanted);
+  [[nodiscard]] const std::vector<codegen::Stub>& wanted() const { return wanted_; }
+
+  enum class Presence : std::uint8_t {
+    defined,  ///< there it is
+    unclear,  ///< the text does not tell: the linker will
+    missing   ///< nothing there can be it
+  };
+  [[nodiscard]] Presence presence(const codegen::Stub& stub) const;
+
+  struct Place {
+    std::filesystem::path file;  ///< relative to the project, where it is in it
+    std::uint32_t line = 0;
+    std::string space;
+  };
+  /// Where it is defined.
+  [[nodiscard]] std::vector<Place> places(const codegen::Stub& stub) const;
+  /// Where functions of its name are defined in namespaces that are nobody's: most likely it was meant there.
+  [[nodiscard]] std::vector<Place> elsewhere(const codegen::Stub& stub) const;
+  /// The file where it would be added: where the others of its subsystem are, else that of the stub.
+  [[nodiscard]] std::filesystem::path home(const codegen::Stub& stub) const;
+  /// It is one of the sources.
+  [[nodiscard]] bool knows(const std::filesystem::path& file) const;
+
+  /// The same for the same sources.
+  [[nodiscard]] std::string identity() const;
+
+  /// Adds it to that file, in its namespace; makes the file if need be. Returns the file.
+  /// Throws std::runtime_error when it cannot be written.
+  std::filesystem::path add(const codegen::Stub& stub);
+
+ private:
+  void read(const std::filesystem::path& file);
+  [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
+
+  [[nodiscard]] bool is_wanted(const ScannedFunction& function) const;
+  std::filesystem::path project_;
+  std::vector<codegen::Stub> wanted_;
+  std::map<std::filesystem::path, SourceScan> scans_;
+  std::map<std::filesystem::path, std::string> hashes_;
+};
+
+/// "src/control.cpp: error: robot.control has no function 'rest'", what to write there, and what may be
+/// meant.
+[[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
+
+/// What compiler and linker say, with transition functions in terms of the project: those that are missing,
+/// those that are there twice, and those that may stand in the wrong namespace. What they say themselves
+/// follows as far as it says more.
+[[nodiscard]] std::string explain_build_errors(const std::string& text, const TransitionFunctions& functions);
+
+}  // namespace tessera::project

@@ -1,0 +1,85 @@
+#include "project/files/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "tessera/net_hash.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& file, int problem) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(problem)));
+}
+
+/// 0, or why it failed.
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+  static std::atomic<unsigned> number{0};
+  std::error_code problem;
+  const fs::path target = fs::is_symlink(file, problem) ? fs::weakly_canonical(file, problem) : file;
+  fs::create_directories(target.parent_path(), problem);
+  if (problem) fail(file, problem.value());
+  struct stat status {};
+  const bool exists = stat(target.c_str(), &status) == 0;
+  const fs::path beside =
+      target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(), getpid(), ++number);
+  unlink(beside.c_str());  // of an earlier process with our number
+  const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(file, errno);
+  int wrong = write_all(descriptor, text);
+  if (wrong == 0 && exists && fchmod(descriptor, status.st_mode & 07777U) != 0) wrong = errno;
+  if (close(descriptor) != 0 && wrong == 0) wrong = errno;
+  if (wrong == 0 && rename(beside.c_str(), target.c_str()) != 0) wrong = errno;
+  if (wrong == 0) return;
+  unlink(beside.c_str());
+  fail(file, wrong);
+}
+
+std::string hash_of(std::string_view text) {
+  NetHash hash;
+  hash.place(text, 0);
+  return hash.hex();
+}
+
+bool is_inside(const fs::path& folder, const fs::path& relative) {
+  if (relative.empty() || relative.is_absolute()) return false;
+  fs::path at = folder;
+  for (const fs::path& part : relative) {
+    if (part == "..") return false;
+    at /= part;
+    std::error_code ignored;
+    if (fs::symlink_status(at, ignored).type() == fs::file_type::symlink) return false;
+  }
+  return true;
+}
+
+}  // namespace tessera::project

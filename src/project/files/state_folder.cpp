@@ -1,0 +1,59 @@
+#include "project/files/state_folder.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "project/files/files.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_writable(const fs::path& folder) { return access(folder.c_str(), W_OK | X_OK) == 0; }
+
+/// What another user has made there stays out of our reach, all of it or in parts.
+bool own_folder_is_writable(const fs::path& project) {
+  const fs::path own = own_folder(project);
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(own, ignored))) return is_writable(project);
+  if (!is_writable(own)) return false;
+  for (const char* part :
+       {"generated", "build", "build/release", "build/debug", "programs", "runs", "verdicts"})
+    if (fs::exists(own / part, ignored) && !is_writable(own / part)) return false;
+  return true;
+}
+
+std::string value_of(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? std::string() : value;
+}
+
+}  // namespace
+
+fs::path own_folder(const fs::path& project) { return project / ".tessera"; }
+
+fs::path state_folder(const fs::path& project) {
+  const std::string name =
+      fmt::format("{}-{}", project.filename().string(), hash_of(project.string()).substr(0, 8));
+  if (const std::string given = value_of("TESSERA_STATE_DIR"); !given.empty())
+    return fs::absolute(given) / name;
+  if (own_folder_is_writable(project)) return own_folder(project);
+  if (const std::string service = value_of("STATE_DIRECTORY"); !service.empty())
+    return fs::path(service.substr(0, service.find(':'))) / name;
+  if (const std::string xdg = value_of("XDG_STATE_HOME"); !xdg.empty())
+    return fs::path(xdg) / "tessera" / name;
+  if (const std::string home = value_of("HOME"); !home.empty())
+    return fs::path(home) / ".local/state/tessera" / name;
+  throw std::runtime_error(
+      fmt::format("{} cannot be written to, and there is no other place for what Tessera makes: set "
+                  "TESSERA_STATE_DIR, or use --state DIR",
+                  project.string()));
+}
+
+}  // namespace tessera::project

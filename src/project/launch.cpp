@@ -1,0 +1,232 @@
+#include "project/launch.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+#include "project/files/installation.hpp"
+#include "project/verification/verdicts.hpp"
+#include "sim/track.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+RunFiles run_files(const LaunchOptions& options) {
+  const fs::path folder = fs::absolute(options.folder);
+  return {options.record.empty() ? folder / "recording.tsr" : fs::absolute(options.record),
+          folder / "path.csv", folder / "summary.json"};
+}
+
+namespace {
+
+fs::path asset(const std::string& name, const fs::path& project, const std::string& folder) {
+  std::optional<fs::path> found = find_asset(name, project, folder);
+  if (!found)
+    throw std::runtime_error(
+        fmt::format("there is no {} in {} nor among the shipped {}", name, project.string(), folder));
+  return *found;
+}
+
+void flatten_parameters(const YAML::Node& node, const std::string& path, std::vector<std::string>& out) {
+  if (node.IsMap()) {
+    for (const auto& entry : node)
+      flatten_parameters(entry.second,
+                         path.empty() ? entry.first.Scalar() : path + "." + entry.first.Scalar(), out);
+  } else if (node.IsScalar()) {
+    out.push_back(path + "=" + node.Scalar());
+  } else if (!node.IsNull()) {
+    throw std::runtime_error(path + " is not a value");
+  }
+}
+
+// PATH=VALUE of every entry; nested maps and dotted paths mean the same.
+std::vector<std::string> parameters_of(const Specification& specification, const LaunchOptions& options) {
+  const fs::path file =
+      options.parameters.empty() ? specification.project / "params.yaml" : fs::path(options.parameters);
+  if (options.parameters.empty() && !fs::exists(file)) return {};
+  std::vector<std::string> values;
+  try {
+    flatten_parameters(YAML::LoadFile(file.string()), "", values);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  return values;
+}
+
+void append(Command& command, std::initializer_list<std::string> words) {
+  command.insert(command.end(), words);
+}
+
+void add_drivers(Command& command, const spec::Model& model) {
+  for (const spec::Driver& driver : model.simulation->drivers) {
+    if (driver.kind == "cpp") continue;
+    std::string value = fmt::format("{}={}:{}", model.driver_path(driver), driver.kind, driver.target);
+    for (const auto& [name, option] : driver.options)
+      value += fmt::format(",{}={}", name, std::get<double>(option.value));
+    append(command, {"--driver", value});
+  }
+}
+
+// "robot.motor.left" is in "robot.motor".
+bool is_in(std::string_view path, std::string_view name) {
+  return path.starts_with(name) && (path.size() == name.size() || path[name.size()] == '.');
+}
+
+std::string pose_text(double x_m, double y_m, double heading_rad) {
+  return fmt::format("{},{},{}", x_m, y_m, heading_rad * 180 / std::numbers::pi);
+}
+
+std::string start_on_line(const Floor& floor) {
+  std::string error;
+  const std::optional<sim::Track> track =
+      sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
+  if (!track) throw std::runtime_error(error);
+  const std::optional<sim::Pose> start = sim::start_on(sim::skeleton(*track));
+  if (!start)
+    throw std::runtime_error("there is no line to start on in " + floor.image.string() + "; name --start");
+  return pose_text(start->at.x_m, start->at.y_m, start->heading_rad);
+}
+
+// The start pose of the specification belongs to its own track. On another one, the robot starts on the line.
+std::string start_pose(const spec::Simulation& simulation, const Floor& floor, const LaunchOptions& options) {
+  if (!options.start.empty()) return options.start;
+  if (!options.track.empty() || !simulation.track->start_x_m) return start_on_line(floor);
+  return pose_text(*simulation.track->start_x_m, *simulation.track->start_y_m,
+                   simulation.track->start_heading_rad.value_or(0));
+}
+
+void add_floor(Command& command, const spec::Simulation& simulation, const Floor& floor,
+               const LaunchOptions& options) {
+  append(command,
+         {"--track", floor.image.string(), "--metres-per-pixel", fmt::format("{}", floor.metres_per_pixel),
+          "--start=" + start_pose(simulation, floor, options)});
+  if (simulation.track) append(command, {"--footprint", fmt::format("{}", simulation.track->footprint_m)});
+}
+
+void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
+  const spec::Simulation& simulation = *specification.model.simulation;
+  if (simulation.world.empty() && options.world.empty()) return;  // its drivers are C++ classes
+  append(command,
+         {"--world",
+          asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds")
+              .string(),
+          "--world-library", Installation::find().world_library.string()});
+  if (const std::optional<Floor> floor = floor_of(specification, options))
+    add_floor(command, simulation, *floor, options);
+  append(command, {"--trace", run_files(options).trace.string()});
+  add_drivers(command, specification.model);
+}
+
+// Those that a run of this kind has no driver for.
+std::vector<std::string> missing_drivers(const spec::Model& model, const LaunchOptions& options,
+                                         bool simulated) {
+  const std::vector<std::string> without_real = model.without_driver(model.drivers);
+  if (!simulated) return without_real;
+  const auto is_hardware = [&](const std::string& buffer) {
+    return std::ranges::any_of(options.hardware,
+                               [&](const std::string& name) { return is_in(buffer, name); }) &&
+           std::ranges::find(without_real, buffer) == without_real.end();
+  };
+  std::vector<std::string> missing =
+      model.without_driver(model.simulation ? model.simulation->drivers : std::vector<spec::Driver>());
+  std::erase_if(missing, is_hardware);
+  return missing;
+}
+
+std::string hint_for(const std::string& buffer, const spec::Model& model, bool simulated) {
+  if (!simulated)
+    return fmt::format(
+        "hint: name a class of src/drivers.hpp under `drivers:` of the specification, for example\n"
+        "      {}: {{ cpp: Motor }}\n",
+        buffer);
+  std::string hint = fmt::format(
+      "hint: name a part of the world or a class of src/drivers.hpp under `drivers:` of `simulation:`, for "
+      "example\n"
+      "      {}: {{ cpp: SimulatedMotor }}\n",
+      buffer);
+  if (const auto without = model.without_driver(model.drivers);
+      std::ranges::find(without, buffer) == without.end())
+    hint += fmt::format("      A simulation never opens real drivers, unless --hardware {} asks for it.\n",
+                        buffer);
+  return hint;
+}
+
+}  // namespace
+
+std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options) {
+  const std::optional<spec::Simulation>& simulation = specification.model.simulation;
+  const spec::Track* track = simulation && simulation->track ? &*simulation->track : nullptr;
+  Floor floor;
+  if (track != nullptr) floor.metres_per_pixel = track->metres_per_pixel;
+  if (options.metres_per_pixel > 0) floor.metres_per_pixel = options.metres_per_pixel;
+  if (!options.track.empty())
+    floor.image = asset(options.track, options.base, "tracks");
+  else if (track != nullptr)
+    floor.image = asset(track->image, specification.project, "tracks");
+  else
+    return std::nullopt;
+  return floor;
+}
+
+std::vector<std::string> parameter_values(const Specification& specification, const LaunchOptions& options) {
+  std::vector<std::string> values = parameters_of(specification, options);
+  values.insert(values.end(), options.set.begin(), options.set.end());
+  return values;
+}
+
+bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener) {
+  struct : Listener {
+    void say(std::string_view) override {}
+    void progress(std::string_view) override {}
+  } nobody;  // who builds the specification hears what is wrong with it
+  const std::optional<Specification> specification = read(options.spec, nobody);
+  if (!specification) return true;
+  const std::vector<std::string> missing = missing_drivers(specification->model, options, simulated);
+  for (const std::string& buffer : missing)
+    listener.complain(
+        fmt::format("the real buffer {} has no {}driver", buffer, simulated ? "simulated " : ""));
+  if (!missing.empty()) listener.say(hint_for(missing.front(), specification->model, simulated));
+  return missing.empty();
+}
+
+Command controller_command(const Controller& controller, const LaunchOptions& options,
+                           const std::string& mode, bool simulated) {
+  const Specification& specification = controller.specification;
+  const RunFiles files = run_files(options);
+  Command command{controller.program.string(),
+                  mode,
+                  "--record",
+                  files.recording.string(),
+                  "--record-values",
+                  options.record_values,
+                  "--summary",
+                  files.summary.string(),
+                  "--seed",
+                  std::to_string(options.seed)};
+  if (options.progress) command.push_back("--progress");
+  const std::string limit =
+      options.record_limit.empty() && mode == "run" ? usual_record_limit : options.record_limit;
+  if (!limit.empty() && limit != "none") append(command, {"--record-limit", limit});
+  if (options.accept_stuck) command.push_back("--accept-stuck");
+  if (!options.duration.empty()) append(command, {"--for", options.duration});
+  for (const std::string& value : parameter_values(specification, options)) append(command, {"--set", value});
+  for (const std::string& fault : options.inject) append(command, {"--inject", fault});
+  for (const std::string& path : options.hardware) append(command, {"--hardware", path});
+  if (simulated && mode == "run") command.push_back("--simulated");
+  if (simulated && specification.model.simulation) add_world(command, specification, options);
+  return command;
+}
+
+fs::path death_note(const RunFiles& files) { return files.summary.parent_path() / "death.txt"; }
+
+Command attended(Command command, const fs::path& note) {
+  append(command, {"--death-note", note.string(), "--parent", std::to_string(getpid())});
+  return command;
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,240 @@
+#include "project/process/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "tessera/signals.hpp"
+
+namespace tessera::project {
+
+namespace {
+
+volatile std::sig_atomic_t child_pid = 0, asked_to_suspend = 0;
+
+extern "C" void pass_on(int signal) {
+  if (signal == SIGTSTP) asked_to_suspend = 1;
+  if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
+}
+
+/// While it lives, the signals that would end or stop us go to the child, which decides what to do about
+/// them. They are held back until it is known: one that came just after its start would end us, and the
+/// child, which drives a robot, would run on alone. One that somebody handles or ignores already (nohup) is
+/// left to them.
+class SignalsToChild {
+ public:
+  SignalsToChild() {
+    sigset_t all;
+    sigemptyset(&all);
+    for_handled_signals([&](int signal, SignalUse use) {
+      if (use != SignalUse::ignore) sigaddset(&all, signal);
+    });
+    pthread_sigmask(SIG_BLOCK, &all, &mask_);
+  }
+  ~SignalsToChild() {
+    if (child_pid == 0) {
+      pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+      return;
+    }
+    for (const Before& before : before_) sigaction(before.signal, &before.action, nullptr);
+    child_pid = 0;
+  }
+  SignalsToChild(const SignalsToChild&) = delete;
+  SignalsToChild& operator=(const SignalsToChild&) = delete;
+
+  void are_for(pid_t child) {
+    asked_to_suspend = 0;
+    child_pid = static_cast<std::sig_atomic_t>(child);
+    for_handled_signals([&](int signal, SignalUse use) {
+      Before before{signal, {}};
+      const bool always = signal == SIGINT || signal == SIGTERM;
+      if (sigaction(signal, nullptr, &before.action) != 0) return;
+      const bool usual = (before.action.sa_flags & SA_SIGINFO) == 0 && before.action.sa_handler == SIG_DFL;
+      if (!usual && !always) return;
+      struct sigaction action {};
+      action.sa_handler = use == SignalUse::ignore ? SIG_IGN : pass_on;
+      sigaction(signal, &action, nullptr);
+      before_.push_back(before);
+    });
+    pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  }
+
+ private:
+  struct Before {
+    int signal;
+    struct sigaction action;
+  };
+  sigset_t mask_{};
+  std::vector<Before> before_;
+};
+
+pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool own_group = false) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  // Whoever waits for signals blocks them; a program that was started must hear them all the same.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(
+      &attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | (own_group ? POSIX_SPAWN_SETPGROUP : 0)));
+  pid_t child = 0;
+  const int problem = posix_spawnp(&child, arguments[0], actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (problem != 0)
+    throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(problem)));
+  return child;
+}
+
+/// The reading end of what a child prints.
+class Output {
+ public:
+  Output(const Command& command, bool own_group) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+    descriptor_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    if (own_group) posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    try {
+      child_ = start(command, &actions, own_group);
+    } catch (...) {
+      posix_spawn_file_actions_destroy(&actions);
+      close(ends[0]);
+      close(ends[1]);
+      throw;
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+  }
+  ~Output() { close(descriptor_); }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  [[nodiscard]] pid_t child() const { return child_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] std::string& text() { return text_; }
+
+  /// false: there is no more.
+  [[nodiscard]] bool read_on(const std::function<void(std::string_view)>& each_line) {
+    std::array<char, 4096> buffer{};
+    const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) return true;
+    if (count <= 0) return false;
+    text_.append(buffer.data(), static_cast<std::size_t>(count));
+    for (std::size_t end = 0; each_line && (end = text_.find('\n', line_start_)) != std::string::npos;
+         line_start_ = end + 1)
+      each_line(std::string_view(text_).substr(line_start_, end - line_start_));
+    return true;
+  }
+  void forget_all_but(std::size_t kept) {
+    if (text_.size() < 2 * kept) return;
+    const std::size_t gone = text_.size() - kept;
+    text_.erase(0, gone);
+    line_start_ -= std::min(line_start_, gone);
+  }
+
+ private:
+  pid_t child_ = 0;
+  int descriptor_ = -1;
+  std::string text_;
+  std::size_t line_start_ = 0;
+};
+
+/// After Ctrl-Z we stop when it has stopped, and it goes on with us. Where it alone is stopped (kill -STOP, a
+/// debugger) we wait: whoever continues it knows nothing of us.
+int wait_for(pid_t child) {
+  int status = 0;
+  for (bool stopped = false;;) {
+    const pid_t changed = waitpid(child, &status, WUNTRACED | WCONTINUED);
+    if (changed < 0 && errno != EINTR) break;
+    if (changed > 0 && !WIFSTOPPED(status) && !WIFCONTINUED(status)) break;
+    if (changed > 0) stopped = WIFSTOPPED(status);
+    if (!stopped || asked_to_suspend == 0) continue;
+    asked_to_suspend = 0;
+    raise(SIGSTOP);
+    kill(child, SIGCONT);
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+Exit run(const Command& command) {
+  SignalsToChild signals;
+  const pid_t child = start(command, nullptr);
+  signals.are_for(child);
+  return {wait_for(child), {}};
+}
+
+Exit capture(const Command& command, const std::function<void(std::string_view)>& each_line) {
+  SignalsToChild signals;
+  Output output(command, /*own_group=*/false);
+  signals.are_for(output.child());
+  while (output.read_on(each_line)) {
+  }
+  return {wait_for(output.child()), std::move(output.text())};
+}
+
+Exit capture_apart(const Command& command, const std::atomic<bool>& stop,
+                   const std::function<void(std::string_view)>& each_line,
+                   const std::function<void(pid_t)>& started) {
+  constexpr std::size_t kept = std::size_t{64} << 10U;
+  constexpr auto patience = std::chrono::seconds(5);
+  using Clock = std::chrono::steady_clock;
+  Output output(command, /*own_group=*/true);
+  if (started) started(output.child());
+  std::optional<Clock::time_point> asked;
+  bool killed = false;
+  for (;;) {
+    pollfd source{.fd = output.descriptor(), .events = POLLIN, .revents = 0};
+    if (poll(&source, 1, 100) > 0 && !output.read_on(each_line)) break;
+    output.forget_all_but(kept);
+    if (!asked && stop.load(std::memory_order_relaxed)) {
+      asked = Clock::now();
+      kill(-output.child(), SIGINT);
+    }
+    if (asked && !killed && Clock::now() - *asked > patience) {
+      killed = true;
+      kill(-output.child(), SIGKILL);
+    }
+  }
+  return {wait_for(output.child()), std::move(output.text())};
+}
+
+std::string shell_line(const Command& command) {
+  std::string line;
+  for (const std::string& word : command) {
+    if (!line.empty()) line += ' ';
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[](){}<>|&;#~!") == std::string::npos;
+    if (plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char character : word)
+      line += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,161 @@
+#include "project/verification/pipeline.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "diagnostics/source.hpp"
+#include "layers/closed_pair.hpp"
+#include "layers/layers.hpp"
+#include "layers/properties.hpp"
+#include "net/flatten.hpp"
+#include "project/files/assets.hpp"
+#include "project/process/listener.hpp"
+#include "project/verification/verdicts.hpp"
+#include "project/verification/violation.hpp"
+#include "spec/parser.hpp"
+#include "verify/communication/model_soundness.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+fs::path spec_file(const fs::path& given) {
+  fs::path inside = given / "spec.yaml";
+  return fs::exists(inside) ? inside : given;
+}
+
+std::optional<Specification> read(const fs::path& given, Listener& listener) {
+  const fs::path file = spec_file(given);
+  diagnostics::Diagnostics diagnostics = diagnostics::load(file);
+  std::optional<spec::Model> model;
+  if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
+  listener.say(diagnostics);
+  if (!model) return std::nullopt;
+  const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+  return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
+}
+
+namespace {
+
+/// A verdict on a default property must never be taken for one on the author's, or the other way round.
+bool names_are_free(const spec::Model& model, diagnostics::Diagnostics& out) {
+  bool free = true;
+  for (const spec::Property& property : model.properties) {
+    if (std::ranges::count(verify::default_properties(), property.name) == 0) continue;
+    out.error("E106", property.span, fmt::format("the property name '{}' is taken", property.name),
+              "a property of that name is judged in every system; choose another name");
+    free = false;
+  }
+  return free;
+}
+
+}  // namespace
+
+std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out) {
+  const bool free = names_are_free(model, out);
+  std::optional<net::HierarchicalNet> pages = layers::build(model, out);
+  std::optional<net::Net> flat;
+  if (pages) flat = net::flatten(*pages, out);
+  std::optional<std::vector<net::Property>> properties;
+  if (flat) properties = layers::properties(model, *pages, *flat, out);
+  if (!properties || !free) return std::nullopt;
+  return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
+}
+
+std::optional<Nets> build(const Specification& specification, Listener& listener) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  std::optional<Nets> nets = build(specification.model, found);
+  listener.say(found);
+  return nets;
+}
+
+bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
+  bool sound = true;
+  for (const spec::CommunicationModel& one : model.models) {
+    const layers::ClosedPair pair = layers::closed_pair(one);
+    sound = verify::judge_model({pair.net, pair.sends_again, pair.receives_again, one.name, one.span}, out) &&
+            sound;
+  }
+  return sound;
+}
+
+bool models_are_sound(const Specification& specification, Listener& listener) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  const bool sound = judge_models(specification.model, found);
+  listener.say(found);
+  return sound;
+}
+
+bool files_are_there(const Specification& specification, Listener& listener) {
+  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  const bool there = check_files(specification.model, specification.project, found);
+  listener.say(found);
+  return there;
+}
+
+const char* name_of(verify::Verdict verdict) {
+  switch (verdict) {
+    case verify::Verdict::holds:
+      return "holds";
+    case verify::Verdict::violated:
+      return "violated";
+    case verify::Verdict::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+namespace {
+
+std::string list_of(const std::vector<const verify::PropertyResult*>& properties) {
+  std::string names;
+  for (const verify::PropertyResult* property : properties)
+    names += (names.empty() ? "" : ", ") + property->name;
+  return names;
+}
+
+std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& report,
+                                                        verify::Verdict verdict) {
+  std::vector<const verify::PropertyResult*> found;
+  for (const verify::PropertyResult& property : report.properties)
+    if (property.verdict == verdict && !property.warning) found.push_back(&property);
+  return found;
+}
+
+/// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
+bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given,
+            Listener& listener) {
+  for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))
+    listener.warn(fmt::format("{} is unknown: {}", property->name, property->why));
+  const auto violated = with_verdict(report, verify::Verdict::violated);
+  if (violated.empty()) return true;
+  if (gate.accept_violations) {
+    listener.warn(list_of(violated) + " violated, and accepted");
+    return true;
+  }
+  listener.say(text_of(nets.flat, *violated.front()));
+  listener.complain(fmt::format("no controller is made of a net that violates {}", list_of(violated)));
+  listener.say(fmt::format(
+      "hint: `tessera verify {}` shows every violation; --accept-violations makes the controller all "
+      "the same\n",
+      given.string()));
+  return false;
+}
+
+}  // namespace
+
+std::optional<Verified> walk(const fs::path& given, const Gate& gate, Listener& listener) {
+  std::optional<Specification> specification = read(given, listener);
+  if (!specification || !models_are_sound(*specification, listener)) return std::nullopt;
+  std::optional<Nets> nets = build(*specification, listener);
+  if (!nets) return std::nullopt;
+  verify::Report report = verdicts(*specification, *nets, gate, listener);
+  if (!passes(*nets, report, gate, given, listener)) return std::nullopt;
+  std::optional<verify::VerifiedNet> verified = verify::accept(
+      std::move(nets->flat), std::move(report), {.unknown = true, .violated = gate.accept_violations});
+  if (!verified) return std::nullopt;
+  return Verified{std::move(*specification), std::move(*verified)};
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,112 @@
+#include "project/verification/run_files.hpp"
+
+#include "project/verification/pipeline.hpp"
+#include "project/verification/violation.hpp"
+#include "verify/counterexample/narrative.hpp"
+#include "verify/counterexample/waits.hpp"
+
+namespace tessera::project {
+
+namespace {
+
+using nlohmann::json;
+
+json names_of(const net::Net& net, std::span<const net::Arc> arcs) {
+  json names = json::array();
+  for (const net::Arc& arc : arcs)
+    for (std::uint32_t token = 0; token < arc.weight; ++token) names.push_back(net[arc.place].name);
+  return names;
+}
+
+}  // namespace
+
+json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
+                  const std::vector<net::TransitionId>& run) {
+  const std::vector<std::string> subsystems = verify::subsystem_names(net);
+  json firings = json::array();
+  for (const net::TransitionId id : run) {
+    const net::Transition& transition = net[id];
+    json firing{{"transition", transition.name},
+                {"takes", names_of(net, net.preset(id))},
+                {"gives", names_of(net, net.postset(id))}};
+    if (transition.subsystem < subsystems.size()) firing["subsystem"] = subsystems[transition.subsystem];
+    if (pages != nullptr && transition.page.valid()) firing["page"] = pages->path(transition.page);
+    if (transition.span.line > 0) firing["line"] = transition.span.line;
+    firings.push_back(std::move(firing));
+  }
+  return firings;
+}
+
+json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  json story = json::array();
+  for (const verify::Act& act : verify::narrate(net, run))
+    story.push_back(
+        {{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}, {"line", act.line}});
+  return story;
+}
+
+json behaviours_json(const verify::PropertyResult& property) {
+  json behaviours = json::array();
+  for (const verify::PropertyResult::Behaviour& one : property.behaviours)
+    behaviours.push_back({{"path", one.path}, {"line", one.line}});
+  return behaviours;
+}
+
+json report_json(const net::Net& net, const net::HierarchicalNet* pages, const verify::Report& report) {
+  json properties = json::array();
+  for (const verify::PropertyResult& property : report.properties) {
+    json one{{"name", property.name},
+             {"asks", property.asks},
+             {"verdict", name_of(property.verdict)},
+             {"method", property.method},
+             {"why", property.why},
+             {"meaning", property.meaning},
+             {"explanation", property.explanation},
+             {"seconds", property.seconds},
+             {"states", property.states},
+             {"warning", property.warning},
+             {"waits", property.waits},
+             {"behaviours", behaviours_json(property)},
+             {"trace", nullptr}};
+    if (property.has_trace) one["trace"] = firings_json(net_of_run(net, property), pages, property.trace);
+    properties.push_back(std::move(one));
+  }
+  return {{"properties", properties},
+          {"net_hash", report.net_hash},
+          {"verification_hash", report.verification_hash}};
+}
+
+json traces_json(const std::string& file, const net::Net& net, const net::HierarchicalNet* pages,
+                 const verify::Report& report) {
+  json traces = json::array();
+  for (const verify::PropertyResult& property : report.properties) {
+    if (!property.has_trace) continue;
+    const net::Net its_net = net_of_run(net, property);
+    json trace{{"property", property.name},
+               {"verdict", name_of(property.verdict)},
+               {"method", property.method},
+               {"why", property.why},
+               {"exceptions", property.exceptions},
+               {"firings", firings_json(its_net, pages, property.trace)},
+               {"end", marked_after(its_net, property.trace, false)},
+               {"channels", marked_after(its_net, property.trace, true)},
+               {"waits", property.waits}};
+    if (pages != nullptr) trace["story"] = story_json(its_net, property.trace);
+    traces.push_back(std::move(trace));
+  }
+  json initial = json::array();
+  for (const net::Place& place : net.places())
+    for (std::uint32_t token = 0; token < place.tokens; ++token) initial.push_back(place.name);
+  return {{"net", file}, {"net_hash", report.net_hash}, {"initial", initial}, {"traces", traces}};
+}
+
+json scenario_json(const net::Net& net, const verify::Report& report,
+                   const verify::PropertyResult& property) {
+  const net::Net its_net = net_of_run(net, property);
+  json firings = json::array();
+  for (const net::TransitionId id : property.trace) firings.push_back(its_net[id].name);
+  return {{"scenario", 1},       {"net_hash", report.net_hash}, {"property", property.name},
+          {"why", property.why}, {"firings", firings},          {"waits", property.waits}};
+}
+
+}  // namespace tessera::project

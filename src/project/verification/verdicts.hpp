@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "project/verification/pipeline.hpp"
+
+/// The verdicts that a controller is made on: proved once, kept in the state folder for the next time.
+namespace tessera::project {
+
+/// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.
+[[nodiscard]] double seconds_of(const std::string& text, const std::string& option);
+
+/// The verdicts on a net made by build: those kept for it, if there are any that took no less time over what
+/// is unknown, or new ones. A file of kept verdicts that cannot be read or written counts for nothing.
+[[nodiscard]] verify::Report verdicts(const Specification& specification, const Nets& nets, const Gate& gate,
+                                      Listener& listener);
+
+}  // namespace tessera::project

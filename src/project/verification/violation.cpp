@@ -1,0 +1,124 @@
+#include "project/verification/violation.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
+#include "explore/explore.hpp"
+#include "project/verification/pipeline.hpp"
+#include "verify/communication/abstraction.hpp"
+#include "verify/counterexample/narrative.hpp"
+
+namespace tessera::project {
+
+namespace {
+
+constexpr std::size_t shown_steps = 60, shown_channels = 20;
+
+/// Of long lists, the end: that is where it goes wrong.
+std::string left_out(std::size_t count, const char* what) {
+  return count == 0 ? std::string()
+                    : fmt::format("    ... {} {}, all of them with --trace FILE\n", count, what);
+}
+
+std::string told(const std::vector<verify::Act>& acts) {
+  const std::size_t first = acts.size() - std::min(acts.size(), shown_steps);
+  std::size_t widest = 0;
+  for (const verify::Act& act : acts) widest = std::max(widest, act.who.size());
+  std::string text = left_out(first, "steps");
+  for (std::size_t index = first; index < acts.size(); ++index) {
+    const verify::Act& act = acts[index];
+    const std::string numbers =
+        act.first == act.last ? fmt::format("{}", act.first) : fmt::format("{}-{}", act.first, act.last);
+    text += fmt::format("  {:>7}  {:<{}}  {}{}\n", numbers, act.who, widest, act.text,
+                        act.line > 0 ? fmt::format("  [line {}]", act.line) : "");
+  }
+  return text;
+}
+
+std::string listed(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  const std::size_t first = run.size() - std::min(run.size(), shown_steps);
+  std::string text = left_out(first, "firings");
+  for (std::size_t index = first; index < run.size(); ++index)
+    text += fmt::format("    {:3} {}\n", index + 1, net[run[index]].name);
+  return text;
+}
+
+bool of_layers(const net::Net& net) {
+  return std::ranges::any_of(net.places(),
+                             [](const net::Place& place) { return place.subsystem != net::no_subsystem; });
+}
+
+}  // namespace
+
+net::Net net_of_run(const net::Net& judged, const verify::PropertyResult& property) {
+  return verify::abstract_net(judged,
+                              property.exceptions ? verify::Assume::exceptions : verify::Assume::conditions);
+}
+
+std::vector<std::string> marked_after(const net::Net& net, const std::vector<net::TransitionId>& run,
+                                      bool only_channels) {
+  std::vector<std::string> names;
+  const std::optional<explore::Marking> end = explore::replay(explore::PtNet(net), run);
+  if (!end) return names;
+  for (std::uint32_t place = 0; place < net.places().size(); ++place)
+    if ((*end)[place] > 0 && (net.places()[place].fused() || !only_channels))
+      names.push_back(net.places()[place].name);
+  return names;
+}
+
+namespace {
+
+/// The places of channels that a run marks in the end, of those channels that somebody in it uses.
+std::vector<std::string> channels_after(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  std::set<std::uint32_t> acting, used;
+  for (const net::TransitionId id : run) acting.insert(net[id].subsystem);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    if (net[id].subsystem == net::no_subsystem || !acting.contains(net[id].subsystem)) continue;
+    for (const auto arcs : {net.preset(id), net.postset(id)})
+      for (const net::Arc& arc : arcs)
+        if (net[arc.place].fused()) used.insert(arc.place.value);
+  }
+  std::vector<std::string> names;
+  const std::optional<explore::Marking> end = explore::replay(explore::PtNet(net), run);
+  if (!end) return names;
+  for (const std::uint32_t place : used)
+    if ((*end)[place] > 0) names.push_back(net.places()[place].name);
+  return names;
+}
+
+}  // namespace
+
+std::string headline(const verify::PropertyResult& property) {
+  const bool holds = property.verdict == verify::Verdict::holds;
+  // What the waits say is not said twice.
+  const bool said = std::ranges::any_of(
+      property.waits, [&](const std::string& wait) { return property.why.find(wait) != std::string::npos; });
+  return fmt::format("{}{}: {} ({}{}{})\n", property.warning && !holds ? "warning: " : "", property.name,
+                     name_of(property.verdict), property.method, property.why.empty() || said ? "" : ": ",
+                     said ? "" : property.why);
+}
+
+std::string run_text(const net::Net& judged, const verify::PropertyResult& property) {
+  const net::Net net = net_of_run(judged, property);
+  if (property.trace.empty()) return "  it is so from the start\n";
+  std::string text = fmt::format("  a run of {} firing{} shows it:\n", property.trace.size(),
+                                 property.trace.size() == 1 ? "" : "s");
+  text += of_layers(net) ? told(verify::narrate(net, property.trace)) : listed(net, property.trace);
+  const std::vector<std::string> channels = channels_after(net, property.trace);
+  if (!channels.empty()) text += "  channels at the end:\n";
+  for (std::size_t index = 0; index < std::min(channels.size(), shown_channels); ++index)
+    text += "    " + channels[index] + "\n";
+  return text + (channels.size() > shown_channels ? left_out(channels.size() - shown_channels, "more") : "");
+}
+
+std::string text_of(const net::Net& judged, const verify::PropertyResult& property) {
+  std::string text = headline(property);
+  for (const std::string& wait : property.waits) text += "  " + wait + "\n";
+  if (property.has_trace && !property.warning) text += run_text(judged, property);
+  return text;
+}
+
+}  // namespace tessera::project

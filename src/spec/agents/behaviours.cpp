@@ -1,0 +1,198 @@
+#include "spec/agents/behaviours.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/agents/conditions.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// Names that stand beside the transition functions in the generated code.
+constexpr std::array generated =
+    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
+
+constexpr const char* next_hint = "write a behaviour, or a list such as [{ to: search, when: error }, end]";
+
+bool holds(const std::vector<Field>& fields, std::string_view name) {
+  return std::any_of(fields.begin(), fields.end(), [name](const Field& field) { return field.name == name; });
+}
+
+/// Reads the behaviours of one subsystem; they may name one another before they come.
+class BehaviourReader {
+ public:
+  BehaviourReader(const std::vector<Entry>& entries, const std::vector<Field>& inputs,
+                  const std::vector<Field>& outputs, Diagnostics& out)
+      : entries_(entries), inputs_(inputs), outputs_(outputs), out_(out) {
+    for (Index i = 0; i < entries_.size(); ++i) {
+      check(entries_[i]);
+      by_name_.emplace(entries_[i].key, i);
+    }
+  }
+
+  std::vector<Behaviour> read() {
+    std::vector<Behaviour> behaviours;
+    behaviours.reserve(entries_.size());
+    for (const Entry& entry : entries_) behaviours.push_back(read_one(entry));
+    return behaviours;
+  }
+
+ private:
+  void check(const Entry& entry) {
+    if (entry.key == "end") {
+      out_.error("E106", entry.span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
+    } else if (std::find(generated.begin(), generated.end(), entry.key) != generated.end()) {
+      out_.error("E106", entry.span,
+                 "behaviour name " + quoted(entry.key) + " is taken by the generated code");
+    } else {
+      check_name(entry.key, entry.span, "behaviour", out_);
+    }
+  }
+
+  Behaviour read_one(const Entry& entry) {
+    const Section section(*entry.value, entry.span, "a behaviour",
+                          {"terminal", "error", "next", "send", "receive", "transfer", "takes"}, out_);
+    Behaviour behaviour;
+    behaviour.name = entry.key;
+    behaviour.span = entry.span;
+    behaviour.terminal = read_condition(section.find("terminal"), out_);
+    behaviour.error = read_condition(section.find("error"), out_);
+    check_distinct_names(behaviour);
+    read_next(section.find("next"), behaviour);
+    behaviour.send = read_buffers(section.find("send"), outputs_, inputs_, "output");
+    behaviour.receive = read_buffers(section.find("receive"), inputs_, outputs_, "input");
+    behaviour.transfer = read_transfer(section.find("transfer"));
+    if (const Entry* takes = section.find("takes")) {
+      behaviour.takes = read_duration(*takes->value, takes->span, "takes", out_).value_or(Duration{1});
+    }
+    return behaviour;
+  }
+
+  void check_distinct_names(const Behaviour& behaviour) {
+    for (const Expression& error : behaviour.error.expressions) {
+      for (const Expression& terminal : behaviour.terminal.expressions) {
+        if (error.name.empty() || error.name != terminal.name) continue;
+        out_.error("E107", error.span, "condition " + quoted(error.name) + " is both terminal and error",
+                   "'when: " + error.name + "' could mean either; rename one");
+      }
+    }
+  }
+
+  void read_next(const Entry* entry, Behaviour& behaviour) {
+    if (entry == nullptr) {
+      behaviour.next.push_back({none, {}, behaviour.span});
+      return;
+    }
+    behaviour.next_given = true;
+    if (!entry->value->is_sequence()) {
+      read_step(*entry->value, entry->span, behaviour);
+      return;
+    }
+    if (entry->value->items.empty()) out_.error("E104", entry->span, "'next' lists nothing", next_hint);
+    for (const Node* item : entry->value->items)
+      read_step(*item, item->is_null() ? entry->span : item->span, behaviour);
+  }
+
+  void read_step(const Node& node, Span at, Behaviour& behaviour) {
+    Next step{none, {}, at};
+    if (node.is_map()) {
+      const Section section(node, at, "an entry of 'next'", {"to", "when"}, out_);
+      const Entry* to = section.require("to", next_hint);
+      if (to != nullptr) read_target(*to->value, to->span, step);
+      if (const Entry* when = section.find("when")) step.when = read_when(*when, behaviour, out_);
+    } else {
+      read_target(node, at, step);
+    }
+    behaviour.next.push_back(std::move(step));
+  }
+
+  void read_target(const Node& node, Span at, Next& step) {
+    const Node* text = text_of(node, at, "an entry of 'next'", out_, next_hint);
+    if (text == nullptr) return;
+    step.span = text->span;
+    if (text->text == "end") return;
+    const auto found = by_name_.find(text->text);
+    if (found != by_name_.end()) {
+      step.behaviour = found->second;
+      return;
+    }
+    std::vector<std::string> names{"end"};
+    for (const auto& [name, index] : by_name_) names.push_back(name);
+    std::sort(names.begin(), names.end());
+    out_.error("E101", text->span, "unknown behaviour " + quoted(text->text),
+               diagnostics::did_you_mean(text->text, names));
+  }
+
+  std::optional<std::vector<Index>> read_buffers(const Entry* entry, const std::vector<Field>& buffers,
+                                                 const std::vector<Field>& others, const std::string& what) {
+    if (entry == nullptr) return std::nullopt;
+    std::vector<Index> listed;
+    for (const Node* item : items_of(*entry->value, entry->span, quoted(entry->key), out_)) {
+      const Node* text = text_of(*item, entry->span, "an " + what, out_);
+      if (text == nullptr) continue;
+      const auto found = std::find_if(buffers.begin(), buffers.end(),
+                                      [text](const Field& field) { return field.name == text->text; });
+      if (found == buffers.end()) {
+        unknown_buffer(*text, buffers, others, what);
+        continue;
+      }
+      const auto index = static_cast<Index>(found - buffers.begin());
+      if (std::find(listed.begin(), listed.end(), index) != listed.end()) {
+        out_.error("E107", text->span, what + " " + quoted(text->text) + " is listed twice");
+      } else {
+        listed.push_back(index);
+      }
+    }
+    return listed;
+  }
+
+  void unknown_buffer(const Node& text, const std::vector<Field>& buffers, const std::vector<Field>& others,
+                      const std::string& what) {
+    std::vector<std::string> names;
+    for (const Field& field : buffers) names.push_back(field.name);
+    const bool other = holds(others, text.text);
+    const bool is_output = what == "output";
+    out_.error("E101", text.span,
+               other ? quoted(text.text) + " is no " + what : "unknown " + what + " " + quoted(text.text),
+               other ? std::string("list it under '") + (is_output ? "receive" : "send") + "'"
+                     : diagnostics::did_you_mean(text.text, names));
+  }
+
+  Transfer read_transfer(const Entry* entry) {
+    if (entry == nullptr) return Transfer::sequential;
+    const Node* text = text_of(*entry->value, entry->span, "transfer", out_, "write sequential or parallel");
+    if (text == nullptr || text->text == "sequential") return Transfer::sequential;
+    if (text->text != "parallel") {
+      out_.error("E104", text->span, "transfer must be sequential or parallel, not " + quoted(text->text),
+                 diagnostics::did_you_mean(text->text, {"sequential", "parallel"}));
+    }
+    return Transfer::parallel;
+  }
+
+  const std::vector<Entry>& entries_;
+  const std::vector<Field>& inputs_;
+  const std::vector<Field>& outputs_;
+  Diagnostics& out_;
+  std::unordered_map<std::string, Index> by_name_;
+};
+
+}  // namespace
+
+std::vector<Behaviour> read_behaviours(const Entry& entry, const std::vector<Field>& inputs,
+                                       const std::vector<Field>& outputs, Diagnostics& out) {
+  const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
+  if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
+    out.error("E103", entry.span, "a subsystem needs at least one behaviour",
+              "for example behaviours: { run: {} }");
+  }
+  return BehaviourReader(entries, inputs, outputs, out).read();
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+#include "spec/values/types.hpp"
+
+/// What a subsystem holds: buffers, memory, parameters.
+namespace tessera::spec {
+
+/// NAME: TYPE pairs. what: one of them, e.g. "input". entry may be null.
+[[nodiscard]] std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const Types& types,
+                                              Diagnostics& out);
+
+/// NAME: TYPE or NAME: { type, initial } pairs. entry may be null.
+[[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const Types& types, Diagnostics& out);
+
+/// NAME: VALUE or NAME: { type, default, min, max, unit } pairs. entry may be null.
+///
+/// Errors: besides those of names and types, E203 and E204 the default does not fit type or range.
+[[nodiscard]] std::vector<Parameter> read_parameters(const Entry* entry, const Types& types,
+                                                     Diagnostics& out);
+
+/// Errors: E107 one name twice in the same scope (the inputs of a function, its outputs).
+void check_distinct(const std::vector<const std::vector<Field>*>& scope, Diagnostics& out);
+
+}  // namespace tessera::spec

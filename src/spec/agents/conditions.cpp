@@ -1,0 +1,143 @@
+#include "spec/agents/conditions.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/document/expression_text.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// Words that mean something in `when` or `next`.
+constexpr std::array reserved = std::to_array<std::string_view>({"error", "terminal", "end"});
+
+constexpr const char* condition_hint =
+    "write true, an expression such as in.line.left, or a map of named expressions";
+
+/// A constant in quotes is text in YAML, and the same constant in C++.
+std::optional<bool> quoted_constant(const Node& node) {
+  if (!node.is_scalar() || !node.quoted) return std::nullopt;
+  const std::size_t first = node.text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return std::nullopt;
+  const std::string_view text =
+      std::string_view(node.text).substr(first, node.text.find_last_not_of(" \t\r\n") - first + 1);
+  if (text == "true" || text == "false") return text == "true";
+  return std::nullopt;
+}
+
+void warn_of_quotes(const Node& node, Diagnostics& out) {
+  const std::optional<bool> known = quoted_constant(node);
+  if (!known) return;
+  const std::string word = *known ? "true" : "false";
+  out.warning("W322", node.span, "this condition is always " + word,
+              "write " + word + " without quotes if that is meant");
+}
+
+/// The truth of a constant, however it is written.
+std::optional<bool> constant(const Node& node) {
+  if (is_true(node) || is_false(node)) return is_true(node);
+  return quoted_constant(node);
+}
+
+Expression read_expression(const Node& node, Span at, std::string name, Diagnostics& out) {
+  Expression expression{std::move(name), {}, at};
+  const Node* text = text_of(node, at, "a condition", out, condition_hint);
+  if (text == nullptr) return expression;
+  if (is_old_boolean(*text)) {
+    out.error("E104", text->span, quoted(text->text) + " is no condition", "write true or false");
+  }
+  expression.span = text->span;
+  warn_of_quotes(*text, out);
+  const std::optional<bool> known = constant(*text);
+  expression.text = known ? (*known ? "true" : "false") : expression_text(*text, out);
+  return expression;
+}
+
+void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
+  if (condition.value->entries.empty()) {
+    out.error("E104", condition.span, quoted(condition.key) + " needs at least one named expression",
+              condition_hint);
+    result.expressions.push_back({{}, {}, condition.span});  // one that is not known: nothing follows from it
+  }
+  for (const Entry& entry : condition.value->entries) {
+    check_name(entry.key, entry.span, "condition", out);
+    if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
+      out.error("E106", entry.span, "condition name " + quoted(entry.key) + " is reserved");
+    }
+    result.expressions.push_back(read_expression(*entry.value, entry.span, entry.key, out));
+  }
+}
+
+std::optional<Index> place(const Condition& condition, std::string_view name) {
+  for (Index i = 0; i < condition.expressions.size(); ++i) {
+    if (condition.expressions[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+/// What to do about a lone word that names no condition.
+std::string hint_for(const std::string& word, const Behaviour& of) {
+  if (word == "terminal")
+    return "leave 'when' out: without it the entry is taken however the behaviour ended";
+  std::vector<std::string> names{"error"};
+  for (const Condition* condition : {&of.terminal, &of.error}) {
+    for (const Expression& one : condition->expressions) {
+      if (!one.name.empty()) names.push_back(one.name);
+    }
+  }
+  const std::string guess = diagnostics::did_you_mean(word, names);
+  return guess.empty() ? "name it under 'terminal' or 'error', or write an expression such as in.line.left"
+                       : guess;
+}
+
+}  // namespace
+
+Condition read_condition(const Entry* entry, Diagnostics& out) {
+  Condition condition;
+  if (entry == nullptr) return condition;
+  const Node& value = *entry->value;
+  condition.span = value.is_scalar() ? value.span : entry->span;
+  if (const std::optional<bool> known = constant(value)) {
+    warn_of_quotes(value, out);
+    condition.kind = *known ? Condition::Kind::always : Condition::Kind::never;
+    return condition;
+  }
+  condition.kind = Condition::Kind::expressions;
+  if (value.is_map()) {
+    read_named(*entry, condition, out);
+  } else {
+    condition.expressions.push_back(read_expression(value, entry->span, {}, out));
+  }
+  return condition;
+}
+
+When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
+  When when;
+  const Expression expression = read_expression(*entry.value, entry.span, {}, out);
+  const std::string& word = expression.text;
+  if (const std::optional<bool> known = constant(*entry.value)) {
+    when.kind = *known ? When::Kind::always : When::Kind::never;
+  } else if (word == "error") {
+    when.kind = When::Kind::error;
+  } else if (const auto terminal = place(of.terminal, word); terminal && !word.empty()) {
+    when.kind = When::Kind::terminal;
+    when.expression = *terminal;
+  } else if (const auto error = place(of.error, word); error && !word.empty()) {
+    when.kind = When::Kind::named_error;
+    when.expression = *error;
+  } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {
+    out.error("E101", expression.span, "unknown condition " + quoted(word), hint_for(word, of));
+    when.kind = When::Kind::expression;
+  } else {
+    when.kind = When::Kind::expression;
+    when.text = expression;
+  }
+  return when;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "spec/agents/fleets.hpp"
+
+namespace tessera::spec {
+
+/// The body of an agent or template: control, receptors, effectors.
+///
+/// Errors: E103 no control subsystem; E107 two subsystems of one name; those of subsystems.
+[[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const Surroundings& around,
+                                         Diagnostics& out);
+
+/// The templates of a file. A template may be another name for a template (`b: { use: a }`).
+class Templates {
+ public:
+  /// Reads the section into model.definitions. section may be null.
+  void read(const Entry* section, const Surroundings& around, Model& model, Diagnostics& out);
+  /// The definition behind a name, none after an error. Errors: E101 unknown template.
+  [[nodiscard]] Index find(const Node& name, Diagnostics& out);
+  /// Warnings: W319.
+  void complain_about_unused(Diagnostics& out) const;
+
+ private:
+  struct Template {
+    const Entry* entry = nullptr;
+    const Node* alias_of = nullptr;
+    Index definition = none;
+    bool used = false;
+  };
+
+  void resolve_aliases(Diagnostics& out);
+  void resolve(const std::string& name, Diagnostics& out);
+
+  std::unordered_map<std::string, Template> by_name_;
+  std::vector<std::string> order_;
+  bool one_is_unknown_ = false;  ///< some name was looked up in vain
+};
+
+}  // namespace tessera::spec

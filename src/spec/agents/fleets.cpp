@@ -1,0 +1,154 @@
+#include "spec/agents/fleets.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/agents/definitions.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+constexpr Index largest_fleet = 100'000;
+
+Index read_count(const Entry& entry, Diagnostics& out) {
+  const Node* text = text_of(*entry.value, entry.span, "count", out, "write a number of agents");
+  if (text == nullptr) return 1;
+  Index count = 0;
+  const char* const end = text->text.data() + text->text.size();
+  const auto [stop, error] = std::from_chars(text->text.data(), end, count);
+  if (stop == end && error == std::errc() && count >= 1 && count <= largest_fleet && !text->quoted)
+    return count;
+  out.error("E206", text->span,
+            "count must be a whole number between 1 and 100000, not " + quoted(text->text));
+  return 1;
+}
+
+/// Builds agents from the entries of the file, one by one.
+class Builder {
+ public:
+  Builder(const Surroundings& around, Model& model, Diagnostics& out)
+      : around_(around), model_(model), out_(out) {}
+
+  void read_templates(const Entry* section) { templates_.read(section, around_, model_, out_); }
+
+  void read_agent(const Entry& entry) {
+    check_name(entry.key, entry.span, "agent", out_);
+    const bool uses = std::any_of(entry.value->entries.begin(), entry.value->entries.end(),
+                                  [](const Entry& key) { return key.key == "use"; });
+    Group group;
+    group.name = entry.key;
+    group.first_agent = static_cast<Index>(model_.agents.size());
+    if (uses) {
+      read_use(entry, group);
+    } else {
+      group.definition = static_cast<Index>(model_.definitions.size());
+      model_.definitions.push_back(read_definition(entry, false, around_, out_));
+    }
+    if (group.definition != none) create(group, entry.span);
+    groups_.emplace(entry.key, group);
+  }
+
+  Groups finish() {
+    templates_.complain_about_unused(out_);
+    return std::move(groups_);
+  }
+
+ private:
+  void read_use(const Entry& entry, Group& group) {
+    const Section section(*entry.value, entry.span, "an agent with 'use'", {"use", "count", "ring"}, out_);
+    const Entry* use = section.find("use");
+    if (const Node* name = text_of(*use->value, use->span, "use", out_, "name a template")) {
+      group.definition = templates_.find(*name, out_);
+    }
+    if (const Entry* count = section.find("count")) {
+      group.fleet = true;
+      group.count = read_count(*count, out_);
+    }
+    if (const Entry* ring = section.find("ring")) {
+      group.ring = bool_of(*ring, "ring", out_);
+      if (!group.fleet) out_.error("E103", ring->span, "'ring' needs 'count'", "for example count: 50");
+    }
+  }
+
+  void create(const Group& group, Span span) {
+    const std::size_t subsystems = model_.definitions[group.definition].subsystems.size();
+    const Index fleet = group.fleet ? fleets_++ : none;
+    for (Index number = 0; number < group.count; ++number) {
+      Agent agent;
+      agent.path = group.fleet ? group.name + "[" + std::to_string(number) + "]" : group.name;
+      agent.definition = group.definition;
+      agent.fleet = fleet;
+      agent.number = number;
+      agent.first_instance = static_cast<Index>(model_.instances.size());
+      agent.span = span;
+      const auto index = static_cast<Index>(model_.agents.size());
+      for (Index i = 0; i < subsystems; ++i) model_.instances.push_back({index, i});
+      model_.agents.push_back(std::move(agent));
+    }
+  }
+
+  const Surroundings& around_;
+  Model& model_;
+  Diagnostics& out_;
+  Templates templates_;
+  Groups groups_;
+  Index fleets_ = 0;
+};
+
+/// Types, agents and subsystems become names of C++ that may meet in one scope.
+void check_clashes(const Model& model, const std::vector<Structure>& structures, Diagnostics& out) {
+  std::unordered_map<std::string, const Structure*> types;
+  for (const Structure& structure : structures) types.emplace(structure.name, &structure);
+  const auto check = [&](const std::string& name, Span span, const std::string& what) {
+    const auto clash = types.find(name);
+    if (clash == types.end()) return;
+    out.error("E107", span, what + " " + quoted(name) + " has the name of a type",
+              "the type is on line " + std::to_string(clash->second->span.line) +
+                  "; begin types with a capital letter");
+  };
+  for (const Definition& definition : model.definitions) {
+    for (const Subsystem& subsystem : definition.subsystems)
+      check(subsystem.name, subsystem.span, "subsystem");
+    check(definition.name, definition.span, definition.is_template ? "template" : "agent");
+  }
+  for (const Agent& agent : model.agents) {
+    if (agent.number == 0) check(agent.path.substr(0, agent.path.find('[')), agent.span, "agent");
+  }
+}
+
+/// Each definition becomes a namespace.
+void check_definitions(const Model& model, Diagnostics& out) {
+  std::unordered_map<std::string, Span> spans;
+  for (const Definition& definition : model.definitions) {
+    const auto [first, added] = spans.emplace(definition.name, definition.span);
+    if (added) continue;
+    out.error("E107", definition.span, "agent " + quoted(definition.name) + " has the name of a template",
+              "the template is on line " + std::to_string(first->second.line));
+  }
+}
+
+}  // namespace
+
+Groups read_agents(const Entry* templates, const Entry* agents, const Surroundings& around, Model& model,
+                   Diagnostics& out) {
+  Builder builder(around, model, out);
+  builder.read_templates(templates);
+  if (agents != nullptr) {
+    const auto& entries = entries_of(*agents->value, agents->span, "agents", out);
+    if (entries.empty() && (agents->value->is_map() || agents->value->is_null())) {
+      out.error("E103", agents->span, "a system needs at least one agent");
+    }
+    for (const Entry& entry : entries) builder.read_agent(entry);
+  }
+  Groups groups = builder.finish();
+  check_clashes(model, around.types.structures(), out);
+  check_definitions(model, out);
+  return groups;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,208 @@
+#include "spec/agents/paths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/document/names.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+constexpr const char* path_hint = "a buffer is named AGENT.SUBSYSTEM.BUFFER, for example robot.control.line";
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::optional<std::int64_t> whole_number(std::string_view text) {
+  std::int32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::optional<Selector> read_index(std::string_view text) {
+  text = without_blanks(text);
+  if (text == "*") return Selector{Selector::Kind::all, 0};
+  if (text == "i") return Selector{Selector::Kind::variable, 0};
+  if (text.starts_with('i')) {
+    const std::string_view rest = without_blanks(text.substr(1));
+    if (!rest.starts_with('+') && !rest.starts_with('-')) return std::nullopt;
+    const auto offset = whole_number(without_blanks(rest.substr(1)));
+    if (!offset || *offset < 0) return std::nullopt;
+    return Selector{Selector::Kind::variable, rest.front() == '-' ? -*offset : *offset};
+  }
+  const auto number = whole_number(text);
+  if (!number) return std::nullopt;
+  return Selector{Selector::Kind::constant, *number};
+}
+
+Index agent_number(const Selector& selector, const Group& group, std::int64_t i) {
+  if (selector.kind == Selector::Kind::plain) return 0;
+  if (selector.kind == Selector::Kind::constant) return static_cast<Index>(selector.number);
+  const std::int64_t count = group.count;
+  std::int64_t number = selector.kind == Selector::Kind::all ? i : i + selector.number;
+  if (group.ring) number = ((number % count) + count) % count;
+  return number < 0 || number >= count ? none : static_cast<Index>(number);
+}
+
+namespace {
+
+std::optional<BufferPath> split(const Node& text, std::size_t offset, std::size_t length, bool needs_buffer,
+                                Diagnostics& out) {
+  const std::string_view all = std::string_view(text.text).substr(offset, length);
+  const auto span = [&](std::string_view part) {
+    return text.part(static_cast<std::size_t>(part.data() - text.text.data()),
+                     std::max<std::size_t>(part.size(), 1));
+  };
+  const auto fail = [&](std::string_view at, const std::string& message, const char* hint) {
+    out.error("E112", span(at), message, hint);
+    return std::nullopt;
+  };
+  BufferPath path;
+  path.whole = span(all);
+  const std::size_t bracket = all.find('[');
+  const std::size_t agent_end = std::min(bracket, all.find('.'));
+  const std::string_view agent = all.substr(0, agent_end);
+  std::string_view rest = agent_end == std::string_view::npos ? std::string_view() : all.substr(agent_end);
+  if (rest.starts_with('[')) {
+    const std::size_t close = rest.find(']');
+    if (close == std::string_view::npos) return fail(rest.substr(0, 1), "'[' is not closed", index_hint);
+    const std::string_view index = rest.substr(1, close - 1);
+    const auto selector = read_index(index);
+    path.index_span = span(index);
+    if (!selector) return fail(index, quoted(index) + " is not an index", index_hint);
+    path.selector = *selector;
+    rest.remove_prefix(close + 1);
+  }
+  const std::size_t dot = rest.empty() ? std::string_view::npos : rest.find('.', 1);
+  const bool has_buffer = dot != std::string_view::npos;
+  if (!rest.starts_with('.') || (needs_buffer && !has_buffer)) {
+    return fail(all, quoted(all) + " does not name a buffer", path_hint);
+  }
+  const std::string_view subsystem = rest.substr(1, dot - 1);
+  const std::string_view buffer = has_buffer ? rest.substr(dot + 1) : rest.substr(rest.size());
+  for (const std::string_view part : {agent, subsystem, has_buffer ? buffer : subsystem}) {
+    if (!is_identifier(part)) return fail(all, quoted(all) + " does not name a buffer", path_hint);
+  }
+  path.agent = agent;
+  path.subsystem = subsystem;
+  path.buffer = buffer;
+  path.agent_span = span(agent);
+  path.subsystem_span = span(subsystem);
+  path.buffer_span = span(buffer);
+  return path;
+}
+
+}  // namespace
+
+std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
+                                     Diagnostics& out) {
+  return split(text, offset, length, /*needs_buffer=*/true, out);
+}
+
+std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out) {
+  return split(text, 0, text.text.size(), /*needs_buffer=*/false, out);
+}
+
+Lookup::Lookup(const Model& model, const Groups& groups) : model_(model), groups_(groups) {
+  for (const auto& [name, group] : groups) names_.push_back(name);
+  std::sort(names_.begin(), names_.end());
+}
+
+const Group* Lookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
+  const auto group = groups_.find(agent);
+  if (group != groups_.end()) return &group->second;
+  out.error("E101", span, "unknown agent " + quoted(agent), diagnostics::did_you_mean(agent, names_));
+  return nullptr;
+}
+
+bool Lookup::check_index(const Selector& selector, const Group& group, Span agent_span, Span index_span,
+                         Diagnostics& out) {
+  if (group.fleet && selector.kind == Selector::Kind::plain) {
+    out.error("E112", agent_span,
+              quoted(group.name) + " is a fleet of " + std::to_string(group.count) + " agents",
+              "say which: " + group.name + "[0], " + group.name + "[i] or " + group.name + "[*]");
+    return false;
+  }
+  if (!group.fleet && selector.kind != Selector::Kind::plain) {
+    out.error("E112", index_span, quoted(group.name) + " is one agent, not a fleet",
+              "write " + group.name + " without an index, or give it a 'count'");
+    return false;
+  }
+  if (selector.kind == Selector::Kind::constant && (selector.number < 0 || selector.number >= group.count)) {
+    out.error("E303", index_span,
+              "there is no agent " + std::to_string(selector.number) + " in fleet " + quoted(group.name),
+              "its agents are numbered 0 to " + std::to_string(group.count - 1));
+    return false;
+  }
+  return true;
+}
+
+bool Lookup::find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const {
+  known = Known::nothing;
+  place.group = find_group(path.agent, path.agent_span, out);
+  if (place.group == nullptr) return false;
+  known = Known::agent;
+  if (place.group->definition == none) return false;  // complained about already
+  const auto& subsystems = model_.definitions[place.group->definition].subsystems;
+  const auto subsystem = std::find_if(subsystems.begin(), subsystems.end(),
+                                      [&path](const Subsystem& one) { return one.name == path.subsystem; });
+  const bool good_index = check_index(path.selector, *place.group, path.agent_span, path.index_span, out);
+  if (subsystem == subsystems.end()) {
+    std::vector<std::string> names;
+    for (const Subsystem& one : subsystems) names.push_back(one.name);
+    out.error("E101", path.subsystem_span, "unknown subsystem " + quoted(path.subsystem),
+              diagnostics::did_you_mean(path.subsystem, names));
+    return false;
+  }
+  place.subsystem = static_cast<Index>(subsystem - subsystems.begin());
+  known = Known::subsystem;
+  return good_index;
+}
+
+Index Lookup::find_buffer(const BufferPath& path, const Place& place, const std::vector<Field>& buffers,
+                          const std::string& what, Diagnostics& out) const {
+  const auto found = std::find_if(buffers.begin(), buffers.end(),
+                                  [&path](const Field& one) { return one.name == path.buffer; });
+  if (found != buffers.end()) return static_cast<Index>(found - buffers.begin());
+  const Subsystem& owner = subsystem(place);
+  struct Other {
+    const std::vector<Field>& fields;
+    std::string_view is;
+  };
+  const std::array others = {Other{owner.inputs, "an input: a channel leads to it"},
+                             Other{owner.outputs, "an output: a channel begins at it"},
+                             Other{owner.real, "a real buffer: a driver stands behind it"}};
+  for (const Other& other : others) {
+    const bool here = std::any_of(other.fields.begin(), other.fields.end(),
+                                  [&path](const Field& one) { return one.name == path.buffer; });
+    if (!here) continue;
+    out.error("E304", path.buffer_span, quoted(path.buffer) + " is no " + what,
+              "it is " + std::string(other.is));
+    return none;
+  }
+  std::vector<std::string> names;
+  for (const Field& field : buffers) names.push_back(field.name);
+  out.error("E101", path.buffer_span, "unknown " + what + " " + quoted(path.buffer),
+            diagnostics::did_you_mean(path.buffer, names));
+  return none;
+}
+
+const Subsystem& Lookup::subsystem(const Place& place) const {
+  return model_.definitions[place.group->definition].subsystems[place.subsystem];
+}
+
+Index Lookup::instance(const Place& place, Index number) const {
+  return model_.agents[place.group->first_agent + number].first_instance + place.subsystem;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,79 @@
+#include "spec/agents/policies.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// The place of the word among the choices; the first if it is none, which is an error.
+std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_view> choices,
+                        Diagnostics& out) {
+  const std::vector<std::string> words(choices.begin(), choices.end());
+  std::string either = words.front();
+  for (std::size_t at = 1; at < words.size(); ++at)
+    either += (at + 1 == words.size() ? " or " : ", ") + words[at];
+  const Node* text = text_of(*entry.value, entry.span, entry.key, out, "write " + either);
+  if (text == nullptr) return 0;
+  const auto found = std::ranges::find(words, text->text);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  out.error("E104", text->span, entry.key + " must be " + either + ", not " + quoted(text->text),
+            diagnostics::did_you_mean(text->text, words));
+  return 0;
+}
+
+/// A whole number from least to most; nullopt if it is none, which is an error.
+std::optional<std::uint32_t> read_whole(const Entry& entry, std::uint32_t least, std::uint32_t most,
+                                        Diagnostics& out) {
+  const Node* text = text_of(*entry.value, entry.span, entry.key, out);
+  if (text == nullptr) return std::nullopt;
+  std::uint32_t value = 0;
+  const char* end = text->text.data() + text->text.size();
+  const auto [behind, problem] = std::from_chars(text->text.data(), end, value);
+  if (problem == std::errc{} && behind == end && value >= least && value <= most) return value;
+  out.error("E204", text->span,
+            entry.key + " must be a whole number from " + std::to_string(least) + " to " +
+                std::to_string(most) + ", not " + quoted(text->text));
+  return std::nullopt;
+}
+
+RealTime read_realtime(const Entry& entry, Diagnostics& out) {
+  const Section section(*entry.value, entry.span, "realtime", {"policy", "priority", "cpu"}, out);
+  RealTime realtime;
+  const Entry* policy = section.find("policy");
+  if (policy != nullptr)
+    realtime.policy = read_choice(*policy, {"fifo", "round_robin"}, out) == 0 ? RealTime::Policy::fifo
+                                                                              : RealTime::Policy::round_robin;
+  if (const Entry* priority = section.find("priority"))
+    realtime.priority = read_whole(*priority, 1, 99, out).value_or(realtime.priority);
+  if (const Entry* cpu = section.find("cpu")) realtime.cpu = read_whole(*cpu, 0, 1023, out);
+  return realtime;
+}
+
+}  // namespace
+
+void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& out) {
+  if (const Entry* overrun = section.find("overrun")) {
+    subsystem.overrun = static_cast<Overrun>(read_choice(*overrun, {"skip", "catch_up", "fault"}, out));
+    if (section.find("rate") == nullptr)
+      out.error("E110", overrun->span, "'overrun' belongs to subsystems with a rate",
+                "without one there is no instant to miss");
+  }
+  if (const Entry* watchdog = section.find("watchdog"))
+    subsystem.watchdog = read_duration(*watchdog->value, watchdog->span, "watchdog", out);
+  if (const Entry* recovery = section.find("recovery"))
+    subsystem.operator_resets = read_choice(*recovery, {"automatic", "operator"}, out) == 1;
+  if (const Entry* non_finite = section.find("non_finite"))
+    subsystem.non_finite_allowed = read_choice(*non_finite, {"fault", "allowed"}, out) == 1;
+  if (const Entry* realtime = section.find("realtime")) subsystem.realtime = read_realtime(*realtime, out);
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,155 @@
+#include "spec/agents/subsystems.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/agents/behaviours.hpp"
+#include "spec/agents/buffers.hpp"
+#include "spec/agents/limits.hpp"
+#include "spec/agents/policies.hpp"
+#include "spec/document/section.hpp"
+#include "spec/model/flow.hpp"
+#include "spec/values/literals.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// A key that only some kinds of subsystems have.
+struct SpecialKey {
+  std::string_view name;
+  bool receptors;
+  std::string_view owners;
+};
+constexpr std::array special_keys = {
+    SpecialKey{"real", true, "receptors and effectors"}, SpecialKey{"safe", false, "effectors"},
+    SpecialKey{"limits", false, "effectors"}, SpecialKey{"stale", false, "effectors"},
+    SpecialKey{"recovery", false, "effectors"}};
+
+void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
+  for (const SpecialKey& key : special_keys) {
+    const Entry* entry = section.find(key.name);
+    const bool allowed =
+        kind == SubsystemKind::effector || (kind == SubsystemKind::receptor && key.receptors);
+    if (entry == nullptr || allowed) continue;
+    out.error("E110", entry->span,
+              quoted(key.name) + " belongs to " + std::string(key.owners) + ", this is a " +
+                  std::string(name_of(kind)) + (kind == SubsystemKind::control ? " subsystem" : ""));
+  }
+}
+
+std::vector<std::string> read_safe(const Entry* entry, const std::vector<Field>& real, const Types& types,
+                                   Diagnostics& out) {
+  std::vector<std::string> safe(real.size());
+  if (entry == nullptr) return safe;
+  for (const Entry& value : entries_of(*entry->value, entry->span, "safe", out)) {
+    const auto buffer =
+        std::find_if(real.begin(), real.end(), [&](const Field& one) { return one.name == value.key; });
+    if (buffer == real.end()) {
+      std::vector<std::string> names;
+      for (const Field& one : real) names.push_back(one.name);
+      out.error("E101", value.span, "unknown real buffer " + quoted(value.key),
+                diagnostics::did_you_mean(value.key, names));
+      continue;
+    }
+    safe[static_cast<std::size_t>(buffer - real.begin())] =
+        initialiser(*value.value, value.span, buffer->type, types, "the safe command", out).value_or("");
+  }
+  return safe;
+}
+
+Index read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, Diagnostics& out) {
+  if (entry == nullptr) return 0;
+  const Node* text = text_of(*entry->value, entry->span, "start", out, "name a behaviour");
+  if (text == nullptr) return 0;
+  std::vector<std::string> names;
+  for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
+  const auto found = std::find(names.begin(), names.end(), text->text);
+  if (found != names.end()) return static_cast<Index>(found - names.begin());
+  out.error("E101", text->span, "unknown behaviour " + quoted(text->text),
+            diagnostics::did_you_mean(text->text, names));
+  return 0;
+}
+
+void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parameter>& system,
+                     Diagnostics& out) {
+  for (const Parameter& parameter : own) {
+    const auto outer = std::find_if(system.begin(), system.end(),
+                                    [&](const Parameter& one) { return one.name == parameter.name; });
+    if (outer == system.end()) continue;
+    out.error("E107", parameter.span, "parameter " + quoted(parameter.name) + " is one of the system already",
+              "the first is on line " + std::to_string(outer->span.line));
+  }
+}
+
+/// An author who wants a device to keep its last command says so.
+void read_stale(const Entry* stale, Subsystem& subsystem, Diagnostics& out) {
+  if (stale != nullptr && stale->value->is_scalar() && stale->value->text == "never") return;
+  if (stale != nullptr) {
+    subsystem.stale = read_duration(*stale->value, stale->span, "stale", out);
+  } else if (subsystem.kind == SubsystemKind::effector && !subsystem.real.empty() &&
+             !subsystem.inputs.empty()) {
+    out.warning(
+        "W324", subsystem.span,
+        "effector " + quoted(subsystem.name) + " goes on with its last command when no values come any more",
+        "'stale: 500 ms' gives the safe command when an input has had no valid value for so long; "
+        "'stale: never' says that it shall go on");
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(SubsystemKind kind) {
+  switch (kind) {
+    case SubsystemKind::control:
+      return "control";
+    case SubsystemKind::receptor:
+      return "receptor";
+    case SubsystemKind::effector:
+      break;
+  }
+  return "effector";
+}
+
+Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
+                         Diagnostics& out) {
+  const Section section(
+      *entry.value, entry.span, "a subsystem",
+      {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real", "safe", "limits",
+       "stale", "recovery", "overrun", "watchdog", "non_finite", "realtime"},
+      out);
+  check_kind(section, kind, out);
+  Subsystem subsystem;
+  subsystem.kind = kind;
+  subsystem.name = entry.key;
+  subsystem.span = entry.span;
+  if (const Entry* rate = section.find("rate")) {
+    // A rate that cannot be read is still a rate: no complaint about standing time follows from it.
+    subsystem.period = read_rate(*rate->value, rate->span, out).value_or(std::chrono::seconds(1));
+  }
+  subsystem.inputs = read_buffers(section.find("inputs"), "input", around.types, out);
+  subsystem.outputs = read_buffers(section.find("outputs"), "output", around.types, out);
+  subsystem.real = read_buffers(section.find("real"), "real buffer", around.types, out);
+  if (kind == SubsystemKind::receptor) check_distinct({&subsystem.inputs, &subsystem.real}, out);
+  if (kind == SubsystemKind::effector) check_distinct({&subsystem.outputs, &subsystem.real}, out);
+  subsystem.memory = read_memory(section.find("memory"), around.types, out);
+  subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
+  check_shadowing(subsystem.parameters, around.parameters, out);
+  subsystem.safe = read_safe(section.find("safe"), subsystem.real, around.types, out);
+  if (kind == SubsystemKind::effector)
+    subsystem.limits =
+        read_limits(section.find("limits"), section.find("safe"), subsystem.real, around.types, out);
+  read_stale(section.find("stale"), subsystem, out);
+  read_policies(section, subsystem, out);
+  if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
+    subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);
+    subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
+    check_flow(subsystem, out);
+  }
+  return subsystem;
+}
+
+}  // namespace tessera::spec

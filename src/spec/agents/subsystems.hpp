@@ -1,0 +1,26 @@
+#pragma once
+
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+#include "spec/values/types.hpp"
+
+namespace tessera::spec {
+
+/// What every subsystem sees.
+struct Surroundings {
+  const Types& types;
+  const std::vector<Parameter>& parameters;  ///< of the system
+};
+
+/// The subsystem below `entry`, whose key is its name.
+///
+/// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
+/// those of
+///         buffers, parameters and behaviours.
+[[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
+                                       Diagnostics& out);
+
+/// "receptor"
+[[nodiscard]] std::string_view name_of(SubsystemKind kind);
+
+}  // namespace tessera::spec

@@ -1,0 +1,55 @@
+#include "spec/channels/channel_ends.hpp"
+
+#include "diagnostics/utf8.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using Kind = Selector::Kind;
+
+Index number_at(const End& end, std::int64_t i) {
+  return agent_number(end.path.selector, *end.place.group, i);
+}
+
+bool ranges(const End& end) {
+  return end.path.selector.kind == Kind::variable || end.path.selector.kind == Kind::all;
+}
+
+bool check(const End& from, const End& to, Diagnostics& out) {
+  if (!ranges(from) || !ranges(to)) return true;
+  if (from.path.selector.kind == Kind::all || to.path.selector.kind == Kind::all) {
+    out.error("E307", to.path.index_span, "'*' stands for every agent and may stand at one end only",
+              "write [i] at both ends to join agents pair by pair");
+    return false;
+  }
+  if (from.place.group->count != to.place.group->count) {
+    out.error("E307", to.path.index_span,
+              "i counts over fleets of different sizes: " + std::to_string(from.place.group->count) +
+                  " and " + std::to_string(to.place.group->count),
+              "give both fleets the same count, or name the agents by number");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool expand(const End& from, const End& to, Expansion& into, Diagnostics& out) {
+  if (!check(from, to, out)) return false;
+  const std::int64_t count = ranges(from) ? from.place.group->count : ranges(to) ? to.place.group->count : 1;
+  std::vector<bool> fed(to.place.group->count, false);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const Index source = number_at(from, i);
+    const Index target = number_at(to, i);
+    if (source == none || target == none) continue;
+    into.pairs.emplace_back(source, target);
+    fed[target] = true;
+  }
+  for (Index target = 0; target < fed.size(); ++target) {
+    const bool meant = ranges(to) || target == number_at(to, 0);
+    if (meant && !fed[target]) into.dropped.push_back(target);
+  }
+  return true;
+}
+
+}  // namespace tessera::spec

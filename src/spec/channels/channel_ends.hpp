@@ -1,0 +1,26 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "spec/agents/paths.hpp"
+
+namespace tessera::spec {
+
+/// One end of a channel as written: the place, the buffer, and which agents.
+struct End {
+  BufferPath path;
+  Place place;
+  Index buffer = none;
+};
+
+/// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
+struct Expansion {
+  std::vector<std::pair<Index, Index>> pairs;
+  std::vector<Index> dropped;  ///< numbers of agents it would lead to, had the fleet not ended
+};
+
+/// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.
+[[nodiscard]] bool expand(const End& from, const End& to, Expansion& into, Diagnostics& out);
+
+}  // namespace tessera::spec

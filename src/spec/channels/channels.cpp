@@ -1,0 +1,301 @@
+#include "spec/channels/channels.hpp"
+
+#include <algorithm>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/channels/channel_ends.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+constexpr const char* channel_hint =
+    "write AGENT.SUBSYSTEM.OUTPUT -> AGENT.SUBSYSTEM.INPUT, or a map { from, to, send, receive, model, "
+    "timeout }";
+
+/// A type without its unit.
+Type bare(Type type) {
+  type.unit.clear();
+  return type;
+}
+
+bool is_usual(SubsystemKind from, SubsystemKind to, bool same_agent) {
+  if (from == SubsystemKind::control && to == SubsystemKind::control) return !same_agent;
+  if (!same_agent) return false;
+  return (from == SubsystemKind::receptor && to == SubsystemKind::control) ||
+         (from == SubsystemKind::control && to == SubsystemKind::effector);
+}
+
+class ChannelReader {
+ public:
+  ChannelReader(const Types& types, const Groups& groups, Models& models, Model& model, Diagnostics& out)
+      : types_(types), lookup_(model, groups), models_(models), model_(model), out_(out) {}
+
+  void read(const Entry& section) {
+    for (const Node* item : items_of(*section.value, section.span, "channels", out_)) {
+      if (item->is_map()) {
+        read_map(*item);
+      } else {
+        read_arrow(*item, section.span);
+      }
+    }
+  }
+
+  Excuses take_excuses() { return std::move(excuses_); }
+
+ private:
+  void read_arrow(const Node& item, Span at) {
+    const Node* text = text_of(item, at, "a channel", out_, channel_hint);
+    const std::size_t arrow = text == nullptr ? std::string::npos : text->text.find("->");
+    if (arrow == std::string::npos || text->text.find("->", arrow + 2) != std::string::npos) {
+      if (text != nullptr) out_.error("E112", text->span, "a channel needs one '->'", channel_hint);
+      excuse_all();
+      return;
+    }
+    const auto from = split_part(*text, 0, arrow);
+    const auto to = split_part(*text, arrow + 2, text->text.size());
+    Channel channel;
+    channel.span = text->span;
+    join(from, to, channel);
+  }
+
+  void read_map(const Node& item) {
+    const Section section(
+        item, item.span, "a channel",
+        {"from", "to", "send", "receive", "model", "timeout", "send_timeout", "receive_timeout"}, out_);
+    const auto from = read_path(section, "from");
+    const auto to = read_path(section, "to");
+    Channel channel;
+    channel.span = from ? from->whole : item.span;
+    if (const Entry* model = section.find("model")) {
+      read_model(section, *model, channel);
+    } else {
+      channel.send = read_mode(section.find("send"));
+      channel.receive = read_mode(section.find("receive"));
+      read_timeouts(section, channel);
+    }
+    join(from, to, channel);
+  }
+
+  std::optional<BufferPath> read_path(const Section& section, std::string_view key) {
+    const Entry* entry = section.require(key, channel_hint);
+    const Node* text =
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, quoted(key), out_, channel_hint);
+    return text == nullptr ? std::nullopt : split_part(*text, 0, text->text.size());
+  }
+
+  /// The path in [begin, end) of a text, blanks around it left out.
+  std::optional<BufferPath> split_part(const Node& text, std::size_t begin, std::size_t end) {
+    while (begin < end && text.text[begin] == ' ') ++begin;
+    while (begin < end && text.text[end - 1] == ' ') --end;
+    return split_path(text, begin, end - begin, out_);
+  }
+
+  Mode read_mode(const Entry* entry) {
+    if (entry == nullptr) return Mode::non_blocking;
+    const Node* text =
+        text_of(*entry->value, entry->span, quoted(entry->key), out_, "write blocking or non_blocking");
+    if (text == nullptr || text->text == "non_blocking") return Mode::non_blocking;
+    if (text->text != "blocking") {
+      out_.error("E104", text->span,
+                 quoted(entry->key) + " must be blocking or non_blocking, not " + quoted(text->text),
+                 diagnostics::did_you_mean(text->text, {"blocking", "non_blocking"}));
+    }
+    return Mode::blocking;
+  }
+
+  void read_model(const Section& section, const Entry& entry, Channel& channel) {
+    for (const std::string_view key : {"send", "receive"})
+      if (const Entry* mode = section.find(key))
+        out_.error("E309", mode->span, quoted(key) + " beside 'model'", "the model says how both sides wait");
+    const Node* name = text_of(*entry.value, entry.span, "'model'", out_, "the name of an entry of 'models'");
+    if (name == nullptr) return;
+    channel.model = models_.find(*name, out_);
+    if (channel.model != none) read_timeouts_of_model(section, *name, channel);
+  }
+
+  /// A timeout for every side that has a transition for it, and no other.
+  void read_timeouts_of_model(const Section& section, const Node& name, Channel& channel) {
+    const CommunicationModel& model = model_.models[channel.model];
+    const bool sends = model.send.has_timeout(), receives = model.receive.has_timeout();
+    const auto refuse = [&](std::string_view key, bool has, const std::string& who) {
+      const Entry* entry = section.find(key);
+      if (entry != nullptr && !has)
+        out_.error("E306", entry->span,
+                   quoted(key) + " where " + who + " of model " + quoted(name.text) + " waits for it",
+                   "write it at a transition as when: elapsed");
+    };
+    refuse("timeout", sends || receives, "no side");
+    refuse("send_timeout", sends, "no transition of 'send'");
+    refuse("receive_timeout", receives, "no transition of 'receive'");
+    const auto both = read_timeout(section, "timeout");
+    const auto send = read_timeout(section, "send_timeout");
+    const auto receive = read_timeout(section, "receive_timeout");
+    const auto require = [&](bool has, const std::string& side) {
+      if (!has || section.find("timeout") != nullptr || section.find(side + "_timeout") != nullptr) return;
+      out_.error("E309", name.span, quoted(side) + " of model " + quoted(name.text) + " needs a timeout",
+                 "write timeout: 200 ms, or " + side + "_timeout: 200 ms");
+    };
+    require(sends, "send");
+    require(receives, "receive");
+    if (sends) channel.send_timeout = send ? send : both;
+    if (receives) channel.receive_timeout = receive ? receive : both;
+  }
+
+  std::optional<Duration> read_timeout(const Section& section, std::string_view key) {
+    const Entry* entry = section.find(key);
+    return entry == nullptr ? std::nullopt
+                            : read_duration(*entry->value, entry->span, std::string(key), out_);
+  }
+
+  void read_timeouts(const Section& section, Channel& channel) {
+    const auto needs_blocking = [&](std::string_view key, bool blocks, const std::string& problem) {
+      const Entry* entry = section.find(key);
+      if (entry == nullptr || blocks) return;
+      out_.error("E306", entry->span, quoted(key) + " where " + problem,
+                 "a side that does not block never waits; write " +
+                     std::string(key == "send_timeout" ? "send" : "receive") + ": blocking");
+    };
+    const bool sends = channel.send == Mode::blocking;
+    const bool receives = channel.receive == Mode::blocking;
+    needs_blocking("timeout", sends || receives, "neither side blocks");
+    needs_blocking("send_timeout", sends, "the sender does not block");
+    needs_blocking("receive_timeout", receives, "the receiver does not block");
+    const auto both = read_timeout(section, "timeout");
+    const auto send = read_timeout(section, "send_timeout");
+    const auto receive = read_timeout(section, "receive_timeout");
+    if (sends) channel.send_timeout = send ? send : both;
+    if (receives) channel.receive_timeout = receive ? receive : both;
+  }
+
+  void excuse_all() { excuses_.everything = excuses_.outputs = true; }
+
+  /// One end, looked up. is_output: the end that channels begin at.
+  std::optional<End> find_end(const std::optional<BufferPath>& path, bool is_output, Known& known,
+                              Place& place) {
+    if (!path) return std::nullopt;
+    const bool good = lookup_.find(*path, place, known, out_);
+    if (known != Known::subsystem) return std::nullopt;
+    const Subsystem& subsystem = lookup_.subsystem(place);
+    const Index buffer = lookup_.find_buffer(*path, place, is_output ? subsystem.outputs : subsystem.inputs,
+                                             is_output ? "output" : "input", out_);
+    if (!good || buffer == none) return std::nullopt;
+    return End{*path, place, buffer};
+  }
+
+  /// A mistake in a channel must not also count as an input without source.
+  void excuse(const std::optional<End>& to, Known known, const Place& place) {
+    excuses_.outputs = true;
+    if (known == Known::nothing) {
+      excuses_.everything = true;
+      return;
+    }
+    for (Index number = 0; number < place.group->count && place.group->definition != none; ++number) {
+      if (known == Known::agent) {
+        excuses_.agents.insert(place.group->first_agent + number);
+      } else if (to) {
+        excuses_.inputs.emplace(lookup_.instance(place, number), to->buffer);
+      } else {
+        excuses_.instances.insert(lookup_.instance(place, number));
+      }
+    }
+  }
+
+  void join(const std::optional<BufferPath>& from_path, const std::optional<BufferPath>& to_path,
+            const Channel& channel) {
+    Known from_known = Known::nothing;
+    Known to_known = Known::nothing;
+    Place from_place;
+    Place to_place;
+    const auto from = find_end(from_path, true, from_known, from_place);
+    const auto to = find_end(to_path, false, to_known, to_place);
+    Expansion expansion;
+    if (!from || !to || !expand(*from, *to, expansion, out_)) {
+      excuse(to, to_known, to_place);
+      return;
+    }
+    check_types(*from, *to);
+    for (const Index number : expansion.dropped)
+      excuses_.inputs.emplace(lookup_.instance(to->place, number), to->buffer);
+    for (const auto& [source, target] : expansion.pairs) {
+      Channel one = channel;
+      one.from = {lookup_.instance(from->place, source), from->buffer};
+      one.to = {lookup_.instance(to->place, target), to->buffer};
+      if (!add(one, to->path)) return;
+    }
+  }
+
+  void check_types(const End& from, const End& to) {
+    const Field& output = lookup_.subsystem(from.place).outputs[from.buffer];
+    const Field& input = lookup_.subsystem(to.place).inputs[to.buffer];
+    if (Types::is_unknown(output.type) || Types::is_unknown(input.type)) return;
+    const std::string both = types_.spelled(output.type) + " -> " + types_.spelled(input.type);
+    const std::string where = "the output is declared on line " + std::to_string(output.span.line) +
+                              ", the input on line " + std::to_string(input.span.line);
+    if (bare(output.type) != bare(input.type)) {
+      out_.error("E207", to.path.whole, "the ends of this channel differ in type: " + both, where);
+    } else if (output.type.unit != input.type.unit && !output.type.unit.empty() && !input.type.unit.empty()) {
+      out_.error("E208", to.path.whole, "the ends of this channel differ in unit: " + both, where);
+    }
+  }
+
+  /// Returns false once the statement need not be looked at further.
+  bool add(const Channel& channel, const BufferPath& to) {
+    const auto key = std::pair(channel.to.instance, channel.to.buffer);
+    const auto [source, added] = sources_.emplace(key, static_cast<Index>(model_.channels.size()));
+    if (!added) {
+      const Channel& first = model_.channels[source->second];
+      const std::string name = model_.instance_path(channel.to.instance) + "." + to.buffer;
+      out_.error("E301", to.whole,
+                 "input " + quoted(name) + " has two sources: " + source_name(first) + " and " +
+                     source_name(channel),
+                 first.span.line == channel.span.line
+                     ? "an input has one source; give every agent an input of its own"
+                     : "the first is on line " + std::to_string(first.span.line));
+      return false;
+    }
+    check_direction(channel);
+    model_.channels.push_back(channel);
+    return true;
+  }
+
+  std::string source_name(const Channel& channel) const {
+    return model_.instance_path(channel.from.instance) + "." +
+           model_.subsystem(channel.from.instance).outputs[channel.from.buffer].name;
+  }
+
+  void check_direction(const Channel& channel) {
+    const SubsystemKind from = model_.subsystem(channel.from.instance).kind;
+    const SubsystemKind to = model_.subsystem(channel.to.instance).kind;
+    const bool same =
+        model_.instances[channel.from.instance].agent == model_.instances[channel.to.instance].agent;
+    if (is_usual(from, to, same)) return;
+    out_.warning("W310", channel.span,
+                 "a channel from " + std::string(name_of(from)) + " to " + std::string(name_of(to)) + " of " +
+                     (same ? "the same agent" : "another agent") + " is unusual",
+                 "usual are receptor -> control -> effector of one agent, and control -> control of two");
+  }
+
+  const Types& types_;
+  Lookup lookup_;
+  Models& models_;
+  Model& model_;
+  Diagnostics& out_;
+  Excuses excuses_;
+  std::map<std::pair<Index, Index>, Index> sources_;  ///< (instance, input) -> channel
+};
+
+}  // namespace
+
+Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups, Models& models,
+                      Model& model, Diagnostics& out) {
+  if (entry == nullptr) return {};
+  ChannelReader reader(types, groups, models, model, out);
+  reader.read(*entry);
+  return reader.take_excuses();
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,185 @@
+#include "spec/channels/wiring.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/model/standstill.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+using Indices = std::vector<Index>;
+
+/// Instances that share a complaint about one place of the file.
+struct Shared {
+  Index first = none;
+  std::size_t count = 0;
+
+  void add(Index instance) {
+    if (count++ == 0) first = instance;
+  }
+};
+
+std::string others(const Shared& shared) {
+  if (shared.count < 2) return {};
+  return " (and of " + std::to_string(shared.count - 1) + " more agent" + (shared.count == 2 ? "" : "s") +
+         ")";
+}
+
+bool is_listed(const std::optional<Indices>& list, Index buffer) {
+  return !list || std::find(list->begin(), list->end(), buffer) != list->end();
+}
+
+class Check {
+ public:
+  Check(const Model& model, const Excuses& excuses, Diagnostics& out)
+      : model_(model),
+        excuses_(excuses),
+        out_(out),
+        in_(model.instances.size()),
+        out_of_(model.instances.size()) {
+    for (Index i = 0; i < model.channels.size(); ++i) {
+      in_[model.channels[i].to.instance].push_back(i);
+      out_of_[model.channels[i].from.instance].push_back(i);
+    }
+  }
+
+  void run() {
+    for (Index instance = 0; instance < model_.instances.size(); ++instance) {
+      find_unfed(instance);
+      find_unread(instance);
+      find_standstill(instance);
+    }
+    report_unfed();
+    if (!excuses_.outputs) report_unread();
+    report_standstill();
+    for (const Definition& definition : model_.definitions) check_lists(definition);
+  }
+
+ private:
+  [[nodiscard]] bool is_excused(Index instance, Index input) const {
+    return excuses_.everything || excuses_.instances.contains(instance) ||
+           excuses_.inputs.contains({instance, input}) ||
+           excuses_.agents.contains(model_.instances[instance].agent);
+  }
+
+  void find_unfed(Index instance) {
+    const Subsystem& subsystem = model_.subsystem(instance);
+    for (Index input = 0; input < subsystem.inputs.size(); ++input) {
+      const bool fed = std::any_of(in_[instance].begin(), in_[instance].end(), [&](Index channel) {
+        return model_.channels[channel].to.buffer == input;
+      });
+      if (!fed && !is_excused(instance, input)) unfed_[&subsystem.inputs[input]].add(instance);
+    }
+  }
+
+  void find_unread(Index instance) {
+    const Subsystem& subsystem = model_.subsystem(instance);
+    for (Index output = 0; output < subsystem.outputs.size(); ++output) {
+      const bool read = std::any_of(out_of_[instance].begin(), out_of_[instance].end(), [&](Index channel) {
+        return model_.channels[channel].from.buffer == output;
+      });
+      // An output that some agent's neighbour reads is fine in the agents at the end of the fleet.
+      auto& entry = outputs_[&subsystem.outputs[output]];
+      entry.second = entry.second || read;
+      entry.first.add(instance);
+    }
+  }
+
+  void find_standstill(Index instance) {
+    const Subsystem& subsystem = model_.subsystem(instance);
+    if (subsystem.period) return;
+    std::vector<bool> waits;
+    for (const Behaviour& behaviour : subsystem.behaviours) waits.push_back(can_wait(behaviour, instance));
+    for (const Index behaviour : standing_still(subsystem, waits)) {
+      standstill_[&subsystem.behaviours[behaviour]].add(instance);
+    }
+  }
+
+  /// Whether an iteration takes time: declared, or by waiting for the other side of a channel.
+  [[nodiscard]] bool can_wait(const Behaviour& behaviour, Index instance) const {
+    const auto receives = [&](Index i) {
+      const Channel& channel = model_.channels[i];
+      return model_.receiver_waits(channel) && is_listed(behaviour.receive, channel.to.buffer);
+    };
+    const auto sends = [&](Index i) {
+      const Channel& channel = model_.channels[i];
+      return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer);
+    };
+    return behaviour.takes > Duration{0} ||
+           std::any_of(in_[instance].begin(), in_[instance].end(), receives) ||
+           std::any_of(out_of_[instance].begin(), out_of_[instance].end(), sends);
+  }
+
+  void report_unfed() {
+    for (const auto& [input, shared] : unfed_) {
+      out_.error("E302", input->span,
+                 "input " + quoted(input->name) + " of " + model_.instance_path(shared.first) +
+                     others(shared) + " has no source",
+                 "add a channel that leads to " + model_.instance_path(shared.first) + "." + input->name);
+    }
+  }
+
+  void report_unread() {
+    for (const auto& [output, entry] : outputs_) {
+      const auto& [shared, read] = entry;
+      if (read) continue;
+      out_.warning("W316", output->span,
+                   "output " + quoted(output->name) + " of " + model_.instance_path(shared.first) +
+                       others(shared) + " is read by nobody");
+    }
+  }
+
+  void report_standstill() {
+    if (excuses_.everything) return;
+    for (const auto& [behaviour, shared] : standstill_) {
+      if (excuses_.instances.contains(shared.first) ||
+          excuses_.agents.contains(model_.instances[shared.first].agent))
+        continue;
+      out_.error("E305", behaviour->span,
+                 "behaviour " + quoted(behaviour->name) + " of " + model_.instance_path(shared.first) +
+                     others(shared) + " never waits: time would stand still",
+                 "give the subsystem a rate, or the behaviour a blocking channel or 'takes: 3 ms'");
+    }
+  }
+
+  void check_lists(const Definition& definition) {
+    for (const Subsystem& subsystem : definition.subsystems) {
+      if (subsystem.behaviours.empty()) continue;
+      check_lists(subsystem.inputs, subsystem, &Behaviour::receive, "input", "received");
+      check_lists(subsystem.outputs, subsystem, &Behaviour::send, "output", "sent");
+    }
+  }
+
+  void check_lists(const std::vector<Field>& buffers, const Subsystem& subsystem,
+                   std::optional<Indices> Behaviour::*list, const std::string& what,
+                   const std::string& verb) {
+    for (Index buffer = 0; buffer < buffers.size(); ++buffer) {
+      const bool used = std::any_of(subsystem.behaviours.begin(), subsystem.behaviours.end(),
+                                    [&](const Behaviour& one) { return is_listed(one.*list, buffer); });
+      if (used) continue;
+      out_.warning("W317", buffers[buffer].span,
+                   what + " " + quoted(buffers[buffer].name) + " is " + verb + " by no behaviour",
+                   "list it under '" + std::string(what == "input" ? "receive" : "send") +
+                       "' of a behaviour, or remove it");
+    }
+  }
+
+  const Model& model_;
+  const Excuses& excuses_;
+  Diagnostics& out_;
+  std::vector<Indices> in_, out_of_;  ///< channels by instance
+  std::map<const Field*, Shared> unfed_;
+  std::map<const Field*, std::pair<Shared, bool>> outputs_;
+  std::map<const Behaviour*, Shared> standstill_;
+};
+
+}  // namespace
+
+void check_wiring(const Model& model, const Excuses& excuses, Diagnostics& out) {
+  Check(model, excuses, out).run();
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,82 @@
+#include "spec/devices/driver_options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// Units that may follow a number without a blank. After a blank every word that begins with a letter may be
+/// one.
+constexpr std::array close_units =
+    std::to_array<std::string_view>({"m", "km", "cm", "mm", "um", "rad", "deg", "s", "ms", "us", "ns", "min",
+                                     "h", "Hz", "kHz", "MHz", "V", "A", "%"});
+
+/// 0x40, as addresses on a bus are written.
+std::optional<double> hexadecimal(std::string_view text) {
+  constexpr std::size_t most_digits = 13;  // that a double holds
+  if (!text.starts_with("0x") || text.size() > 2 + most_digits) return std::nullopt;
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), number, 16);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return static_cast<double>(number);
+}
+
+/// Not every text that begins with a digit is a number with a unit: 192.168.0.1, "3rd floor", 8N1.
+bool is_unit(const Quantity& quantity) {
+  const std::string_view unit = quantity.unit;
+  if (unit.empty() || std::ranges::find(close_units, unit) != close_units.end()) return true;
+  const bool apart = quantity.digits.data() + quantity.digits.size() != unit.data();
+  const auto first = static_cast<unsigned char>(unit.front());
+  const bool begins_well = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first >= 0x80;
+  return apart && begins_well && unit.find(' ') == std::string_view::npos;
+}
+
+}  // namespace
+
+std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& out) {
+  check_name(entry.key, entry.span, "option", out);
+  const Node& node = *entry.value;
+  if (!node.is_scalar()) {
+    out.error("E104", entry.span, "option " + quoted(entry.key) + " must be a number, a text, true or false",
+              "for example { cpp: Motor, pin: 4, device: /dev/ttyUSB0, inverted: true }");
+    return std::nullopt;
+  }
+  if (node.quoted) return DriverOption{node.text, ""};
+  if (is_true(node) || is_false(node)) return DriverOption{is_true(node), ""};
+  if (const auto number = hexadecimal(node.text)) return DriverOption{*number, ""};
+  if (const auto quantity = split_quantity(node.text); quantity && is_unit(*quantity))
+    return DriverOption{quantity->number, std::string(quantity->unit)};
+  return DriverOption{node.text, ""};
+}
+
+std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out) {
+  check_name(entry.key, entry.span, "option", out);
+  const auto quantity =
+      entry.value->is_scalar() && !entry.value->quoted ? split_quantity(entry.value->text) : std::nullopt;
+  if (!quantity) {
+    out.error("E104", entry.span, "option " + quoted(entry.key) + " must be a number",
+              "for example { reflectance: eye_left, noise: 0.01 }");
+    return std::nullopt;
+  }
+  const auto value = read_length(*entry.value, entry.span, "option " + quoted(entry.key), out);
+  if (!value) return std::nullopt;
+  return DriverOption{*value, ""};
+}
+
+std::string with_number(std::string text, Index number) {
+  constexpr std::string_view mark = "{i}";
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
+    text.replace(at, mark.size(), std::to_string(number));
+  return text;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::spec {
+
+/// The option below `entry` of a driver that is a C++ class: `true` or `false`; a number, also with a unit
+/// (`33 mm`) or in hexadecimal (0x40); else a text. What stands in quotes is a text.
+///
+/// Errors: E104 no scalar.
+[[nodiscard]] std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& out);
+
+/// The option of a device of the simulated world: a number, or a length in metres.
+///
+/// Errors: E104 another form; E205 a unit that is none of length.
+[[nodiscard]] std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out);
+
+/// `text` with every {i} replaced by the number.
+[[nodiscard]] std::string with_number(std::string text, Index number);
+
+}  // namespace tessera::spec

@@ -1,0 +1,231 @@
+#include "spec/devices/drivers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/agents/paths.hpp"
+#include "spec/agents/subsystems.hpp"
+#include "spec/devices/driver_options.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+/// What stands behind real buffers.
+struct DriverKind {
+  std::string_view name;
+  bool receptors, effectors;
+  bool simulated_only;  ///< a part of the simulated world, which reads or takes one floating-point number
+  std::string_view target;
+};
+
+constexpr std::array driver_kinds = {DriverKind{"cpp", true, true, false, "a C++ class"},
+                                     DriverKind{"reflectance", true, false, true, "a site of the world"},
+                                     DriverKind{"velocity", false, true, true, "an actuator of the world"}};
+
+constexpr const char* driver_hint = "for example { reflectance: eye_left, noise: 0.01 }";
+
+const DriverKind* find_kind(std::string_view name) {
+  const auto* const found = std::find_if(driver_kinds.begin(), driver_kinds.end(),
+                                         [name](const DriverKind& one) { return one.name == name; });
+  return found == driver_kinds.end() ? nullptr : found;
+}
+
+bool is_plain_float(const Type& type) {
+  return type.kind == Type::Kind::scalar && type.extent == 0 &&
+         (type.scalar == Scalar::float32 || type.scalar == Scalar::float64);
+}
+
+/// A::B::C
+bool is_class_name(std::string_view text) {
+  for (;;) {
+    const std::size_t colons = text.find("::");
+    if (!is_identifier(text.substr(0, colons))) return false;
+    if (colons == std::string_view::npos) return true;
+    text.remove_prefix(colons + 2);
+  }
+}
+
+class DriverReader {
+ public:
+  DriverReader(Devices devices, const Model& model, const Groups& groups, Diagnostics& out)
+      : devices_(devices), lookup_(model, groups), out_(out) {}
+
+  std::vector<Driver> read(const Entry& section) {
+    for (const Entry& entry : entries_of(*section.value, section.span, "drivers", out_)) read_one(entry);
+    return std::move(drivers_);
+  }
+
+ private:
+  void read_one(const Entry& entry) {
+    Driver driver;
+    driver.span = entry.span;
+    const DriverKind* kind = read_body(entry, driver);
+    Node key;
+    key.kind = Node::Kind::scalar;
+    key.span = entry.span;
+    key.text = entry.key;
+    key.verbatim = entry.span.length == entry.key.size();
+    const auto path = split_device_path(key, out_);
+    Place place;
+    Known known = Known::nothing;
+    if (!path || !lookup_.find(*path, place, known, out_)) return;
+    if (!find_real(*path, place, driver) || kind == nullptr || !fits(*kind, place, driver)) return;
+    add(*path, place, driver);
+  }
+
+  /// Which buffer, or all of them.
+  bool find_real(const BufferPath& path, const Place& place, Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(place);
+    if (!path.buffer.empty()) {
+      driver.real = lookup_.find_buffer(path, place, subsystem.real, "real buffer", out_);
+      return driver.real != none;
+    }
+    driver.real = none;
+    if (!subsystem.real.empty()) return true;
+    out_.error("E210", driver.span,
+               quoted(path.subsystem) + " has no real buffers that a driver could serve");
+    return false;
+  }
+
+  const DriverKind* read_body(const Entry& entry, Driver& driver) {
+    if (!entry.value->is_map()) {
+      out_.error("E104", entry.span, "a driver must be a map", driver_hint);
+      return nullptr;
+    }
+    const DriverKind* kind = nullptr;
+    for (const Entry& key : entry.value->entries) {
+      const DriverKind* const found = find_kind(key.key);
+      if (found == nullptr) continue;
+      if (kind != nullptr)
+        out_.error("E107", key.span, "a driver has one kind", "keep one of " + driver.kind + ", " + key.key);
+      kind = found;
+      read_target(key, *found, driver);
+    }
+    if (kind == nullptr) {
+      complain_of_kind(entry);
+      return nullptr;
+    }
+    for (const Entry& key : entry.value->entries) {
+      if (find_kind(key.key) != nullptr) continue;
+      if (const auto option =
+              kind->simulated_only ? read_world_option(key, out_) : read_class_option(key, out_))
+        driver.options.emplace(key.key, *option);
+    }
+    return kind;
+  }
+
+  /// What is no number was probably meant to be the kind.
+  void complain_of_kind(const Entry& entry) {
+    const auto& entries = entry.value->entries;
+    const auto stranger = std::find_if(entries.begin(), entries.end(), [](const Entry& key) {
+      return !key.value->is_scalar() || !split_quantity(key.value->text);
+    });
+    if (stranger == entries.end()) {
+      out_.error("E103", entry.span, "a driver needs a kind", driver_hint);
+      return;
+    }
+    std::vector<std::string> names;
+    for (const DriverKind& kind : driver_kinds) names.emplace_back(kind.name);
+    const std::string guess = diagnostics::did_you_mean(stranger->key, names);
+    out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
+               guess.empty() ? "there are cpp, reflectance and velocity" : guess);
+  }
+
+  void read_target(const Entry& key, const DriverKind& kind, Driver& driver) {
+    driver.kind = kind.name;
+    const Node* text =
+        text_of(*key.value, key.span, quoted(key.key), out_, "name " + std::string(kind.target));
+    if (text == nullptr) return;
+    driver.target = text->text;
+    if (kind.name == "cpp" && !is_class_name(text->text)) {
+      out_.error("E105", text->span, quoted(text->text) + " does not name a C++ class",
+                 "for example LightSensor or robot::LightSensor");
+    }
+  }
+
+  bool fits(const DriverKind& kind, const Place& place, const Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(place);
+    std::string problem;
+    const bool right_side = subsystem.kind == SubsystemKind::effector ? kind.effectors : kind.receptors;
+    if (devices_ == Devices::real && kind.simulated_only) {
+      problem = "driver " + quoted(kind.name) + " is part of the simulated world";
+    } else if (!right_side) {
+      problem = "driver " + quoted(kind.name) + " does not fit " +
+                (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
+    } else if (kind.simulated_only && driver.real == none) {
+      problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
+    } else if (kind.simulated_only && !is_plain_float(subsystem.real[driver.real].type)) {
+      problem = "driver " + quoted(kind.name) + " needs a real buffer of type float64 or float32";
+    } else {
+      return true;
+    }
+    out_.error("E210", driver.span, problem,
+               devices_ == Devices::real && kind.simulated_only
+                   ? "move it to simulation: drivers:, or write { cpp: CLASS }"
+                   : "");
+    return false;
+  }
+
+  void add(const BufferPath& path, const Place& place, const Driver& driver) {
+    using Kind = Selector::Kind;
+    if (path.selector.kind == Kind::variable) {
+      out_.error("E112", path.index_span, "a driver stands behind one agent or all", "write [3] or [*]");
+      return;
+    }
+    const bool all = path.selector.kind == Kind::all;
+    const Index first = path.selector.kind == Kind::constant ? static_cast<Index>(path.selector.number) : 0;
+    const Index last = all ? place.group->count : first + 1;
+    for (Index number = first; number < last; ++number) {
+      Driver one = driver;
+      one.instance = lookup_.instance(place, number);
+      if (place.group->fleet) put_number(one, number);
+      if (!is_first(one)) return;
+      drivers_.push_back(std::move(one));
+    }
+  }
+
+  static void put_number(Driver& driver, Index number) {
+    driver.target = with_number(driver.target, number);
+    for (auto& [name, option] : driver.options)
+      if (auto* const text = std::get_if<std::string>(&option.value)) *text = with_number(*text, number);
+  }
+
+  /// Each real buffer has one driver, its own or that of the whole subsystem.
+  bool is_first(const Driver& driver) {
+    const std::vector<Field>& real = lookup_.model().subsystem(driver.instance).real;
+    const Index first = driver.real == none ? 0 : driver.real;
+    const Index end = driver.real == none ? static_cast<Index>(real.size()) : driver.real + 1;
+    for (Index buffer = first; buffer < end; ++buffer) {
+      const auto [taken, added] = lines_.emplace(std::pair(driver.instance, buffer), driver.span.line);
+      if (added) continue;
+      out_.error(
+          "E308", driver.span,
+          "a second driver for " + lookup_.model().instance_path(driver.instance) + "." + real[buffer].name,
+          "the first is on line " + std::to_string(taken->second));
+      return false;
+    }
+    return true;
+  }
+
+  Devices devices_;
+  Lookup lookup_;
+  Diagnostics& out_;
+  std::vector<Driver> drivers_;
+  std::map<std::pair<Index, Index>, std::uint32_t> lines_;  ///< (instance, real buffer) -> line of its driver
+};
+
+}  // namespace
+
+std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
+                                 const Groups& groups, Diagnostics& out) {
+  return entry == nullptr ? std::vector<Driver>() : DriverReader(devices, model, groups, out).read(*entry);
+}
+
+}  // namespace tessera::spec

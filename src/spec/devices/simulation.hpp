@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "spec/agents/fleets.hpp"
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::spec {
+
+/// The section `simulation`. entry may be null.
+///
+/// Errors: E103 no world, though a driver or a track needs one; E104-E206 the track; those of drivers.
+[[nodiscard]] std::optional<Simulation> read_simulation(const Entry* entry, const Model& model,
+                                                        const Groups& groups, Diagnostics& out);
+
+}  // namespace tessera::spec

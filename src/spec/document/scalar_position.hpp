@@ -1,0 +1,17 @@
+#pragma once
+
+#include "spec/document/document.hpp"
+
+namespace tessera::spec {
+
+/// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file
+/// verbatim. yaml-cpp only says where a node begins, its anchor and quotes included.
+///
+/// begin:   the place that yaml-cpp gives.
+/// Returns: false if the scalar opens a quote that nothing closes.
+[[nodiscard]] bool place_scalar(Node& node, const Span& begin, const Diagnostics& source);
+
+/// The span that begins at `begin`, behind the anchor and the tag that may stand there.
+[[nodiscard]] Span behind_properties(const Span& begin, const Diagnostics& source);
+
+}  // namespace tessera::spec

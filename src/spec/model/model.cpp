@@ -1,0 +1,58 @@
+#include "spec/model/model.hpp"
+
+#include <array>
+#include <set>
+#include <utility>
+
+namespace tessera::spec {
+
+std::string_view name_of(Property::Kind kind) {
+  constexpr std::array<std::string_view, 5> names{"never", "always", "reachable", "always_reachable",
+                                                  "leads_to"};
+  return names.at(static_cast<std::size_t>(kind));
+}
+
+const Subsystem& Model::subsystem(Index instance) const {
+  const Instance& one = instances[instance];
+  return definition_of(agents[one.agent]).subsystems[one.subsystem];
+}
+
+std::string Model::instance_path(Index instance) const {
+  return agents[instances[instance].agent].path + "." + subsystem(instance).name;
+}
+
+std::string Model::driver_path(const Driver& driver) const {
+  const std::string path = instance_path(driver.instance);
+  return driver.real == none ? path : path + "." + subsystem(driver.instance).real[driver.real].name;
+}
+
+std::vector<std::string> Model::without_driver(const std::vector<Driver>& those) const {
+  std::set<std::pair<Index, Index>> driven;
+  for (const Driver& driver : those) driven.emplace(driver.instance, driver.real);
+  std::vector<std::string> missing;
+  for (Index instance = 0; instance < instances.size(); ++instance) {
+    if (driven.contains({instance, none})) continue;
+    const std::vector<Field>& real = subsystem(instance).real;
+    for (Index buffer = 0; buffer < real.size(); ++buffer)
+      if (!driven.contains({instance, buffer}))
+        missing.push_back(instance_path(instance) + "." + real[buffer].name);
+  }
+  return missing;
+}
+
+std::string Model::channel_name(const Channel& channel) const {
+  return instance_path(channel.from.instance) + "." +
+         subsystem(channel.from.instance).outputs[channel.from.buffer].name + "->" +
+         instance_path(channel.to.instance) + "." +
+         subsystem(channel.to.instance).inputs[channel.to.buffer].name;
+}
+
+bool Model::sender_waits(const Channel& channel) const {
+  return channel.model == none ? channel.send == Mode::blocking : models[channel.model].send.waits;
+}
+
+bool Model::receiver_waits(const Channel& channel) const {
+  return channel.model == none ? channel.receive == Mode::blocking : models[channel.model].receive.waits;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,332 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+#include "spec/model/communication_model.hpp"
+
+/// The specification as data: what section "The specification file" of docs/specification.md describes, with
+/// every default filled in and every name resolved to an index. Nothing here knows about nets.
+namespace tessera::spec {
+
+using diagnostics::Span;
+using Duration = std::chrono::nanoseconds;
+using Index = std::uint32_t;
+inline constexpr Index none = UINT32_MAX;
+
+// ---------------------------------------------------------------------------------------------- types
+
+enum class Scalar : std::uint8_t {
+  boolean,
+  int8,
+  int16,
+  int32,
+  int64,
+  uint8,
+  uint16,
+  uint32,
+  uint64,
+  float32,
+  float64
+};
+
+/// The type of a buffer, field or parameter.
+struct Type {
+  enum class Kind : std::uint8_t { scalar, string, structure } kind = Kind::scalar;
+  Scalar scalar = Scalar::float64;
+  std::uint32_t capacity = 256;  ///< of a string, in bytes
+  Index structure = none;        ///< of a structure: index into Model::structures
+  std::uint64_t extent = 0;      ///< elements of a fixed array; 0: not an array
+  std::string unit;              ///< "m/s"; empty: none given
+
+  bool operator==(const Type&) const = default;
+};
+
+/// A named, typed place for data: field of a structure, buffer, memory cell.
+struct Field {
+  std::string name;
+  Type type;
+  std::string initial;  ///< C++ initialiser without braces; empty: zero. Only memory cells have one.
+  Span span;
+};
+
+struct Structure {
+  std::string name;
+  std::vector<Field> fields;
+  Span span;
+};
+
+/// A constant that can be changed without recompiling. Scalars and strings only.
+struct Parameter {
+  std::string name;
+  Type type;
+  std::string initial;  ///< C++ literal
+  std::optional<double> minimum, maximum;
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- behaviours
+
+/// A C++ expression over in, out, memory and parameters; span is that of its text in the file.
+struct Expression {
+  std::string name;  ///< of an indexed condition; empty: unnamed
+  std::string text;
+  Span span;
+};
+
+/// A terminal or error condition (paper, sec. IV-D): any one of its expressions suffices.
+struct Condition {
+  enum class Kind : std::uint8_t { never, always, expressions } kind = Kind::never;
+  std::vector<Expression> expressions;
+  Span span;
+};
+
+/// When an entry of `next` is taken (the paper's initial condition of the next behaviour).
+struct When {
+  enum class Kind : std::uint8_t {
+    always,       ///< no `when`
+    never,        ///< `when: false`
+    error,        ///< the behaviour ended by its error condition
+    terminal,     ///< the terminal expression `expression` of the behaviour held
+    named_error,  ///< the error expression `expression` of the behaviour held
+    expression    ///< `text` holds
+  } kind = Kind::always;
+  Index expression = none;  ///< into Behaviour::terminal or ::error
+  Expression text;
+};
+
+struct Next {
+  Index behaviour = none;  ///< none: `end`
+  When when;
+  Span span;
+};
+
+enum class Transfer : std::uint8_t { sequential, parallel };
+
+struct Behaviour {
+  std::string name;
+  Condition terminal;
+  Condition error;
+  std::vector<Next> next;   ///< never empty: a behaviour without `next` has one unconditional `end`
+  bool next_given = false;  ///< false: that `end` is the default
+  std::optional<std::vector<Index>>
+      send;  ///< output buffers in the order listed; nullopt: all, in channel order
+  std::optional<std::vector<Index>>
+      receive;  ///< input buffers in the order listed; nullopt: all, in channel order
+  Transfer transfer = Transfer::sequential;
+  Duration takes{0};  ///< simulated time of its transition function
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- subsystems,
+// agents
+
+enum class SubsystemKind : std::uint8_t { control, receptor, effector };
+
+/// What a subsystem with a rate does about instants that its work made it miss.
+enum class Overrun : std::uint8_t {
+  skip,      ///< leaves them out
+  catch_up,  ///< runs the iterations late, one after the other
+  fault      ///< leaves them out, and the iteration that comes late fails
+};
+
+/// How the operating system schedules the thread of a subsystem that runs in real time.
+struct RealTime {
+  enum class Policy : std::uint8_t { fifo, round_robin } policy = Policy::fifo;
+  std::uint32_t priority = 50;  ///< 1 .. 99
+  std::optional<std::uint32_t> cpu;
+};
+
+/// What a command to a real buffer, or to a number inside it, has to keep to.
+struct Limit {
+  Index real = 0;     ///< into Subsystem::real
+  std::string field;  ///< inside the buffer: "pose.x"; empty: the buffer itself. Of an array: each element
+  std::optional<double> minimum, maximum;
+  std::optional<double> per_second;  ///< the most that it may change in a second
+  bool fault = false;                ///< a command beyond is a fault; else the limit is sent in its place
+  Span span;
+};
+
+struct Subsystem {
+  SubsystemKind kind = SubsystemKind::control;
+  std::string name;  ///< "control" for the control subsystem
+  std::optional<Duration> period;
+  Index start = 0;  ///< behaviour
+  std::vector<Field> inputs, outputs, memory;
+  std::vector<Parameter> parameters;
+  std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
+  std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
+  std::vector<Limit> limits;      ///< effector: of real buffers
+  std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
+  /// effector: a fault or a stale input begins an emergency stop, which an operator ends
+  bool operator_resets = false;
+  Overrun overrun = Overrun::skip;
+  std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
+  bool non_finite_allowed = false;   ///< outputs may be infinite or not a number
+  std::optional<RealTime> realtime;
+  std::vector<Behaviour> behaviours;
+  Span span;
+};
+
+/// What an agent is made of: an entry of `templates`, or an agent written out under `agents`.
+struct Definition {
+  std::string name;
+  std::vector<Subsystem> subsystems;  ///< control first, then receptors, then effectors, as in the file
+  bool is_template = false;
+  Span span;
+};
+
+/// One agent of the running system.
+struct Agent {
+  std::string path;  ///< "robot", or "robot[3]" in a fleet
+  Index definition = 0;
+  Index fleet = none;        ///< agents of one `count` share a number
+  Index number = 0;          ///< within the fleet
+  Index first_instance = 0;  ///< into Model::instances; its subsystems follow one another
+  Span span;
+};
+
+/// One subsystem of one agent.
+struct Instance {
+  Index agent = 0;
+  Index subsystem = 0;  ///< into Definition::subsystems
+};
+
+// ---------------------------------------------------------------------------------------------- channels
+
+enum class Mode : std::uint8_t { non_blocking, blocking };
+
+struct ChannelEnd {
+  Index instance = 0;
+  Index buffer = 0;  ///< into Subsystem::outputs (from) or ::inputs (to)
+};
+
+struct Channel {
+  ChannelEnd from, to;
+  Mode send = Mode::non_blocking;
+  Mode receive = Mode::non_blocking;
+  Index model = none;  ///< into Model::models; none: the built-in one of `send` and `receive`
+  std::optional<Duration> send_timeout, receive_timeout;
+  Span span;
+};
+
+// ---------------------------------------------------------------------------------------------- the rest
+
+/// A name in a path and where it stands.
+struct PathPart {
+  std::string name;
+  Span span;
+};
+
+/// A path into the net, of which the agent was looked up; what is behind it only the net knows.
+struct NetPath {
+  std::string agent;  ///< "robot[3]"; "in" or "out" alone: a place of the system
+  std::vector<PathPart> parts;
+  Span span;
+};
+
+/// What a property says about one marking.
+struct Statement {
+  enum class Kind : std::uint8_t {
+    token,     ///< a token in the place or page at `path`; with `to`, in that state of the channel
+    negation,  ///< of its only part
+    all,       ///< of the parts
+    any        ///< of the parts
+  } kind = Kind::token;
+  NetPath path;
+  std::optional<NetPath> to;
+  std::vector<Statement> parts;
+};
+
+/// A property of one agent of a fleet, or of the system.
+struct Claim {
+  std::string about;  ///< "robot[3]"; empty: of the system
+  Statement what;
+  std::optional<Statement> then;  ///< leads_to: `what` leads to it
+};
+
+struct Property {
+  enum class Kind : std::uint8_t { never, always, reachable, always_reachable, leads_to };
+  std::string name;
+  Kind kind = Kind::never;
+  std::string text;           ///< as written
+  std::vector<Claim> claims;  ///< all of them have to hold
+  Span span;
+};
+
+/// "always_reachable"
+[[nodiscard]] std::string_view name_of(Property::Kind kind);
+
+/// What a driver is told: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
+struct DriverOption {
+  std::variant<bool, double, std::string> value;
+  std::string unit;  ///< of a number, as written; empty: none
+
+  bool operator==(const DriverOption&) const = default;
+};
+
+/// Which device stands behind a real buffer, or behind all real buffers of a subsystem.
+struct Driver {
+  Index instance = 0;
+  Index real = 0;      ///< into Subsystem::real; none: all of them
+  std::string kind;    ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
+  std::string target;  ///< C++ class, or the name of an element of the world
+  std::map<std::string, DriverOption> options;  ///< of the simulated world: numbers, in SI units
+  Span span;
+};
+
+struct Track {
+  std::string image;
+  Span image_span;
+  double metres_per_pixel = 0.005;
+  std::optional<double> start_x_m, start_y_m, start_heading_rad;
+  double footprint_m = 0.008;
+};
+
+struct Simulation {
+  std::string world;  ///< empty: none; the drivers are C++ classes
+  Span world_span;
+  std::optional<Track> track;
+  std::vector<Driver> drivers;
+  Span span;
+};
+
+/// A whole specification. Invariant: every index is valid, every path was resolved.
+struct Model {
+  std::string system;
+  std::vector<Structure> structures;  ///< in an order in which each uses only earlier ones
+  std::vector<Parameter> parameters;  ///< of the system, visible in every subsystem
+  std::vector<Definition> definitions;
+  std::vector<Agent> agents;
+  std::vector<Instance> instances;         ///< every subsystem of every agent, agent by agent
+  std::vector<CommunicationModel> models;  ///< of the author
+  std::vector<Channel> channels;           ///< in the order of the file, fleets expanded agent by agent
+  std::vector<Driver> drivers;             ///< of the real robot (`drivers:`)
+  std::vector<Property> properties;
+  std::optional<Simulation> simulation;
+
+  [[nodiscard]] const Definition& definition_of(const Agent& agent) const {
+    return definitions[agent.definition];
+  }
+  [[nodiscard]] const Subsystem& subsystem(Index instance) const;
+  /// "robot[3].control"
+  [[nodiscard]] std::string instance_path(Index instance) const;
+  /// "robot[3].motor.left", or "arm.joints" for a driver of all real buffers.
+  [[nodiscard]] std::string driver_path(const Driver& driver) const;
+  /// Paths of the real buffers behind which none of `those` stands.
+  [[nodiscard]] std::vector<std::string> without_driver(const std::vector<Driver>& those) const;
+  /// "robot.control.motion->robot.motor.velocity": the name of the channel's fused places.
+  [[nodiscard]] std::string channel_name(const Channel& channel) const;
+  /// May who sends to or receives from the channel have to wait there?
+  [[nodiscard]] bool sender_waits(const Channel& channel) const;
+  [[nodiscard]] bool receiver_waits(const Channel& channel) const;
+};
+
+}  // namespace tessera::spec

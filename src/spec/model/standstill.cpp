@@ -1,0 +1,58 @@
+#include "spec/model/standstill.hpp"
+
+#include <algorithm>
+
+#include "spec/model/endings.hpp"
+
+namespace tessera::spec {
+namespace {
+
+/// Whether a behaviour may begin another iteration of its own.
+bool repeats(const Behaviour& behaviour) {
+  return truth_of(behaviour.terminal) != Truth::always && truth_of(behaviour.error) != Truth::always;
+}
+
+/// Whether one of these behaviours may follow it.
+bool passes_on(const Behaviour& behaviour, const std::vector<bool>& to) {
+  const Endings endings(behaviour);
+  for (Index entry = 0; entry < behaviour.next.size(); ++entry)
+    if (const Index next = behaviour.next[entry].behaviour;
+        next != none && to[next] && endings.can_be_taken(entry))
+      return true;
+  return false;
+}
+
+/// Removes, as long as there are any, the behaviours from which nothing that stays can follow: what is left
+/// lies on or before a circle.
+std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& waits) {
+  std::vector<bool> left(waits.size());
+  std::transform(waits.begin(), waits.end(), left.begin(), [](bool one) { return !one; });
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = left.size(); i-- > 0;) {  // behaviours mostly lead to later ones
+      const Behaviour& behaviour = subsystem.behaviours[i];
+      if (!left[i] || repeats(behaviour) || passes_on(behaviour, left)) continue;
+      left[i] = false;
+      changed = true;
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+std::vector<Index> standing_still(const Subsystem& subsystem, const std::vector<bool>& waits) {
+  const std::vector<bool> left = endless(subsystem, waits);
+  std::vector<Index> found;
+  bool circle_found = false;
+  for (Index i = 0; i < left.size(); ++i) {
+    if (!left[i]) continue;
+    // Of the behaviours that only pass on to one another, the first stands for all.
+    if (!repeats(subsystem.behaviours[i]) && circle_found) continue;
+    circle_found = circle_found || !repeats(subsystem.behaviours[i]);
+    found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "spec/agents/paths.hpp"
+#include "spec/model/model.hpp"
+#include "spec/properties/property_text.hpp"
+
+namespace tessera::spec {
+
+/// What a property claims of each agent of a fleet: a path with [i], [i+1] or [*] stands for every agent, one
+/// and the same i everywhere in the text; within any(...) and all(...), [*] stands for the agents that those
+/// range over. Claims about agents past the end of a fleet that is no ring are left out.
+///
+/// Errors: E101 unknown agent; E112 and E303 indices; E307 i over fleets of different sizes; E114 any or all
+/// without [*], or more than a million paths. Empty after an error.
+[[nodiscard]] std::vector<Claim> read_claims(const Formula& what, const std::optional<Formula>& then,
+                                             const Lookup& lookup, Diagnostics& out);
+
+}  // namespace tessera::spec

@@ -1,0 +1,219 @@
+#include "spec/values/literals.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+struct IntegerRange {
+  std::int64_t lowest;
+  std::uint64_t highest;
+};
+
+template <class T>
+constexpr IntegerRange range_of() {
+  return {static_cast<std::int64_t>(std::numeric_limits<T>::min()),
+          static_cast<std::uint64_t>(std::numeric_limits<T>::max())};
+}
+
+IntegerRange range(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::int8:
+      return range_of<std::int8_t>();
+    case Scalar::int16:
+      return range_of<std::int16_t>();
+    case Scalar::int32:
+      return range_of<std::int32_t>();
+    case Scalar::uint8:
+      return range_of<std::uint8_t>();
+    case Scalar::uint16:
+      return range_of<std::uint16_t>();
+    case Scalar::uint32:
+      return range_of<std::uint32_t>();
+    case Scalar::uint64:
+      return range_of<std::uint64_t>();
+    default:
+      return range_of<std::int64_t>();
+  }
+}
+
+template <class Float>
+std::string shortest(Float value) {
+  std::array<char, 64> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::string text(buffer.data(), end);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+/// Writes values of one file; keeps what its parts have in common.
+class Writer {
+ public:
+  Writer(const Types& types, std::string_view what, Diagnostics& out)
+      : types_(types), what_(what), out_(out) {}
+
+  std::optional<std::string> write(const Node& node, Span at, const Type& type) const {
+    if (Types::is_unknown(type)) return std::nullopt;
+    if (type.extent > 0) return array(node, at, type);
+    if (type.kind == Type::Kind::structure) return structure(node, at, type);
+    if (!node.is_scalar()) return mismatch(node, at, type);
+    if (type.kind == Type::Kind::string) return string(node, type);
+    if (type.scalar == Scalar::boolean) return boolean(node, at, type);
+    return number(node, at, type);
+  }
+
+ private:
+  std::nullopt_t mismatch(const Node& node, Span at, const Type& type, std::string hint = {}) const {
+    const bool scalar = node.is_scalar();
+    out_.error("E203", scalar ? node.span : at,
+               what_ + " must be a value of type " + types_.spelled(type) +
+                   (scalar ? ", not " + quoted(node.text) : ""),
+               std::move(hint));
+    return std::nullopt;
+  }
+
+  std::nullopt_t out_of_range(const Node& node, const Type& type) const {
+    out_.error("E204", node.span, quoted(node.text) + " is out of the range of " + types_.spelled(type));
+    return std::nullopt;
+  }
+
+  std::optional<std::string> array(const Node& node, Span at, const Type& type) const {
+    if (!node.is_sequence()) return mismatch(node, at, type, "write a list: [1, 2, 3]");
+    if (node.items.size() != type.extent) {
+      out_.error("E203", at,
+                 what_ + " has " + std::to_string(node.items.size()) + " elements, " + types_.spelled(type) +
+                     " has " + std::to_string(type.extent));
+      return std::nullopt;
+    }
+    Type element = type;
+    element.extent = 0;
+    std::string text;
+    for (const Node* item : node.items) {
+      auto part = write(*item, item->span, element);
+      if (!part) return std::nullopt;
+      if (element.kind == Type::Kind::structure) part = "{" + *part + "}";
+      text += (text.empty() ? "" : ", ") + *part;
+    }
+    return "{" + text + "}";  // the elements of std::array stand in braces of their own
+  }
+
+  std::optional<std::string> structure(const Node& node, Span at, const Type& type) const {
+    const Structure& shape = types_.structures()[type.structure];
+    if (!node.is_map()) return mismatch(node, at, type, "write a map: { " + first_field(shape) + ": ... }");
+    check_fields(node, shape);
+    std::string text;
+    for (const Field& field : shape.fields) {
+      const auto given = std::find_if(node.entries.begin(), node.entries.end(),
+                                      [&](const Entry& entry) { return entry.key == field.name; });
+      std::optional<std::string> part = std::string();
+      if (given != node.entries.end()) part = write(*given->value, given->span, field.type);
+      if (!part) return std::nullopt;
+      text += (text.empty() ? "." : ", .") + field.name + "{" + *part + "}";
+    }
+    return text;
+  }
+
+  static std::string first_field(const Structure& shape) {
+    return shape.fields.empty() ? "field" : shape.fields.front().name;
+  }
+
+  void check_fields(const Node& node, const Structure& shape) const {
+    std::vector<std::string> names;
+    for (const Field& field : shape.fields) names.push_back(field.name);
+    for (const Entry& entry : node.entries) {
+      if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+      out_.error("E101", entry.span, "type " + quoted(shape.name) + " has no field " + quoted(entry.key),
+                 diagnostics::did_you_mean(entry.key, names));
+    }
+  }
+
+  std::optional<std::string> string(const Node& node, const Type& type) const {
+    if (node.text.size() > type.capacity) return out_of_range(node, type);
+    return string_literal(node.text);
+  }
+
+  std::optional<std::string> boolean(const Node& node, Span at, const Type& type) const {
+    if (is_true(node)) return "true";
+    if (is_false(node)) return "false";
+    return mismatch(node, at, type, "write true or false");
+  }
+
+  std::optional<std::string> number(const Node& node, Span at, const Type& type) const {
+    const auto quantity = split_quantity(node.text);
+    if (!quantity) return mismatch(node, at, type);
+    if (!quantity->unit.empty() && quantity->unit != type.unit) {
+      out_.error("E208", node.span,
+                 "unit " + quoted(quantity->unit) + " where the type is " + types_.spelled(type),
+                 "units are compared as they are written");
+      return std::nullopt;
+    }
+    if (type.scalar == Scalar::float64) return float_literal(quantity->number);
+    if (type.scalar == Scalar::float32) return narrow_float(node, *quantity, type);
+    return integer(node, at, *quantity, type);
+  }
+
+  std::optional<std::string> narrow_float(const Node& node, const Quantity& quantity,
+                                          const Type& type) const {
+    if (std::abs(quantity.number) > static_cast<double>(std::numeric_limits<float>::max()))
+      return out_of_range(node, type);
+    return shortest(static_cast<float>(quantity.number)) + "F";
+  }
+
+  std::optional<std::string> integer(const Node& node, Span at, const Quantity& quantity,
+                                     const Type& type) const {
+    const std::string_view digits = quantity.digits;
+    const bool negative = digits.starts_with('-');
+    const char* const end = digits.data() + digits.size();
+    std::uint64_t magnitude = 0;
+    const auto [stop, error] = std::from_chars(digits.data() + (negative ? 1 : 0), end, magnitude);
+    if (stop != end) return mismatch(node, at, type, "write a whole number");
+    const IntegerRange bounds = range(type.scalar);
+    const std::uint64_t largest = negative ? ~static_cast<std::uint64_t>(bounds.lowest) + 1 : bounds.highest;
+    if (error != std::errc() || magnitude > largest) return out_of_range(node, type);
+    // The lowest int64 has no literal of its own: its digits without the sign do not fit.
+    if (negative && magnitude == std::uint64_t{1} << 63U) return "-9223372036854775807 - 1";
+    // Not the digits as written: C++ takes 010 for eight.
+    return (negative ? "-" : "") + std::to_string(magnitude) + (type.scalar == Scalar::uint64 ? "U" : "");
+  }
+
+  const Types& types_;
+  std::string what_;
+  Diagnostics& out_;
+};
+
+}  // namespace
+
+std::optional<std::string> initialiser(const Node& node, Span at, const Type& type, const Types& types,
+                                       std::string_view what, Diagnostics& out) {
+  return Writer(types, what, out).write(node, at, type);
+}
+
+std::string float_literal(double value) { return shortest(value); }
+
+std::string string_literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else if (byte < 0x20 || byte == 0x7F) {
+      // Octal: unlike \x, it ends after three digits whatever follows.
+      const auto digit = [byte](unsigned shift) { return static_cast<char>('0' + ((byte >> shift) & 7U)); };
+      result += {'\\', digit(6), digit(3), digit(0)};
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "spec/document/document.hpp"
+#include "spec/values/types.hpp"
+
+/// Values of the file as C++.
+namespace tessera::spec {
+
+/// The C++ initialiser (to stand between braces) of a value of `type`. Numbers may carry the unit of the
+/// type; a list gives an array, a map a structure, whose missing fields are zero.
+///
+/// what:   the value in words, e.g. "the default".
+/// Errors: E101 unknown field; E203 of another type; E204 out of the range of the type; E208 another unit.
+[[nodiscard]] std::optional<std::string> initialiser(const Node& node, Span at, const Type& type,
+                                                     const Types& types, std::string_view what,
+                                                     Diagnostics& out);
+
+/// `value` as a double in C++: "2.0", "1e-07".
+[[nodiscard]] std::string float_literal(double value);
+
+/// `text` as a string literal of C++, quotes included.
+[[nodiscard]] std::string string_literal(std::string_view text);
+
+}  // namespace tessera::spec

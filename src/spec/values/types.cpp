@@ -1,0 +1,192 @@
+#include "spec/values/types.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
+#include "spec/document/type_text.hpp"
+#include "spec/model/structure_order.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+constexpr std::array scalars = std::to_array<std::string_view>(
+    {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
+constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
+
+/// What other languages call our types.
+struct Synonym {
+  std::string_view theirs, ours;
+};
+constexpr std::array synonyms = {
+    Synonym{"double", "float64"}, Synonym{"float", "float32"},   Synonym{"int", "int32"},
+    Synonym{"long", "int64"},     Synonym{"unsigned", "uint32"}, Synonym{"char", "int8"},
+    Synonym{"byte", "uint8"},     Synonym{"boolean", "bool"},    Synonym{"str", "string"},
+    Synonym{"text", "string"},    Synonym{"number", "float64"}};
+
+/// The status of a buffer stands beside the fields of its value: in.line.left, in.line.fresh.
+constexpr std::array status_names =
+    std::to_array<std::string_view>({"fresh", "age", "stamp", "timed_out", "valid"});
+constexpr std::array generated_types =
+    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
+
+constexpr std::uint64_t largest_type = std::uint64_t{256} * 1024 * 1024;
+
+template <std::size_t N>
+std::optional<std::size_t> place(const std::array<std::string_view, N>& words, std::string_view word) {
+  const auto* const found = std::find(words.begin(), words.end(), word);
+  return found == words.end() ? std::nullopt
+                              : std::optional<std::size_t>(static_cast<std::size_t>(found - words.begin()));
+}
+
+bool is_built_in(std::string_view name) { return name == "string" || place(scalars, name).has_value(); }
+
+bool has_unit(const Type& type) { return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean; }
+
+/// Saturates well above the limit.
+std::uint64_t bytes_of(const Type& type, const std::vector<std::uint64_t>& structures) {
+  std::uint64_t one = std::uint64_t{type.capacity} + 4;
+  if (type.kind == Type::Kind::scalar) one = scalar_bytes[static_cast<std::size_t>(type.scalar)];
+  if (type.kind == Type::Kind::structure)
+    one = type.structure < structures.size() ? structures[type.structure] : 0;
+  const std::uint64_t extent = std::max<std::uint64_t>(type.extent, 1);
+  return one > largest_type / extent ? largest_type + 1 : one * extent;
+}
+
+}  // namespace
+
+std::string_view name_of(Scalar scalar) { return scalars[static_cast<std::size_t>(scalar)]; }
+
+Type Types::unknown() {
+  Type type;
+  type.kind = Type::Kind::structure;
+  return type;
+}
+
+bool Types::is_unknown(const Type& type) {
+  return type.kind == Type::Kind::structure && type.structure == none;
+}
+
+void Types::read(const Entry* section, Diagnostics& out) {
+  known_names_.assign(scalars.begin(), scalars.end());
+  known_names_.emplace_back("string");
+  if (section == nullptr) return;
+  const std::vector<Entry>& entries = entries_of(*section->value, section->span, "types", out);
+  for (const Entry& entry : entries) {
+    check_name(entry.key, entry.span, "type", out);
+    if (is_built_in(entry.key)) {
+      out.error("E107", entry.span, "type " + quoted(entry.key) + " is built in");
+    } else if (place(generated_types, entry.key)) {
+      out.error("E106", entry.span, "type name " + quoted(entry.key) + " is taken by the generated code");
+    }
+    by_name_.emplace(entry.key, static_cast<Index>(structures_.size()));
+    known_names_.push_back(entry.key);
+    structures_.push_back({entry.key, {}, entry.span});
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i) read_fields(entries[i], structures_[i], out);
+  if (sort(out)) check_size(out);
+}
+
+void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& out) const {
+  const std::string what = "type " + quoted(entry.key);
+  const auto& fields = entries_of(*entry.value, entry.span, what, out);
+  if (fields.empty() && (entry.value->is_map() || entry.value->is_null())) {
+    out.error("E104", entry.span, what + " needs at least one field", "for example { value: float64 }");
+  }
+  for (const Entry& field : fields) {
+    if (place(status_names, field.key)) {
+      out.error("E106", field.span,
+                "field name " + quoted(field.key) + " is reserved for the status of a buffer",
+                "for example '" + field.key + "_value'");
+    } else if (field.key == entry.key) {
+      out.error("E107", field.span, "field " + quoted(field.key) + " has the name of its type",
+                "begin types with a capital letter");
+    } else {
+      check_name(field.key, field.span, "field", out);
+    }
+    structure.fields.push_back({field.key, parse(*field.value, field.span, out), {}, field.span});
+  }
+}
+
+bool Types::sort(Diagnostics& out) {
+  const StructureOrder order = order_structures(structures_);
+  for (const std::vector<Index>& cycle : order.cycles) {
+    std::string names;
+    for (const Index one : cycle) names += structures_[one].name + " -> ";
+    const Structure& first = structures_[cycle.front()];
+    out.error("E202", first.span, "type " + quoted(first.name) + " contains itself: " + names + first.name,
+              "a structure has a fixed size, so it cannot hold one of its own kind");
+  }
+  if (!order.cycles.empty()) return false;
+  structures_ = reordered(std::move(structures_), order.sorted);
+  for (Index i = 0; i < structures_.size(); ++i) by_name_[structures_[i].name] = i;
+  return true;
+}
+
+void Types::check_size(Diagnostics& out) const {
+  std::vector<std::uint64_t> sizes;
+  for (const Structure& structure : structures_) {
+    std::uint64_t size = 0;
+    for (const Field& field : structure.fields) {
+      size = std::min(size + bytes_of(field.type, sizes), largest_type + 1);
+    }
+    if (size > largest_type) {
+      out.error("E204", structure.span, "type " + quoted(structure.name) + " is larger than 256 MB");
+      return;
+    }
+    sizes.push_back(size);
+  }
+}
+
+Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
+  const Node* text = text_of(node, at, "a type", out, "for example float64 m/s");
+  if (text == nullptr) return unknown();
+  const auto parts = split_type(*text, out);
+  if (!parts) return unknown();
+  Type type;
+  type.extent = parts->extent;
+  type.unit = parts->unit;
+  if (const auto scalar = place(scalars, parts->name)) {
+    type.scalar = static_cast<Scalar>(*scalar);
+  } else if (parts->name == "string") {
+    type.kind = Type::Kind::string;
+    if (parts->capacity) type.capacity = *parts->capacity;
+  } else {
+    type.kind = Type::Kind::structure;
+    const auto found = by_name_.find(parts->name);
+    if (found == by_name_.end()) {
+      const auto* const synonym = std::find_if(synonyms.begin(), synonyms.end(),
+                                               [&](const Synonym& one) { return one.theirs == parts->name; });
+      out.error("E101", parts->name_span, "unknown type " + quoted(parts->name),
+                synonym != synonyms.end() ? "here it is called " + std::string(synonym->ours)
+                                          : diagnostics::did_you_mean(parts->name, known_names_));
+      return unknown();
+    }
+    type.structure = found->second;
+  }
+  if (parts->capacity && type.kind != Type::Kind::string) {
+    out.error("E201", text->span, "only a string has a '<=' capacity",
+              "an array is written " + parts->name + "[8]");
+  } else if (!type.unit.empty() && !has_unit(type)) {
+    out.error("E201", parts->unit_span, "unit " + quoted(type.unit) + " on a type that is no number");
+  } else if (bytes_of(type, {}) > largest_type) {
+    out.error("E204", text->span, "an array larger than 256 MB");
+  } else {
+    return type;
+  }
+  return unknown();
+}
+
+std::string Types::spelled(const Type& type) const {
+  std::string text(name_of(type.scalar));
+  if (type.kind == Type::Kind::string) text = "string<=" + std::to_string(type.capacity);
+  if (type.kind == Type::Kind::structure) text = is_unknown(type) ? "?" : structures_[type.structure].name;
+  if (type.extent > 0) text += "[" + std::to_string(type.extent) + "]";
+  return type.unit.empty() ? text : text + " " + type.unit;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::spec {
+
+/// The types of one specification: the built-in ones and its own structures.
+class Types {
+ public:
+  /// Reads the section `types`; null: there is none.
+  ///
+  /// Errors: E101 unknown type, E105/E106/E107 names, E201 no type, E202 a structure contains itself, E204
+  /// too large.
+  void read(const Entry* section, Diagnostics& out);
+
+  /// The type that a scalar names: "float64 m/s", "string<=64", "Point[8]". With an error: the unknown type.
+  [[nodiscard]] Type parse(const Node& node, Span at, Diagnostics& out) const;
+
+  /// As people write it, unit and all.
+  [[nodiscard]] std::string spelled(const Type& type) const;
+
+  /// Each uses only earlier ones, unless one contains itself.
+  [[nodiscard]] const std::vector<Structure>& structures() const { return structures_; }
+
+  /// Stands for a type that could not be read, so that no second error follows from the first.
+  [[nodiscard]] static Type unknown();
+  [[nodiscard]] static bool is_unknown(const Type& type);
+
+ private:
+  void read_fields(const Entry& entry, Structure& structure, Diagnostics& out) const;
+  /// Returns false if there are cycles.
+  bool sort(Diagnostics& out);
+  void check_size(Diagnostics& out) const;
+
+  std::vector<Structure> structures_;
+  std::unordered_map<std::string, Index> by_name_;
+  std::vector<std::string> known_names_;  ///< built-in ones first, to guess from
+};
+
+/// "float64"
+[[nodiscard]] std::string_view name_of(Scalar scalar);
+
+}  // namespace tessera::spec

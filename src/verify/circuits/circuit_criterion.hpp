@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "verify/communication/communication.hpp"
+
+namespace tessera::verify {
+
+/// One subsystem waits at a channel for what another has to do there first. Indices into the structure.
+struct Wait {
+  std::uint32_t subsystem = 0;
+  std::uint32_t channel = 0;
+  Side side = Side::receive;  ///< send: waits for the acknowledgement; receive: for a value
+  std::uint32_t waiting_for = 0;
+};
+
+/// Subsystems that are joined by channels at which somebody may have to wait.
+struct CircuitGroup {
+  enum class Cause : std::uint8_t {
+    none,        ///< every subsystem goes on
+    no_token,    ///< each waits for the next from the start on
+    lost_token,  ///< each waits for the next once one side of a channel gave up at the wrong moment
+    peer_ended,  ///< a subsystem waits for one that may have ended
+    peer_absent  ///< a subsystem waits for one that never uses the channel (again)
+  };
+
+  std::vector<std::uint32_t> subsystems;
+  std::string why_not;  ///< not empty: the criterion does not apply to the group, and this is why
+  Cause cause = Cause::none;
+  std::vector<Wait> circuit;  ///< who waits for whom, each for the next; the last for the first in a circuit
+  std::vector<std::uint32_t> stuck;  ///< those that can get stuck for ever, in one marking or another
+
+  [[nodiscard]] bool applies() const { return why_not.empty(); }
+};
+
+enum class Answer : std::uint8_t { yes, no, unknown };
+
+struct CircuitReport {
+  std::vector<CircuitGroup> groups;
+  Answer goes_on = Answer::unknown;
+  Answer deadlock_free = Answer::unknown;
+  Answer channels_flow = Answer::unknown;
+  std::vector<std::uint32_t> dry;  ///< channels that can reach a state from which nothing is received again
+  std::vector<std::uint32_t> unclear;  ///< channels of which this analysis cannot tell
+};
+
+/// Decides goes_on, deadlock_free and channels_flow where every subsystem repeats one cyclic sequence of
+/// communications: every subsystem goes on if and only if no circuit of the event graph is free of tokens and
+/// none passes an edge that may lose one. Definitions, statement and proof: docs/circuits.md.
+///
+/// Threads: pure. Linear in the structure.
+/// Source: Commoner, Holt, Even, Pnueli, *Marked directed graphs*, JCSS 5, 1971, is the case in which all
+/// block.
+[[nodiscard]] CircuitReport judge_circuits(const CommunicationStructure& structure);
+
+/// "robot.control waits to receive from a.y->b.x for robot.motor; ...": a circuit in words.
+[[nodiscard]] std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group);
+
+}  // namespace tessera::verify

@@ -1,0 +1,162 @@
+#include "verify/circuits/folding.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+namespace tessera::verify {
+namespace {
+
+using Flags = std::vector<bool>;
+
+/// The behaviours reached from one over at least one step, itself by repetition.
+Flags followers(const SubsystemFlow& subsystem, std::uint32_t start) {
+  Flags reached(subsystem.behaviours.size(), false);
+  std::vector<std::uint32_t> open{start};
+  while (!open.empty()) {
+    const std::uint32_t at = open.back();
+    open.pop_back();
+    const BehaviourFlow& behaviour = subsystem.behaviours[at];
+    if (behaviour.repeats) reached[at] = true;
+    for (const std::uint32_t next : behaviour.next) {
+      if (reached[next]) continue;
+      reached[next] = true;
+      open.push_back(next);
+    }
+  }
+  return reached;
+}
+
+/// What is left of a behaviour's stages without the channels that hold nobody up.
+std::vector<Stage> essence(const BehaviourFlow& behaviour, const std::vector<ChannelFlow>& channels) {
+  std::vector<Stage> stages;
+  for (const Stage& stage : behaviour.stages) {
+    Stage kept;
+    std::ranges::copy_if(stage, std::back_inserter(kept), [&](const Communication& communication) {
+      return holds_up(channels[communication.channel]);
+    });
+    std::ranges::sort(kept, {}, [](const Communication& communication) {
+      return std::tuple(communication.channel, communication.side);
+    });
+    if (!kept.empty()) stages.push_back(std::move(kept));
+  }
+  return stages;
+}
+
+class Folding {
+ public:
+  Folding(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels)
+      : subsystem_(subsystem), channels_(channels), rest_(subsystem.behaviours.size(), true) {
+    for (const BehaviourFlow& behaviour : subsystem.behaviours) {
+      stages_.push_back(essence(behaviour, channels));
+      folded_.can_end = folded_.can_end || behaviour.ends;
+    }
+  }
+
+  Folded result() {
+    for (const BehaviourFlow& behaviour : subsystem_.behaviours)
+      if (!behaviour.complete)
+        return refuse("after '" + behaviour.name + "' none of the initial conditions may hold");
+    // A subsystem that holds nobody up and is held up by nobody may do what it likes.
+    if (std::ranges::all_of(stages_, [](const auto& stages) { return stages.empty(); })) return folded_;
+    if (const std::string name = own_model(); !name.empty())
+      return refuse("'" + name + "' has a communication model of its own");
+    std::uint32_t at = 0;
+    while (!same_from(at)) {
+      if (!peel(at)) return refuse("its behaviours use different channels, or in different orders");
+    }
+    if (!goes_round(at)) return refuse("it cannot go on for ever");
+    folded_.cycle = stages_[at];
+    return folded_;
+  }
+
+ private:
+  Folded refuse(std::string why) {
+    folded_.why_not = "'" + subsystem_.name + "': " + std::move(why);
+    return folded_;
+  }
+
+  /// A channel of the author's own model.
+  [[nodiscard]] std::string own_model() const {
+    for (const BehaviourFlow& behaviour : subsystem_.behaviours)
+      for (const Stage& stage : behaviour.stages)
+        for (const Communication& communication : stage)
+          if (channels_[communication.channel].own_model) return channels_[communication.channel].name;
+    return {};
+  }
+
+  [[nodiscard]] bool same_from(std::uint32_t start) const {
+    for (std::uint32_t index = 0; index < stages_.size(); ++index)
+      if (rest_[index] && stages_[index] != stages_[start]) return false;
+    return true;
+  }
+
+  /// Takes the behaviour off the front as a start-up: one behaviour may follow, it never comes back, and it
+  /// waits for nobody.
+  bool peel(std::uint32_t& at) {
+    const BehaviourFlow& behaviour = subsystem_.behaviours[at];
+    if (behaviour.next.empty()) return false;
+    const std::uint32_t next = behaviour.next.front();
+    if (!std::ranges::all_of(behaviour.next, [&](std::uint32_t other) { return other == next; }))
+      return false;
+    if (next == at || followers(subsystem_, next)[at]) return false;
+    for (const Stage& stage : stages_[at])
+      for (const Communication& communication : stage) {
+        if (communication.side == Side::receive || communication.blocking) return false;
+        folded_.primed.push_back(communication.channel);
+      }
+    rest_[at] = false;
+    at = next;
+    return true;
+  }
+
+  [[nodiscard]] bool goes_round(std::uint32_t start) const {
+    Flags reached = followers(subsystem_, start);
+    reached[start] = true;
+    for (std::uint32_t index = 0; index < reached.size(); ++index)
+      if (reached[index] && followers(subsystem_, index)[index]) return true;
+    return false;
+  }
+
+  const SubsystemFlow& subsystem_;
+  const std::vector<ChannelFlow>& channels_;
+  Flags rest_;                              // per behaviour: not taken off as a start-up
+  std::vector<std::vector<Stage>> stages_;  // per behaviour
+  Folded folded_;
+};
+
+}  // namespace
+
+bool waits_to_send(const ChannelFlow& channel) {
+  return channel.sender && channel.send_blocks && !channel.send_timeout;
+}
+bool waits_to_receive(const ChannelFlow& channel) {
+  return channel.receiver && channel.receive_blocks && !channel.receive_timeout;
+}
+bool holds_up(const ChannelFlow& channel) {
+  return channel.own_model || waits_to_send(channel) || waits_to_receive(channel);
+}
+
+Folded fold(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels) {
+  return Folding(subsystem, channels).result();
+}
+
+bool always_uses_again(const SubsystemFlow& subsystem, std::uint32_t channel, Side side) {
+  const auto uses = [&](const BehaviourFlow& behaviour) {
+    return std::ranges::any_of(behaviour.stages, [&](const Stage& stage) {
+      return std::ranges::any_of(stage, [&](const Communication& communication) {
+        return communication.channel == channel && communication.side == side;
+      });
+    });
+  };
+  for (std::uint32_t start = 0; start < subsystem.behaviours.size(); ++start) {
+    const Flags reached = followers(subsystem, start);
+    bool again = false;
+    for (std::uint32_t index = 0; index < reached.size(); ++index)
+      again = again || (reached[index] && uses(subsystem.behaviours[index]));
+    if (!again) return false;
+  }
+  return true;
+}
+
+}  // namespace tessera::verify

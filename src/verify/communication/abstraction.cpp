@@ -1,0 +1,179 @@
+#include "verify/communication/abstraction.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace tessera::verify {
+namespace {
+
+using net::Arc;
+using net::Condition;
+using net::PlaceId;
+using net::TransitionId;
+
+/// What is known about a place that behaviours leave through initial conditions.
+struct Exit {
+  bool certain = false;  ///< one of its conditions holds
+  bool entered = false;  ///< something leads to it
+  Condition::After none_follows{true, true};
+};
+
+std::map<PlaceId, Exit> exits(const net::Net& net) {
+  std::map<PlaceId, Exit> found;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const TransitionId id{index};
+    const Condition& condition = net[id].condition;
+    if (condition.kind != Condition::Kind::next || net.preset(id).size() != 1) continue;
+    Exit& exit = found[net.preset(id).front().place];
+    exit.none_follows = condition.none_follows;
+    exit.certain = exit.certain || condition.truth == Condition::Truth::always || condition.exhaustive;
+  }
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const TransitionId id{index};
+    if (!possible(net, id)) continue;
+    for (const Arc& arc : net.postset(id))
+      if (const auto exit = found.find(arc.place); exit != found.end()) exit->second.entered = true;
+  }
+  return found;
+}
+
+void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
+  const net::Place from = net[exit];
+  net::Place lost = from;
+  lost.name = from.name + ".none";
+  lost.tokens = 0;
+  lost.operation = {};
+  const PlaceId to = net.add(std::move(lost));
+  net::Transition none;
+  none.name = from.name + " none";
+  none.condition = {Condition::Kind::next, Condition::Truth::free, UINT32_MAX, "none holds"};
+  none.condition.follows = none_follows;
+  none.layer = net::Layer::subsystem;
+  none.page = from.page;
+  none.subsystem = from.subsystem;
+  none.span = from.span;
+  net.add(std::move(none), std::vector<Arc>{{exit, 1}}, std::vector<Arc>{{to, 1}});
+}
+
+net::Net copied(const net::Net& net, Assume assume) {
+  net::Net copy;
+  for (const net::Place& place : net.places()) copy.add(place);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const TransitionId id{index};
+    net::Transition transition = net[id];
+    const Condition::Known known = transition.condition.known(assume == Assume::exceptions);
+    transition.condition.truth = known.truth;
+    transition.condition.exhaustive = known.exhaustive;
+    copy.add(std::move(transition), net.preset(id), net.postset(id));
+  }
+  return copy;
+}
+
+/// Transitions of a subsystem that take it to its end: into its page's output place, which none of its own
+/// transitions empties.
+std::vector<bool> last_transitions(const net::Net& net) {
+  std::vector<bool> left(net.places().size(), false);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    if (net.transitions()[index].subsystem != net::no_subsystem)
+      for (const Arc& arc : net.preset(TransitionId{index})) left[arc.place.value] = true;
+  std::vector<bool> last(net.transitions().size(), false);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const TransitionId id{index};
+    if (net[id].subsystem == net::no_subsystem || !possible(net, id)) continue;
+    last[index] = std::ranges::any_of(net.postset(id), [&](const Arc& arc) {
+      const net::Place& place = net[arc.place];
+      return place.layer == net::Layer::subsystem && !left[arc.place.value] && place.name.ends_with(".out");
+    });
+  }
+  return last;
+}
+
+}  // namespace
+
+bool possible(const net::Net& net, net::TransitionId id) {
+  return net[id].condition.truth != net::Condition::Truth::never;
+}
+
+net::Net abstract_net(const net::Net& net, Assume assume) {
+  net::Net abstract = copied(net, assume);
+  for (const auto& [place, exit] : exits(abstract))
+    if (exit.entered && !exit.certain) add_outcome(abstract, place, exit.none_follows);
+  return abstract;
+}
+
+net::Net possible_part(const net::Net& net, std::vector<TransitionId>* fires) {
+  net::Net part;
+  for (const net::Place& place : net.places()) part.add(place);
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const TransitionId id{index};
+    if (!possible(net, id)) continue;
+    part.add(net[id], net.preset(id), net.postset(id));
+    if (fires != nullptr) fires->push_back(id);
+  }
+  return part;
+}
+
+ProbedNet probed_net(const net::Net& abstract) {
+  const std::vector<bool> last = last_transitions(abstract);
+  std::map<std::uint32_t, PlaceId> ended;  // per subsystem that may end
+  std::vector<PlaceId> more(abstract.transitions().size());
+  auto next = static_cast<std::uint32_t>(abstract.places().size());
+  for (std::uint32_t index = 0; index < more.size(); ++index) {
+    if (!last[index]) continue;
+    const auto [entry, added] = ended.emplace(abstract.transitions()[index].subsystem, PlaceId{next});
+    if (added) ++next;
+    more[index] = entry->second;
+  }
+  // The places that the arcs above speak of have to be there first.
+  net::Net places;
+  for (const net::Place& place : abstract.places()) places.add(place);
+  std::map<PlaceId, std::uint32_t> in_order;
+  for (const auto& [subsystem, place] : ended) in_order.emplace(place, subsystem);
+  for (const auto& [place, subsystem] : in_order) {
+    net::Place mark;
+    mark.name = "ended " + std::to_string(subsystem);
+    mark.layer = net::Layer::subsystem;
+    mark.subsystem = subsystem;
+    places.add(std::move(mark));
+  }
+  ProbedNet probed;
+  probed.net = std::move(places);
+  std::map<std::uint32_t, std::vector<TransitionId>> subsystems, channels;
+  std::map<std::uint32_t, std::uint32_t> reader;
+  for (std::uint32_t index = 0; index < abstract.transitions().size(); ++index) {
+    const TransitionId id{index};
+    std::vector<Arc> outputs(abstract.postset(id).begin(), abstract.postset(id).end());
+    if (more[index].valid()) outputs.push_back({more[index], 1});
+    probed.net.add(abstract[id], abstract.preset(id), outputs);
+    if (abstract[id].subsystem == net::no_subsystem) continue;
+    std::vector<TransitionId>& of_subsystem = subsystems[abstract[id].subsystem];
+    if (possible(abstract, id)) of_subsystem.push_back(id);
+    for (const Arc& arc : abstract.postset(id)) {
+      const net::Operation& operation = abstract[arc.place].operation;
+      if (operation.kind != net::Operation::Kind::read) continue;
+      channels[operation.subject].push_back(id);
+      reader[operation.subject] = abstract[id].subsystem;
+    }
+  }
+  probed.transitions = abstract.transitions().size();
+  std::map<std::uint32_t, TransitionId> probes;
+  for (const auto& [place, subsystem] : in_order) {
+    net::Transition probe;
+    probe.name = "ended " + std::to_string(subsystem) + "?";
+    const std::vector<Arc> loop{{place, 1}};
+    probes[subsystem] = probed.net.add(std::move(probe), loop, loop);
+  }
+  for (auto& [subsystem, any_of] : subsystems) {
+    if (probes.contains(subsystem)) any_of.push_back(probes[subsystem]);
+    probed.subsystems.push_back({subsystem, std::move(any_of)});
+  }
+  for (auto& [channel, any_of] : channels) {
+    if (probes.contains(reader[channel])) any_of.push_back(probes[reader[channel]]);
+    probed.channels.push_back({channel, std::move(any_of)});
+  }
+  return probed;
+}
+
+}  // namespace tessera::verify

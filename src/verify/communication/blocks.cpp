@@ -1,0 +1,199 @@
+#include "verify/communication/blocks.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace tessera::verify {
+namespace {
+
+using net::Operation;
+using net::PlaceId;
+
+/// Which part of its channel's memory a fused place is; 0: none that we know.
+std::uint8_t memory_of(const net::Place& place) {
+  if (place.name.ends_with(".channel")) return place.tokens == 1 ? free_to_use : 0;
+  if (place.name.ends_with(".empty")) return place.tokens == 1 ? empty : 0;
+  if (place.name.ends_with(".full")) return place.tokens == 0 ? full : 0;
+  if (place.name.ends_with(".ack")) return place.tokens == 0 ? acknowledged : 0;
+  return 0;
+}
+
+/// What a step does, apart from where its token comes from.
+struct Move {
+  PlaceId to;
+  std::uint8_t takes, gives;
+  bool elapsed = false;
+  bool operator==(const Move&) const = default;
+};
+
+/// Do exactly these moves of one channel start at the place?
+bool moves_are(const Steps& steps, PlaceId from, std::uint32_t channel, std::span<const Move> expected) {
+  const auto found = steps.from(from);
+  if (found.size() != expected.size()) return false;
+  return std::ranges::all_of(found, [&](const Step& step) {
+    const net::Condition& condition = steps.net()[step.id].condition;
+    const bool elapsed = condition.kind == net::Condition::Kind::elapsed;
+    if (!elapsed && condition.kind != net::Condition::Kind::none) return false;
+    return step.from.valid() && step.channel == channel && !step.own_model &&
+           std::ranges::count(expected, Move{step.to, step.takes, step.gives, elapsed}) == 1;
+  });
+}
+
+/// Tries the forms of a block one after the other.
+class Match {
+ public:
+  Match(const Steps& steps, PlaceId in) : steps_(steps), in_(in) {}
+
+  std::optional<Block> result() {
+    const auto starts = steps_.from(in_);
+    // Every block has a transition into its working place, which carries the operation.
+    const auto start = std::ranges::find_if(starts, [&](const Step& step) {
+      if (!step.to.valid()) return false;
+      const Operation::Kind kind = steps_.net()[step.to].operation.kind;
+      return kind == Operation::Kind::write || kind == Operation::Kind::read;
+    });
+    if (start == starts.end() || start->channel == UINT32_MAX) return std::nullopt;
+    work_ = start->to;
+    channel_ = start->channel;
+    const Operation& operation = steps_.net()[work_].operation;
+    if (operation.subject != channel_ || steps_.from(work_).size() != 1) return std::nullopt;
+    after_work_ = steps_.from(work_).front().to;
+    if (!after_work_.valid()) return std::nullopt;
+    const bool sends = operation.kind == Operation::Kind::write;
+    if (exchanges()) return block(sends ? Side::send : Side::receive, false, false, after_work_);
+    return sends ? send() : receive();
+  }
+
+ private:
+  [[nodiscard]] bool moves(PlaceId from, std::initializer_list<Move> expected) const {
+    return moves_are(steps_, from, channel_, {expected.begin(), expected.size()});
+  }
+
+  [[nodiscard]] bool exchanges() const {
+    return moves(in_, {{work_, free_to_use, 0}}) && moves(work_, {{after_work_, 0, free_to_use}});
+  }
+
+  std::optional<Block> send() {
+    if (!steps_.acknowledges(channel_)) {
+      if (!moves(in_, {{work_, empty, 0}, {work_, full, 0}}) || !moves(work_, {{after_work_, 0, full}}))
+        return std::nullopt;
+      return block(Side::send, false, false, after_work_);
+    }
+    const PlaceId wait = after_work_;
+    if (!moves(in_, {{work_, empty, 0}}) || !moves(work_, {{wait, 0, full}}) || steps_.from(wait).empty())
+      return std::nullopt;
+    const PlaceId out = steps_.from(wait).front().to;
+    if (moves(wait, {{out, acknowledged, 0}})) return block(Side::send, true, false, out);
+    if (moves(wait, {{out, acknowledged, 0}, {out, full, empty, true}}))
+      return block(Side::send, true, true, out);
+    return std::nullopt;
+  }
+
+  std::optional<Block> receive() {
+    const PlaceId out = after_work_;
+    const std::uint8_t released = steps_.acknowledges(channel_) ? empty | acknowledged : empty;
+    if (!moves(work_, {{out, 0, released}})) return std::nullopt;
+    if (moves(in_, {{work_, full, 0}})) return block(Side::receive, true, false, out);
+    if (moves(in_, {{work_, full, 0}, {out, empty, empty}})) return block(Side::receive, false, false, out);
+    if (moves(in_, {{work_, full, 0}, {out, empty, empty, true}}))
+      return block(Side::receive, true, true, out);
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Block block(Side side, bool blocking, bool timeout, PlaceId out) const {
+    return {{channel_, side, blocking, timeout}, out};
+  }
+
+  const Steps& steps_;
+  PlaceId in_, work_, after_work_;
+  std::uint32_t channel_ = 0;
+};
+
+std::string_view block_of(const Steps& steps, const Step& step) {
+  const std::string_view name = steps.net()[step.id].name;
+  return name.substr(0, name.rfind('.'));
+}
+
+/// Follows the transitions of one block from `in` to the only place that none of them leaves.
+std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
+  const auto starts = steps.from(in);
+  if (starts.empty() || starts.front().channel == UINT32_MAX) return std::nullopt;
+  Block block{.communication = {.channel = starts.front().channel, .own_model = true}, .out = {}};
+  const std::string_view name = block_of(steps, starts.front());
+  std::vector<PlaceId> reached{in};
+  for (std::size_t at = 0; at < reached.size(); ++at) {
+    bool left = false;
+    for (const Step& step : steps.from(reached[at])) {
+      if (block_of(steps, step) != name) continue;
+      const bool foreign = step.channel != UINT32_MAX && step.channel != block.communication.channel;
+      if (foreign || !step.from.valid() || !step.to.valid()) return std::nullopt;
+      left = true;
+      if (std::ranges::find(reached, step.to) == reached.end()) reached.push_back(step.to);
+    }
+    if (!left && block.out.valid()) return std::nullopt;
+    if (!left) block.out = reached[at];
+    if (steps.net()[reached[at]].operation.kind == Operation::Kind::read)
+      block.communication.side = Side::receive;
+  }
+  return block.out.valid() ? std::optional(block) : std::nullopt;
+}
+
+}  // namespace
+
+Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 0) {
+  for (const net::Place& place : net.places()) {
+    if (!place.fused()) continue;
+    if (acknowledges_.size() <= place.channel) acknowledges_.resize(place.channel + 1, false);
+    if (memory_of(place) == acknowledged) acknowledges_[place.channel] = true;
+  }
+  std::vector<std::pair<PlaceId, Step>> found;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    if (net[id].subsystem == net::no_subsystem) continue;
+    const std::optional<Step> step = read(id);
+    if (!step) {
+      stray_ = id;
+      continue;
+    }
+    for (const net::Arc& arc : net.preset(id))
+      if (!net[arc.place].fused()) found.emplace_back(arc.place, *step);
+  }
+  for (const auto& [place, step] : found) ++starts_[place.value + 1];
+  for (std::size_t place = 1; place < starts_.size(); ++place) starts_[place] += starts_[place - 1];
+  steps_.resize(found.size());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (const auto& [place, step] : found) steps_[next[place.value]++] = step;
+}
+
+std::optional<Step> Steps::read(net::TransitionId id) {
+  Step step{.id = id, .from = {}, .to = {}};
+  const auto gather = [&](std::span<const net::Arc> arcs, PlaceId& own, std::uint8_t& memory) {
+    std::size_t owned = 0;
+    for (const net::Arc& arc : arcs) {
+      const net::Place& place = net_[arc.place];
+      if (arc.weight != 1) return false;
+      if (!place.fused()) {
+        if (place.subsystem != net_[id].subsystem) return false;
+        own = owned++ == 0 ? arc.place : PlaceId{};
+        continue;
+      }
+      const std::uint8_t part = memory_of(place);
+      if (step.channel != UINT32_MAX && step.channel != place.channel) return false;
+      step.own_model = step.own_model || part == 0;
+      step.channel = place.channel;
+      memory |= part;
+    }
+    return owned > 0;
+  };
+  if (!gather(net_.preset(id), step.from, step.takes)) return std::nullopt;
+  if (!gather(net_.postset(id), step.to, step.gives)) return std::nullopt;
+  return step;
+}
+
+std::optional<Block> block_at(const Steps& steps, PlaceId in) {
+  if (const std::optional<Block> block = Match(steps, in).result()) return block;
+  return own_block_at(steps, in);
+}
+
+}  // namespace tessera::verify

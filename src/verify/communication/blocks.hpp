@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "verify/communication/communication.hpp"
+
+namespace tessera::verify {
+
+/// The fused places of a channel, as bits.
+enum Memory : std::uint8_t { free_to_use = 1, empty = 2, full = 4, acknowledged = 8 };
+
+/// A transition as its subsystem sees it: places of its own, and of the memory of at most one channel.
+struct Step {
+  net::TransitionId id;
+  net::PlaceId from, to;  ///< invalid if there are several: a fork or a join
+  std::uint32_t channel = UINT32_MAX;
+  std::uint8_t takes = 0, gives = 0;  ///< Memory
+  bool own_model = false;             ///< it uses fused places that no built-in block has
+};
+
+/// The steps of every subsystem, by the places that they take their tokens from.
+class Steps {
+ public:
+  explicit Steps(const net::Net& net);
+
+  [[nodiscard]] std::span<const Step> from(net::PlaceId place) const {
+    return std::span(steps_).subspan(starts_[place.value], starts_[place.value + 1] - starts_[place.value]);
+  }
+  [[nodiscard]] const net::Net& net() const { return net_; }
+  /// A transition that is no step of one subsystem and no transition of the upper layers either.
+  [[nodiscard]] std::optional<net::TransitionId> stray() const { return stray_; }
+  /// Does the memory of the channel include acknowledgements?
+  [[nodiscard]] bool acknowledges(std::uint32_t channel) const { return acknowledges_[channel]; }
+  [[nodiscard]] std::uint32_t channel_count() const {
+    return static_cast<std::uint32_t>(acknowledges_.size());
+  }
+
+ private:
+  std::optional<Step> read(net::TransitionId id);
+
+  const net::Net& net_;
+  std::vector<Step> steps_;
+  std::vector<std::uint32_t> starts_;
+  std::vector<bool> acknowledges_;  // per channel
+  std::optional<net::TransitionId> stray_;
+};
+
+/// A block of the fifth layer.
+struct Block {
+  Communication communication;  ///< with Place::channel as its channel
+  net::PlaceId out;
+};
+
+/// The block that starts at `in`: a built-in one if exactly the transitions of one start there, else one of
+/// the author's model, whose transitions share the name of their block and lead to one place.
+[[nodiscard]] std::optional<Block> block_at(const Steps& steps, net::PlaceId in);
+
+}  // namespace tessera::verify

@@ -1,0 +1,318 @@
+#include "verify/communication/communication.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "verify/communication/blocks.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using net::Condition;
+using net::Operation;
+using net::PlaceId;
+
+/// A path without its last part.
+std::string parent(const std::string& path) { return path.substr(0, path.rfind('.')); }
+
+/// Follows the token of one subsystem through its pages.
+class SubsystemReader {
+ public:
+  SubsystemReader(const Steps& steps, Assume assume) : steps_(steps), net_(steps.net()), assume_(assume) {}
+
+  /// entry: the place at which the upper layers start the subsystem.
+  std::optional<SubsystemFlow> read(PlaceId entry) {
+    flow_.id = net_[entry].subsystem;
+    flow_.name = parent(net_[entry].name);
+    const std::optional<PlaceId> start = silent_step(entry);
+    if (!start || !behaviour_at(*start)) return fail("does not start with a behaviour", entry);
+    for (std::size_t index = 0; index < entries_.size(); ++index) {
+      flow_.behaviours.emplace_back();
+      flow_.behaviours[index].name = parent(net_[entries_[index]].name);
+      if (!read_behaviour(static_cast<std::uint32_t>(index))) return std::nullopt;
+    }
+    return std::move(flow_);
+  }
+
+  [[nodiscard]] const std::string& why_not() const { return why_not_; }
+
+ private:
+  std::nullopt_t fail(const std::string& what, PlaceId at) {
+    if (why_not_.empty()) why_not_ = "'" + net_[at].name + "' " + what;
+    return std::nullopt;
+  }
+
+  /// The index of the behaviour whose transition function starts at the place.
+  std::optional<std::uint32_t> behaviour_at(PlaceId place) {
+    if (net_[place].operation.kind != Operation::Kind::transition_function) return std::nullopt;
+    const auto [entry, added] = numbers_.emplace(place, static_cast<std::uint32_t>(entries_.size()));
+    if (added) entries_.push_back(place);
+    return entry->second;
+  }
+
+  /// Where the only, unconditional transition from a place leads that touches no channel.
+  [[nodiscard]] std::optional<PlaceId> silent_step(PlaceId from) const {
+    const auto steps = steps_.from(from);
+    if (steps.size() != 1 || !steps.front().from.valid() || !steps.front().to.valid()) return std::nullopt;
+    if (steps.front().channel != UINT32_MAX) return std::nullopt;
+    if (net_[steps.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
+    return steps.front().to;
+  }
+
+  bool read_behaviour(std::uint32_t number) {
+    std::vector<Stage> stages;
+    PlaceId at = entries_[number];
+    // A page has no way back before its end, so this stops unless the net is of another shape.
+    for (std::size_t steps = 0; steps <= net_.places().size(); ++steps) {
+      if (is_end(at)) {
+        flow_.behaviours[number].stages = std::move(stages);
+        return read_end(number, at);
+      }
+      const std::optional<PlaceId> next = advance(at, stages);
+      if (!next) return fail("starts nothing that we know", at), false;
+      at = *next;
+    }
+    return fail("is passed for ever", at), false;
+  }
+
+  std::optional<PlaceId> advance(PlaceId at, std::vector<Stage>& stages) const {
+    if (const auto next = silent_step(at)) return next;
+    if (const auto block = block_at(steps_, at)) {
+      stages.push_back({block->communication});
+      return block->out;
+    }
+    return parallel_transfer(at, stages);
+  }
+
+  std::optional<PlaceId> parallel_transfer(PlaceId at, std::vector<Stage>& stages) const {
+    const auto fork = steps_.from(at);
+    if (fork.size() != 1 || !fork.front().from.valid() || fork.front().channel != UINT32_MAX)
+      return std::nullopt;
+    if (net_[fork.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
+    Stage stage;
+    std::optional<Step> join;
+    for (const net::Arc& branch : net_.postset(fork.front().id)) {
+      const std::optional<Block> block = block_at(steps_, branch.place);
+      if (!block) return std::nullopt;
+      const auto end = steps_.from(block->out);
+      if (end.size() != 1 || (join && join->id != end.front().id)) return std::nullopt;
+      join = end.front();
+      stage.push_back(block->communication);
+    }
+    if (!join || !join->to.valid() || join->channel != UINT32_MAX ||
+        net_[join->id].condition.kind != Condition::Kind::none ||
+        net_.preset(join->id).size() != stage.size())
+      return std::nullopt;
+    stages.push_back(std::move(stage));
+    return join->to;
+  }
+
+  [[nodiscard]] bool is_end(PlaceId at) const {
+    return std::ranges::any_of(steps_.from(at), [&](const Step& step) {
+      const Condition::Kind kind = net_[step.id].condition.kind;
+      return kind == Condition::Kind::go_on || kind == Condition::Kind::terminal ||
+             kind == Condition::Kind::error;
+    });
+  }
+
+  [[nodiscard]] Condition::Known known(const Condition& condition) const {
+    return condition.known(assume_ == Assume::exceptions);
+  }
+  [[nodiscard]] bool possible(const Condition& condition) const {
+    return known(condition).truth != Condition::Truth::never;
+  }
+
+  /// t4, t5 and t6.
+  bool read_end(std::uint32_t number, PlaceId at) {
+    std::optional<PlaceId> left;
+    for (const Step& step : steps_.from(at)) {
+      const Condition& condition = net_[step.id].condition;
+      if (!step.from.valid() || !step.to.valid() || step.channel != UINT32_MAX)
+        return fail("ends in an unknown way", at), false;
+      BehaviourFlow& behaviour = flow_.behaviours[number];
+      if (condition.kind == Condition::Kind::go_on) {
+        if (step.to != entries_[number]) return fail("goes on elsewhere", at), false;
+        behaviour.repeats = possible(condition);
+        continue;
+      }
+      if (condition.kind != Condition::Kind::terminal && condition.kind != Condition::Kind::error)
+        return fail("ends in an unknown way", at), false;
+      if (left && *left != step.to) return fail("ends in two places", at), false;
+      left = step.to;
+      behaviour.leaves = behaviour.leaves || possible(condition);
+    }
+    if (!left || !flow_.behaviours[number].leaves) return true;
+    return read_next(number, *left);
+  }
+
+  /// The initial conditions of the behaviours that may follow.
+  bool read_next(std::uint32_t number, PlaceId out) {
+    BehaviourFlow& behaviour = flow_.behaviours[number];
+    behaviour.complete = false;
+    for (const Step& step : steps_.from(out)) {
+      const Condition& condition = net_[step.id].condition;
+      if (!step.from.valid() || !step.to.valid() || step.channel != UINT32_MAX ||
+          (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))
+        return fail("is left in an unknown way", out), false;
+      behaviour.complete = behaviour.complete || known(condition).truth == Condition::Truth::always ||
+                           known(condition).exhaustive;
+      if (!possible(condition)) continue;
+      if (const auto next = behaviour_at(step.to))
+        behaviour.next.push_back(*next);
+      else if (steps_.from(step.to).empty())
+        behaviour.ends = true;
+      else
+        return fail("follows a behaviour and is none", step.to), false;
+    }
+    return true;
+  }
+
+  const Steps& steps_;
+  const net::Net& net_;
+  Assume assume_;
+  SubsystemFlow flow_;
+  std::vector<PlaceId> entries_;  // per behaviour
+  std::map<PlaceId, std::uint32_t> numbers_;
+  std::string why_not_;
+};
+
+/// Plays the upper layers from the initial marking: where do they put the tokens that start the subsystems?
+class Start {
+ public:
+  explicit Start(const net::Net& net) : net_(net), tokens_(net.places().size(), 0) {
+    for (std::uint32_t place = 0; place < tokens_.size(); ++place)
+      if (!net.places()[place].fused()) tokens_[place] = net.places()[place].tokens;
+    for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+      if (net.transitions()[index].subsystem == net::no_subsystem) upper_.push_back({index});
+    // Parents come before children, so one pass in order starts everything.
+    for (const net::TransitionId id : upper_) fire(id);
+  }
+
+  /// The entry places, one per subsystem, or why there are none.
+  std::vector<PlaceId> entries(std::string& why_not) {
+    for (const net::TransitionId id : upper_)
+      if (enabled(id)) why_not = "'" + net_[id].name + "' can fire again";
+    std::vector<PlaceId> marked;
+    for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+      if (tokens_[place] == 0) continue;
+      const PlaceId id{place};
+      if (tokens_[place] > 1 || net_[id].subsystem == net::no_subsystem)
+        why_not = "'" + net_[id].name + "' holds a token once all has started";
+      if (!marked.empty() && net_[marked.back()].subsystem == net_[id].subsystem)
+        why_not = "'" + net_[id].name + "' is a second start of its subsystem";
+      marked.push_back(id);
+    }
+    return marked;
+  }
+
+ private:
+  [[nodiscard]] bool enabled(net::TransitionId id) const {
+    return std::ranges::all_of(net_.preset(id),
+                               [&](const net::Arc& arc) { return tokens_[arc.place.value] >= arc.weight; });
+  }
+
+  void fire(net::TransitionId id) {
+    if (!enabled(id)) return;
+    for (const net::Arc& arc : net_.preset(id)) tokens_[arc.place.value] -= arc.weight;
+    for (const net::Arc& arc : net_.postset(id)) tokens_[arc.place.value] += arc.weight;
+  }
+
+  const net::Net& net_;
+  std::vector<std::uint32_t> tokens_;
+  std::vector<net::TransitionId> upper_;
+};
+
+/// Numbers the channels that are used and gathers who holds which end, and how.
+class Channels {
+ public:
+  explicit Channels(const net::Net& net, std::uint32_t count)
+      : numbers_(count, UINT32_MAX), names_(count), exchanges_(count, false) {
+    for (const net::Place& place : net.places()) {
+      if (!place.fused()) continue;
+      if (names_[place.channel].empty()) names_[place.channel] = parent(place.name);
+      if (place.name.ends_with(".channel")) exchanges_[place.channel] = true;
+    }
+  }
+
+  /// Renumbers the communication; false if another subsystem or another mode holds the same end.
+  bool enlist(std::uint32_t subsystem, Communication& communication) {
+    std::uint32_t& number = numbers_[communication.channel];
+    if (number == UINT32_MAX) {
+      number = static_cast<std::uint32_t>(all.size());
+      all.push_back({.id = communication.channel,
+                     .name = names_[communication.channel],
+                     .sender = {},
+                     .receiver = {},
+                     .always_readable = exchanges_[communication.channel]});
+    }
+    communication.channel = number;
+    ChannelFlow& channel = all[number];
+    channel.own_model = channel.own_model || communication.own_model;
+    const bool sends = communication.side == Side::send;
+    std::optional<std::uint32_t>& end = sends ? channel.sender : channel.receiver;
+    bool& blocks = sends ? channel.send_blocks : channel.receive_blocks;
+    bool& timeout = sends ? channel.send_timeout : channel.receive_timeout;
+    if (!end) {
+      end = subsystem;
+      blocks = communication.blocking;
+      timeout = communication.timeout;
+    }
+    return *end == subsystem && blocks == communication.blocking && timeout == communication.timeout;
+  }
+
+  std::vector<ChannelFlow> all;
+
+ private:
+  std::vector<std::uint32_t> numbers_;  // per channel of the net
+  std::vector<std::string> names_;
+  std::vector<bool> exchanges_;
+};
+
+/// Transitions that would move tokens behind the back of the readers.
+std::string stray_transition(const net::Net& net, const Steps& steps) {
+  if (steps.stray()) return "'" + net[*steps.stray()].name + "' joins more than a subsystem and a channel";
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    if (net[id].subsystem != net::no_subsystem) continue;
+    if (net.preset(id).empty()) return "'" + net[id].name + "' needs no token";
+    for (const auto& arcs : {net.preset(id), net.postset(id)})
+      for (const net::Arc& arc : arcs)
+        if (net[arc.place].fused()) return "'" + net[id].name + "' of the upper layers uses a channel";
+    for (const net::Arc& arc : net.preset(id))
+      if (net[arc.place].subsystem != net::no_subsystem && !steps.from(arc.place).empty())
+        return "'" + net[id].name + "' takes a token out of a subsystem";
+  }
+  return {};
+}
+
+}  // namespace
+
+CommunicationResult communication_structure(const net::Net& net, Assume assume) {
+  const Steps steps(net);
+  CommunicationResult result;
+  result.why_not = stray_transition(net, steps);
+  if (!result.why_not.empty()) return result;
+  const std::vector<PlaceId> entries = Start(net).entries(result.why_not);
+  if (!result.why_not.empty()) return result;
+
+  CommunicationStructure structure;
+  Channels channels(net, steps.channel_count());
+  for (const PlaceId entry : entries) {
+    SubsystemReader reader(steps, assume);
+    std::optional<SubsystemFlow> flow = reader.read(entry);
+    if (!flow) return {std::nullopt, reader.why_not()};
+    const auto number = static_cast<std::uint32_t>(structure.subsystems.size());
+    for (BehaviourFlow& behaviour : flow->behaviours)
+      for (Stage& stage : behaviour.stages)
+        for (Communication& communication : stage)
+          if (!channels.enlist(number, communication))
+            return {std::nullopt, "two subsystems or two modes at one end of a channel of " + flow->name};
+    structure.subsystems.push_back(std::move(*flow));
+  }
+  structure.channels = std::move(channels.all);
+  result.structure = std::move(structure);
+  return result;
+}
+
+}  // namespace tessera::verify

@@ -1,0 +1,296 @@
+#include "verify/counterexample/causes.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "verify/counterexample/waits.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using net::Arc;
+using net::PlaceId;
+using net::TransitionId;
+using Run = std::vector<TransitionId>;
+
+constexpr std::uint32_t from_the_start = UINT32_MAX;
+constexpr std::uint32_t unknown = UINT32_MAX;
+
+/// What each firing of a run needed to have happened.
+class History {
+ public:
+  History(const net::Net& net, const Run& run) : causes_(run.size()), tokens_(net.places().size()) {
+    for (std::uint32_t place = 0; place < tokens_.size(); ++place)
+      tokens_[place].assign(net.places()[place].tokens, from_the_start);
+    for (std::uint32_t firing = 0; firing < run.size(); ++firing) {
+      for (const Arc& arc : net.preset(run[firing]))
+        for (std::uint32_t token = 0; token < arc.weight; ++token) {
+          std::vector<std::uint32_t>& held = tokens_[arc.place.value];
+          if (held.empty()) return;
+          causes_[firing].push_back(held.front());
+          held.erase(held.begin());
+        }
+      for (const Arc& arc : net.postset(run[firing]))
+        tokens_[arc.place.value].insert(tokens_[arc.place.value].end(), arc.weight, firing);
+    }
+    is_run_ = true;
+  }
+
+  [[nodiscard]] bool is_run() const { return is_run_; }
+
+  /// The firings behind the tokens that the places hold in the end.
+  [[nodiscard]] std::vector<bool> behind(const std::set<std::uint32_t>& places) const {
+    std::vector<bool> needed(causes_.size(), false);
+    const auto need = [&](std::uint32_t firing) {
+      if (firing != from_the_start) needed[firing] = true;
+    };
+    for (const std::uint32_t place : places) std::ranges::for_each(tokens_[place], need);
+    for (std::size_t firing = causes_.size(); firing-- > 0;)
+      if (needed[firing]) std::ranges::for_each(causes_[firing], need);
+    return needed;
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> causes_;  // per firing: those whose tokens it took
+  std::vector<std::vector<std::uint32_t>> tokens_;  // per place, in the end: the firings they come from
+  bool is_run_ = false;
+};
+
+/// What might fire after a run if tokens were never used up: at least all that can.
+class Prospect {
+ public:
+  Prospect(const net::Net& net, const Run& run)
+      : net_(net), reached_by_(net.places().size(), unknown), missing_(net.transitions().size()) {
+    const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+    std::vector<std::vector<std::uint32_t>> takers(net.places().size());
+    for (std::uint32_t index = 0; index < missing_.size(); ++index) {
+      missing_[index] = net.preset({index}).size();
+      for (const Arc& arc : net.preset({index})) takers[arc.place.value].push_back(index);
+      if (missing_[index] == 0) fire(index);
+    }
+    for (std::uint32_t place = 0; place < tokens.size(); ++place)
+      if (tokens[place] > 0) reach(place, marked);
+    for (std::size_t next = 0; next < places_.size(); ++next)
+      for (const std::uint32_t taker : takers[places_[next]])
+        if (--missing_[taker] == 0) fire(taker);
+  }
+
+  [[nodiscard]] bool possible(TransitionId id) const {
+    return missing_[id.value] == 0 && net_[id].condition.truth != net::Condition::Truth::never;
+  }
+
+  /// The transitions on the way to one that is possible, itself included.
+  [[nodiscard]] std::set<std::uint32_t> way_to(TransitionId id) const {
+    std::set<std::uint32_t> way{id.value};
+    std::vector<std::uint32_t> open{id.value};
+    while (!open.empty()) {
+      const TransitionId last{open.back()};
+      open.pop_back();
+      for (const Arc& arc : net_.preset(last)) {
+        const std::uint32_t from = reached_by_[arc.place.value];
+        if (from != marked && way.insert(from).second) open.push_back(from);
+      }
+    }
+    return way;
+  }
+
+ private:
+  static constexpr std::uint32_t marked = UINT32_MAX - 1;
+
+  void reach(std::uint32_t place, std::uint32_t by) {
+    if (reached_by_[place] != unknown) return;
+    reached_by_[place] = by;
+    places_.push_back(place);
+  }
+  void fire(std::uint32_t transition) {
+    if (net_.transitions()[transition].condition.truth == net::Condition::Truth::never) return;
+    for (const Arc& arc : net_.postset({transition})) reach(arc.place.value, transition);
+  }
+
+  const net::Net& net_;
+  std::vector<std::uint32_t> reached_by_;  // per place: a transition, or marked
+  std::vector<std::size_t> missing_;       // per transition: input places not reached
+  std::vector<std::uint32_t> places_;      // reached, in order
+};
+
+/// Places that have to be as they are for the transitions to stay out of reach.
+class Concern {
+ public:
+  explicit Concern(const net::Net& net) : net_(net) {
+    for (std::uint32_t place = 0; place < net.places().size(); ++place) {
+      const std::uint32_t subsystem = net.places()[place].subsystem;
+      if (subsystem == net::no_subsystem) continue;
+      if (subsystem >= of_subsystem_.size()) of_subsystem_.resize(subsystem + 1);
+      of_subsystem_[subsystem].push_back(place);
+    }
+  }
+
+  /// The places of the transition and of its subsystem. False: all of them were there.
+  bool add(TransitionId id) {
+    const std::size_t before = places_.size();
+    for (const auto arcs : {net_.preset(id), net_.postset(id)})
+      for (const Arc& arc : arcs) places_.insert(arc.place.value);
+    if (const std::uint32_t subsystem = net_[id].subsystem; subsystem < of_subsystem_.size())
+      places_.insert(of_subsystem_[subsystem].begin(), of_subsystem_[subsystem].end());
+    return places_.size() > before;
+  }
+
+  [[nodiscard]] const std::set<std::uint32_t>& places() const { return places_; }
+
+ private:
+  const net::Net& net_;
+  std::vector<std::vector<std::uint32_t>> of_subsystem_;
+  std::set<std::uint32_t> places_;
+};
+
+/// Those that give or take tokens which the stuck transitions lack where a token waits for them.
+std::vector<TransitionId> awaited(const net::Net& net, const Run& run,
+                                  const std::vector<TransitionId>& stuck) {
+  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+  std::set<std::uint32_t> lacking;
+  for (const TransitionId id : stuck) {
+    const auto inputs = net.preset(id);
+    if (std::ranges::none_of(inputs, [&](const Arc& arc) { return tokens[arc.place.value] >= arc.weight; }))
+      continue;
+    for (const Arc& arc : inputs)
+      if (tokens[arc.place.value] < arc.weight && net[arc.place].fused()) lacking.insert(arc.place.value);
+  }
+  std::vector<TransitionId> found;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    for (const auto arcs : {net.preset({index}), net.postset({index})})
+      if (std::ranges::any_of(arcs, [&](const Arc& arc) { return lacking.contains(arc.place.value); }))
+        found.push_back({index});
+  return found;
+}
+
+}  // namespace
+
+Run causes_of_standstill(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  const History history(net, run);
+  if (!history.is_run()) return run;
+  Concern concern(net);
+  for (const TransitionId id : stuck) concern.add(id);
+  for (const TransitionId id : awaited(net, run, stuck)) concern.add(id);
+  while (true) {
+    const std::vector<bool> needed = history.behind(concern.places());
+    Run kept;
+    for (std::size_t firing = 0; firing < run.size(); ++firing)
+      if (needed[firing]) kept.push_back(run[firing]);
+    const Prospect prospect(net, kept);
+    bool excluded = true, more = false;
+    for (const TransitionId id : stuck) {
+      if (!prospect.possible(id)) continue;
+      excluded = false;
+      for (const std::uint32_t transition : prospect.way_to(id)) more = concern.add({transition}) || more;
+    }
+    if (excluded) return kept;
+    if (!more) return run;
+  }
+}
+
+bool never_again(const net::Net& net, const Run& run, const std::vector<TransitionId>& transitions) {
+  const Prospect prospect(net, run);
+  return std::ranges::none_of(transitions, [&](TransitionId id) { return prospect.possible(id); });
+}
+
+namespace {
+
+/// Goes on with a run, one firing at a time.
+class Continuation {
+ public:
+  Continuation(const net::Net& net, Run run)
+      : net_(net), run_(std::move(run)), tokens_(tokens_after(net, run_)) {
+    for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+      const TransitionId id{index};
+      if (net[id].condition.truth == net::Condition::Truth::never) continue;
+      if (net[id].subsystem == net::no_subsystem) {
+        for (const Arc& arc : net.postset(id)) of(net[arc.place].subsystem).push_back(id);  // it starts them
+        continue;
+      }
+      of(net[id].subsystem).push_back(id);
+      for (const auto arcs : {net.preset(id), net.postset(id)})
+        for (const Arc& arc : arcs)
+          if (net[arc.place].fused()) users_[arc.place.value].insert(net[id].subsystem);
+    }
+  }
+
+  /// False: not everybody came to rest.
+  bool bring_to_rest(const std::vector<TransitionId>& stuck) {
+    std::vector<std::uint32_t> concerned;
+    for (const TransitionId id : stuck)
+      if (net_[id].subsystem < of_subsystem_.size()) concern(net_[id].subsystem, concerned);
+    std::size_t firings = 0;
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::size_t next = 0; next < concerned.size(); ++next) {
+        while (fire_one_of(concerned[next])) {
+          moved = true;
+          if (++firings > most_firings_each * concerned.size()) return false;
+        }
+        for (const std::uint32_t place : lacking(concerned[next]))
+          for (const std::uint32_t user : users_[place]) concern(user, concerned);
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] Run run() && { return std::move(run_); }
+
+ private:
+  static constexpr std::size_t most_firings_each = 64;
+
+  std::vector<TransitionId>& of(std::uint32_t subsystem) {
+    if (subsystem == net::no_subsystem) return nobodys_;
+    if (subsystem >= of_subsystem_.size()) of_subsystem_.resize(subsystem + 1);
+    return of_subsystem_[subsystem];
+  }
+
+  void concern(std::uint32_t subsystem, std::vector<std::uint32_t>& concerned) {
+    if (concerned_.insert(subsystem).second) concerned.push_back(subsystem);
+  }
+
+  bool fire_one_of(std::uint32_t subsystem) {
+    for (const TransitionId id : of_subsystem_[subsystem]) {
+      if (!std::ranges::all_of(net_.preset(id), [&](const Arc& arc) { return suffices(arc); })) continue;
+      for (const Arc& arc : net_.preset(id)) tokens_[arc.place.value] -= arc.weight;
+      for (const Arc& arc : net_.postset(id)) tokens_[arc.place.value] += arc.weight;
+      run_.push_back(id);
+      return true;
+    }
+    return false;
+  }
+
+  /// The places of channels that a subsystem at rest waits for.
+  [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const {
+    std::set<std::uint32_t> places;
+    for (const TransitionId id : of_subsystem_[subsystem]) {
+      const auto inputs = net_.preset(id);
+      if (std::ranges::none_of(inputs, [&](const Arc& arc) { return suffices(arc); })) continue;
+      for (const Arc& arc : inputs)
+        if (!suffices(arc) && net_[arc.place].fused()) places.insert(arc.place.value);
+    }
+    return places;
+  }
+
+  [[nodiscard]] bool suffices(const Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
+
+  const net::Net& net_;
+  Run run_;
+  std::vector<std::uint32_t> tokens_;
+  std::vector<std::vector<TransitionId>> of_subsystem_;  // those that start it too
+  std::vector<TransitionId> nobodys_;
+  std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // per place of a channel
+  std::set<std::uint32_t> concerned_;
+};
+
+}  // namespace
+
+Run until_all_concerned_wait(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  Continuation further(net, run);
+  return further.bring_to_rest(stuck) ? std::move(further).run() : run;
+}
+
+}  // namespace tessera::verify

@@ -1,0 +1,259 @@
+#include "verify/counterexample/explanation.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "verify/counterexample/aftermath.hpp"
+#include "verify/counterexample/causes.hpp"
+#include "verify/counterexample/waits.hpp"
+#include "verify/search/claims.hpp"
+#include "verify/search/goals.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using net::TransitionId;
+using Run = std::vector<TransitionId>;
+using Number = Aftermath::Number;
+
+/// Markings rather than time: the same run on every machine.
+constexpr std::size_t most_markings = 20'000;
+
+Aftermath::Markings opposite(Aftermath::Markings markings) {
+  markings.flip();
+  return markings;
+}
+
+void add_new(std::vector<std::string>& to, std::vector<std::string> lines) {
+  for (std::string& line : lines)
+    if (std::ranges::count(to, line) == 0) to.push_back(std::move(line));
+}
+
+/// Follows the waits, with all that can happen at hand.
+class Explainer {
+ public:
+  Explainer(const net::Net& net, const Aftermath& after, Run run, std::vector<TransitionId> stuck)
+      : net_(net), after_(after), run_(std::move(run)), stuck_(std::move(stuck)) {}
+
+  /// false: the transitions do not get stuck.
+  bool find_end() {
+    const std::uint32_t owner = net_[stuck_.front()].subsystem;
+    // Who can still end is not stuck, and a channel whose reader can still end is not dry.
+    std::vector<TransitionId> any_of = stuck_;
+    std::ranges::copy(last_of(owner), std::back_inserter(any_of));
+    if (!go_to(opposite(after_.can_fire(any_of)))) return false;
+    concern(owner);
+    follow_all();
+    return true;
+  }
+
+  /// Goes on until those are settled for whom the ones wait that are stuck for ever already.
+  void settle(const std::set<std::uint32_t>& stopped) {
+    const Waits waits = here();
+    for (const std::uint32_t subsystem : stopped)
+      if (stuck_for_ever(waits, subsystem)) concern(subsystem);
+    follow_all();
+  }
+
+  [[nodiscard]] Explanation result() && {
+    const Waits waits = here();
+    Explanation explanation{std::move(run_), {}};
+    std::vector<std::set<std::uint32_t>> lacks;
+    for (const std::uint32_t subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
+    for (const std::uint32_t subsystem : concerned_)
+      add_new(explanation.waits, lines(waits, subsystem, lacks));
+    if (explanation.waits.empty() && !stuck_.empty()) explanation.waits = taken_no_more(waits);
+    return explanation;
+  }
+
+ private:
+  /// The transitions by which a subsystem ends.
+  [[nodiscard]] std::vector<TransitionId> last_of(std::uint32_t subsystem) const {
+    const Waits waits = here();
+    const std::string end = waits.name(subsystem) + ".out";
+    std::vector<TransitionId> last;
+    for (const TransitionId id : waits.transitions(subsystem))
+      for (const net::Arc& arc : net_.postset(id))
+        if (net_[arc.place].name == end) last.push_back(id);
+    return last;
+  }
+
+  [[nodiscard]] Waits here() const { return {net_, after_.tokens(at_)}; }
+
+  bool go_to(const Aftermath::Markings& goal) {
+    const std::optional<Aftermath::Way> way = after_.way(at_, goal);
+    if (!way) return false;
+    run_.insert(run_.end(), way->run.begin(), way->run.end());
+    at_ = way->to;
+    return true;
+  }
+
+  void concern(std::uint32_t subsystem) {
+    if (std::ranges::count(concerned_, subsystem) == 0) concerned_.push_back(subsystem);
+  }
+
+  [[nodiscard]] bool stuck_for_ever(const Waits& waits, std::uint32_t subsystem) const {
+    return !after_.can_fire(waits.transitions(subsystem))[at_];
+  }
+
+  void follow_all() {
+    // Where one has been brought to its end, another may have stopped too.
+    for (Number before = at_ + 1; before != at_;) {
+      before = at_;
+      for (std::size_t next = 0; next < concerned_.size(); ++next) follow(concerned_[next]);
+    }
+  }
+
+  /// Brings a subsystem that cannot go on for ever to where it stops, and concerns those whom it waits for.
+  void follow(std::uint32_t subsystem) {
+    const std::vector<TransitionId> transitions = here().transitions(subsystem);
+    const Aftermath::Markings stops = opposite(after_.can_fire(transitions));
+    if (!stops[at_]) {
+      const Aftermath::Markings goes_on = opposite(after_.can_reach(stops));
+      if (!after_.way(at_, goes_on)) static_cast<void>(go_to(stops));
+    }
+    const Waits waits = here();
+    for (const std::uint32_t place : waits_at(waits, subsystem))
+      for (const std::uint32_t giver : waits.givers(place, subsystem)) concern(giver);
+  }
+
+  /// The places of channels that it lacks, stuck as a whole or, though it goes on, with the transitions asked
+  /// for.
+  [[nodiscard]] std::set<std::uint32_t> waits_at(const Waits& waits, std::uint32_t subsystem) const {
+    if (waits.has_ended(subsystem)) return {};
+    if (stuck_for_ever(waits, subsystem)) return waits.lacking(subsystem);
+    if (subsystem != concerned_.front()) return {};
+    std::set<std::uint32_t> places;
+    const Aftermath::Markings later = after_.reachable_from(at_);
+    for (Number marking = 0; marking < after_.size(); ++marking)
+      if (later[marking]) places.merge(lacking(net_, after_.tokens(marking), stuck_));
+    return places;
+  }
+
+  /// lacks: of each that is concerned.
+  [[nodiscard]] std::vector<std::string> lines(const Waits& waits, std::uint32_t subsystem,
+                                               const std::vector<std::set<std::uint32_t>>& lacks) const {
+    if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
+    if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
+    std::vector<std::string> texts;
+    for (std::size_t other = 0; other < lacks.size(); ++other)
+      for (const std::uint32_t place : lacks[other])
+        if (waits.givers(place, concerned_[other]).contains(subsystem) &&
+            !after_.can_fire(waits.giving(subsystem, place))[at_])
+          add_new(texts, {waits.gives_no_more(subsystem, place)});
+    return texts;
+  }
+
+  /// Of who goes on though nobody is to blame: nobody can give what it lacks, or what is given is taken
+  /// elsewhere.
+  [[nodiscard]] std::vector<std::string> taken_no_more(const Waits& waits) const {
+    std::vector<std::string> texts;
+    const std::uint32_t subsystem = concerned_.front();
+    if (waits.has_ended(subsystem) || stuck_for_ever(waits, subsystem)) return texts;
+    for (const net::Arc& arc : net_.preset(stuck_.front()))
+      if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
+    return texts;
+  }
+
+  const net::Net& net_;
+  const Aftermath& after_;
+  Run run_;
+  std::vector<TransitionId> stuck_;
+  Number at_ = Aftermath::start;
+  std::vector<std::uint32_t> concerned_;
+};
+
+// ---------------------------------------------------------------------------------------------- large nets
+
+net::Net starting_after(const net::Net& net, const Run& run) {
+  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+  net::Net other;
+  for (std::uint32_t index = 0; index < tokens.size(); ++index) {
+    net::Place place = net.places()[index];
+    place.tokens = tokens[index];
+    other.add(std::move(place));
+  }
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    other.add(net.transitions()[index], net.preset({index}), net.postset({index}));
+  return other;
+}
+
+/// Gone on with until none of the transitions can be fired any more, by reductions and search.
+Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  if (never_again(net, run, stuck)) return run;
+  std::vector<explore::Formula> enabled;
+  for (const TransitionId id : stuck) {
+    std::vector<explore::Formula> marked;
+    for (const net::Arc& arc : net.preset(id)) marked.push_back(explore::Formula::marked(arc.place));
+    enabled.push_back(explore::Formula::all(std::move(marked)));
+  }
+  explore::Limits limits;
+  limits.markings = 5 * most_markings;
+  const Goal goal{explore::Formula::any(std::move(enabled))};
+  const std::vector<Found> found = ask(starting_after(net, run), Ask::always_reachable, {goal},
+                                       Found::Kind::no, {.safe = true, .rules = {}}, limits);
+  if (found.front().kind == Found::Kind::no)
+    run.insert(run.end(), found.front().trace.begin(), found.front().trace.end());
+  return run;
+}
+
+/// Who can be shown to be stuck, and follows from the first by waiting.
+std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
+                                      std::vector<std::uint32_t> concerned) {
+  const Waits waits(net, tokens_after(net, run));
+  std::vector<std::string> lines;
+  for (std::size_t next = 0; next < concerned.size(); ++next) {
+    const std::uint32_t subsystem = concerned[next];
+    if (waits.has_ended(subsystem)) {
+      add_new(lines, {waits.name(subsystem) + " has ended"});
+      continue;
+    }
+    if (waits.moves(subsystem) || !never_again(net, run, waits.transitions(subsystem))) continue;
+    add_new(lines, waits.lines(subsystem));
+    for (const std::uint32_t place : waits.lacking(subsystem))
+      for (const std::uint32_t giver : waits.givers(place, subsystem))
+        if (std::ranges::count(concerned, giver) == 0) concerned.push_back(giver);
+  }
+  return lines;
+}
+
+Explanation roughly_explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  run = to_the_end(net, std::move(run), stuck);
+  Run further = until_all_concerned_wait(net, run, stuck);
+  if (never_again(net, further, stuck)) run = std::move(further);
+  std::vector<std::string> lines = proved_waits(net, run, {net[stuck.front()].subsystem});
+  return {std::move(run), std::move(lines)};
+}
+
+}  // namespace
+
+Explanation explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+  if (stuck.empty()) return {std::move(run), {}};
+  const auto after = Aftermath::of(net, run, {net[stuck.front()].subsystem}, most_markings);
+  if (!after) return roughly_explained(net, std::move(run), stuck);
+  Explainer explainer(net, *after, run, stuck);
+  if (!explainer.find_end()) return {std::move(run), {}};
+  return std::move(explainer).result();
+}
+
+Explanation explained(const net::Net& net, Run run) {
+  const Waits waits(net, tokens_after(net, run));
+  std::set<std::uint32_t> stopped;
+  for (std::uint32_t subsystem = 0; subsystem < waits.subsystems(); ++subsystem)
+    if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) stopped.insert(subsystem);
+  if (stopped.empty()) return {std::move(run), {}};
+  if (const auto after = Aftermath::of(net, run, stopped, most_markings)) {
+    Explainer explainer(net, *after, std::move(run), {});
+    explainer.settle(stopped);
+    return std::move(explainer).result();
+  }
+  std::vector<std::string> lines;
+  for (const std::uint32_t subsystem : stopped)
+    if (never_again(net, run, waits.transitions(subsystem))) add_new(lines, waits.lines(subsystem));
+  return {std::move(run), std::move(lines)};
+}
+
+}  // namespace tessera::verify

@@ -1,0 +1,224 @@
+#include "verify/counterexample/narrative.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "verify/counterexample/waits.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using net::Arc;
+using net::Condition;
+using net::Operation;
+using net::TransitionId;
+
+/// The last part of a path.
+std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+/// What one firing is told as.
+struct Deed {
+  std::string behaviour;  ///< in which it happens; empty: between behaviours
+  std::string text;       ///< empty: belongs to the deed before
+  std::string done;       ///< replaces text once a deed of the same block without text follows
+  std::string block;      ///< "snd.motion"
+  std::string transition;
+  bool then_waits = false;  ///< for an acknowledgement
+};
+
+bool touches_wait(const net::Net& net, std::span<const Arc> arcs) {
+  return std::ranges::any_of(arcs, [&](const Arc& arc) { return net[arc.place].name.ends_with(".wait"); });
+}
+
+class Teller {
+ public:
+  explicit Teller(const net::Net& net) : net_(net), names_(subsystem_names(net)) {}
+
+  [[nodiscard]] std::string subsystem(TransitionId id) const {
+    const std::uint32_t index = net_[id].subsystem;
+    return index == net::no_subsystem ? std::string() : names_[index];
+  }
+
+  [[nodiscard]] Deed deed(TransitionId id) const {
+    const std::string owner = subsystem(id);
+    const std::string& name = net_[id].name;
+    const std::string local = owner.empty() ? name : name.substr(owner.size() + 1);
+    if (net_[id].layer == net::Layer::subsystem) return between(id, local);
+    Deed deed;
+    const std::size_t dot = local.find('.');
+    deed.behaviour = local.substr(0, dot);
+    deed.transition = leaf(local);
+    const std::size_t last = local.rfind('.');
+    if (last != dot) deed.block = local.substr(dot + 1, last - dot - 1);
+    if (net_[id].layer == net::Layer::behaviour)
+      within(id, deed);
+    else
+      communicate(id, deed);
+    return deed;
+  }
+
+ private:
+  /// t_in and the initial conditions.
+  [[nodiscard]] Deed between(TransitionId id, const std::string& local) const {
+    Deed deed;
+    deed.transition = local;
+    const bool enters = local == "t_in";
+    const std::string to = net_.postset(id).empty() ? "" : net_[net_.postset(id).front().place].name;
+    if (to.ends_with(".none")) {
+      deed.text = "leaves a behaviour, and none of its initial conditions holds";
+    } else if (std::ranges::count(to, '.') == std::ranges::count(subsystem(id), '.') + 1) {
+      deed.text = "ends";
+    } else {
+      const std::string behaviour = to.substr(0, to.rfind('.'));
+      deed.behaviour = leaf(behaviour);
+      deed.text = (enters ? "starts in " : "goes on to ") + deed.behaviour;
+    }
+    return deed;
+  }
+
+  void within(TransitionId id, Deed& deed) const {
+    const Condition::Kind kind = net_[id].condition.kind;
+    const auto starts_from = [&](Operation::Kind operation) {
+      return std::ranges::any_of(net_.preset(id),
+                                 [&](const Arc& arc) { return net_[arc.place].operation.kind == operation; });
+    };
+    if (kind == Condition::Kind::go_on) deed.text = "begins the next round";
+    if (kind == Condition::Kind::terminal) deed.text = "is terminal";
+    if (kind == Condition::Kind::error) deed.text = "fails";
+    if (kind == Condition::Kind::none && starts_from(Operation::Kind::transition_function))
+      deed.text = "computes";
+  }
+
+  void communicate(TransitionId id, Deed& deed) const {
+    const std::string buffer(leaf(deed.block));
+    if (net_[id].condition.kind == Condition::Kind::elapsed) {
+      deed.text = "waits for " + buffer + " until its timeout";
+      return;
+    }
+    for (const Arc& arc : net_.postset(id)) {
+      const Operation::Kind operation = net_[arc.place].operation.kind;
+      if (operation == Operation::Kind::write) {
+        deed.text = (deed.transition == "t1o" ? "overwrites " : "writes ") + buffer;
+        deed.done = (deed.transition == "t1o" ? "overwrites " : "sends ") + buffer;
+      }
+      if (operation == Operation::Kind::read) {
+        deed.text = "reads " + buffer;
+        deed.done = "receives " + buffer;
+      }
+    }
+    if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
+    if (deed.transition == "skip") deed.text = "finds nothing new in " + buffer;
+    deed.then_waits = touches_wait(net_, net_.postset(id));
+  }
+
+  const net::Net& net_;
+  std::vector<std::string> names_;
+};
+
+/// The deeds of one act as a sentence.
+class Sentence {
+ public:
+  void add(const Deed& deed) {
+    if (deed.text.empty() && !clauses_.empty() && clauses_.back().behaviour == deed.behaviour) {
+      Clause& last = clauses_.back();
+      last.transitions.push_back(deed.transition);
+      if (!last.done.empty() && last.block == deed.block) last.text = last.done;
+    } else {
+      clauses_.push_back({deed.behaviour,
+                          deed.text.empty() ? "goes on" : deed.text,
+                          deed.done,
+                          deed.block,
+                          {deed.transition}});
+    }
+    if (deed.then_waits)
+      clauses_.push_back({deed.behaviour, "waits for the acknowledgement", "", deed.block, {}});
+  }
+
+  [[nodiscard]] std::string text() const {
+    std::string all, behaviour;
+    for (const Clause& clause : clauses_) {
+      const bool arrives = clause.text.ends_with(" in " + clause.behaviour) ||
+                           clause.text.ends_with(" to " + clause.behaviour);
+      if (!all.empty()) all += all.ends_with(':') ? " " : ", ";
+      if (clause.behaviour != behaviour && !arrives && !clause.behaviour.empty())
+        all += "in " + clause.behaviour + ": ";
+      behaviour = clause.behaviour;
+      all += clause.text;
+      if (arrives)
+        all += ":";
+      else if (!clause.transitions.empty())
+        all += " (" + joined(clause.transitions) + ")";
+    }
+    if (all.ends_with(':')) all.pop_back();
+    return all;
+  }
+
+ private:
+  struct Clause {
+    std::string behaviour, text, done, block;
+    std::vector<std::string> transitions;
+  };
+
+  static std::string joined(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+  }
+
+  std::vector<Clause> clauses_;
+};
+
+/// The layers above: who starts and who ends.
+std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
+  constexpr std::size_t shown = 4;
+  std::string system;
+  std::vector<std::string> starts, ends;
+  for (const TransitionId id : run) {
+    const std::string& name = net[id].name;
+    const bool enters = leaf(name) == "t_in";
+    if (name.find('.') == std::string::npos)
+      system += (system.empty() ? "the system " : " and ") + std::string(enters ? "starts" : "ends");
+    else
+      (enters ? starts : ends).push_back(name.substr(0, name.rfind('.')));
+  }
+  std::string text = system;
+  const auto tell = [&](const std::vector<std::string>& agents, const char* does) {
+    if (agents.empty()) return;
+    text += (text.empty() ? "" : ", ") + std::string(agents.size() == 1 ? "agent " : "agents ");
+    for (std::size_t index = 0; index < std::min(shown, agents.size()); ++index)
+      text += (index > 0 ? ", " : "") + agents[index];
+    if (agents.size() > shown) text += " and " + std::to_string(agents.size() - shown) + " more";
+    text += std::string(" ") + does + (agents.size() == 1 ? "s" : "");
+  };
+  tell(starts, "start");
+  tell(ends, "end");
+  return text;
+}
+
+}  // namespace
+
+std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& run) {
+  const Teller teller(net);
+  std::vector<Act> acts;
+  for (std::size_t first = 0, end = 0; first < run.size(); first = end) {
+    const std::uint32_t subsystem = net[run[first]].subsystem;
+    for (end = first; end < run.size() && net[run[end]].subsystem == subsystem;) ++end;
+    const std::span<const TransitionId> part = std::span(run).subspan(first, end - first);
+    Act& act = acts.emplace_back();
+    act.first = first + 1;
+    act.last = end;
+    act.who = teller.subsystem(part.front());
+    act.line = net[part.front()].span.line;
+    if (subsystem == net::no_subsystem) {
+      act.text = upper_text(net, part);
+      continue;
+    }
+    Sentence sentence;
+    for (const TransitionId id : part) sentence.add(teller.deed(id));
+    act.text = sentence.text();
+  }
+  return acts;
+}
+
+}  // namespace tessera::verify

@@ -1,0 +1,235 @@
+#include "verify/counterexample/tidy_run.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "explore/explore.hpp"
+
+namespace tessera::verify {
+namespace {
+
+using explore::Formula;
+using net::Arc;
+using net::TransitionId;
+using Run = std::vector<TransitionId>;
+
+/// Subsystems in a run beyond which a search for a shorter one has no prospect.
+constexpr std::size_t most_searched = 12;
+
+bool one_token_at_most(const explore::Marking& marking) {
+  return std::ranges::all_of(marking, [](explore::Tokens tokens) { return tokens <= 1; });
+}
+
+/// A run as a net runs: nullopt if it is none, or a place holds two tokens at some time.
+std::optional<explore::Marking> end_of(const explore::PtNet& net, const Run& run) {
+  explore::Marking marking = net.initial();
+  if (!one_token_at_most(marking)) return std::nullopt;
+  for (const TransitionId id : run) {
+    if (!net.enabled(id.value, marking)) return std::nullopt;
+    net.fire(id.value, marking);
+    for (const explore::Touch& touch : net.of_transition(id.value))
+      if (marking[touch.node] > 1) return std::nullopt;
+  }
+  return marking;
+}
+
+// ---------------------------------------------------------------------------------------------- shorter
+
+/// The shortest run to the same end of the net with only the transitions of the run.
+Run searched_again(const net::Net& net, const explore::Marking& end, const Run& run) {
+  std::set<std::uint32_t> subsystems;
+  for (const TransitionId id : run) subsystems.insert(net[id].subsystem);
+  if (subsystems.size() > most_searched) return run;
+  net::Net used;
+  for (const net::Place& place : net.places()) used.add(place);
+  const std::set<TransitionId> occurring(run.begin(), run.end());
+  const Run back(occurring.begin(), occurring.end());
+  std::set<std::uint32_t> touched;
+  for (const TransitionId id : back) {
+    used.add(net[id], net.preset(id), net.postset(id));
+    for (const auto arcs : {net.preset(id), net.postset(id)})
+      for (const Arc& arc : arcs) touched.insert(arc.place.value);
+  }
+  std::vector<Formula> same;
+  for (const std::uint32_t place : touched) {
+    const Formula marked = Formula::marked({place});
+    same.push_back(end[place] > 0 ? marked : Formula::negation(marked));
+  }
+  explore::Limits limits;
+  limits.markings = 100'000;  // rather than time: the same run on every machine
+  const explore::Answer answer = explore::find(explore::PtNet(used), Formula::all(std::move(same)), limits);
+  if (answer.kind != explore::Answer::Kind::yes || answer.trace.firings.size() >= run.size()) return run;
+  Run shorter;
+  for (const TransitionId id : answer.trace.firings) shorter.push_back(back[id.value]);
+  return shorter;
+}
+
+/// Leaves out rounds: firings of one subsystem after which its own places are marked as before. Alone if the
+/// round gives back to the channels what it takes, else with the next round of each subsystem it deals with.
+class RoundRemoval {
+ public:
+  RoundRemoval(const net::Net& net, const explore::PtNet& compiled, const explore::Marking& end)
+      : net_(net), compiled_(compiled), end_(end) {}
+
+  Run shortened(Run run) {
+    for (std::size_t tries = 0; tries < most_tries;) {
+      const std::vector<Round> rounds = rounds_of(run);
+      bool removed = false;
+      for (std::size_t index = 0; index < rounds.size() && tries < most_tries && !removed; ++index) {
+        ++tries;
+        Run left = without(run, closed(rounds, index));
+        if (left.size() == run.size() || end_of(compiled_, left) != end_) continue;
+        run = std::move(left);
+        removed = true;
+      }
+      if (!removed) break;
+    }
+    return run;
+  }
+
+ private:
+  static constexpr std::size_t most_tries = 400;
+  struct Round {
+    std::uint32_t subsystem = 0;
+    std::vector<std::size_t> firings;
+    std::map<std::uint32_t, int> effect;  // on fused places
+  };
+
+  /// The shortest rounds that end with each firing.
+  [[nodiscard]] std::vector<Round> rounds_of(const Run& run) const {
+    std::map<std::uint32_t, std::vector<std::size_t>> own;
+    for (std::size_t at = 0; at < run.size(); ++at)
+      if (net_[run[at]].subsystem != net::no_subsystem) own[net_[run[at]].subsystem].push_back(at);
+    std::vector<Round> rounds;
+    for (const auto& [subsystem, firings] : own) {
+      std::set<std::uint32_t> marked;
+      std::map<std::set<std::uint32_t>, std::size_t> seen;
+      for (std::size_t at = 0; at < firings.size(); ++at) {
+        seen[marked] = at;
+        for (const Arc& arc : net_.preset(run[firings[at]])) marked.erase(arc.place.value);
+        for (const Arc& arc : net_.postset(run[firings[at]]))
+          if (!net_[arc.place].fused()) marked.insert(arc.place.value);
+        const auto before = seen.find(marked);
+        if (before == seen.end()) continue;
+        Round& round = rounds.emplace_back();
+        round.subsystem = subsystem;
+        round.firings.assign(firings.begin() + static_cast<std::ptrdiff_t>(before->second),
+                             firings.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+        for (const std::size_t firing : round.firings) add_effect(run[firing], round.effect);
+      }
+    }
+    std::ranges::stable_sort(rounds, {}, [](const Round& round) { return round.firings.front(); });
+    return rounds;
+  }
+
+  void add_effect(TransitionId id, std::map<std::uint32_t, int>& effect) const {
+    for (const Arc& arc : net_.preset(id))
+      if (net_[arc.place].fused()) --effect[arc.place.value];
+    for (const Arc& arc : net_.postset(id))
+      if (net_[arc.place].fused()) ++effect[arc.place.value];
+  }
+
+  /// The firings of a round and of those that undo its effect on channels.
+  [[nodiscard]] static std::set<std::size_t> closed(const std::vector<Round>& rounds, std::size_t first) {
+    std::set<std::size_t> firings(rounds[first].firings.begin(), rounds[first].firings.end());
+    std::set<std::uint32_t> members{rounds[first].subsystem};
+    std::map<std::uint32_t, int> open = rounds[first].effect;
+    for (bool grew = true; grew;) {
+      grew = false;
+      std::erase_if(open, [](const auto& entry) { return entry.second == 0; });
+      if (open.empty()) break;
+      for (std::size_t index = 0; index < rounds.size() && !grew; ++index) {
+        const Round& round = rounds[index];
+        const bool undoes = std::ranges::any_of(round.effect, [&](const auto& entry) {
+          const auto found = open.find(entry.first);
+          return found != open.end() && found->second * entry.second < 0;
+        });
+        if (!undoes || !members.insert(round.subsystem).second) continue;
+        firings.insert(round.firings.begin(), round.firings.end());
+        for (const auto& [place, tokens] : round.effect) open[place] += tokens;
+        grew = true;
+      }
+    }
+    return firings;
+  }
+
+  static Run without(const Run& run, const std::set<std::size_t>& firings) {
+    Run left;
+    for (std::size_t at = 0; at < run.size(); ++at)
+      if (!firings.contains(at)) left.push_back(run[at]);
+    return left;
+  }
+
+  const net::Net& net_;
+  const explore::PtNet& compiled_;
+  const explore::Marking& end_;
+};
+
+// ---------------------------------------------------------------------------------------------- grouped
+
+/// What must come before what: firings that touch a place keep their order at it, so that it never holds two
+/// tokens in the new order if it did not in the old.
+std::vector<std::vector<std::size_t>> followers(const net::Net& net, const Run& run,
+                                                std::vector<std::size_t>& waiting_for) {
+  std::vector<std::vector<std::size_t>> after(run.size());
+  waiting_for.assign(run.size(), 0);
+  std::map<std::uint32_t, std::size_t> last;
+  for (std::size_t at = 0; at < run.size(); ++at) {
+    std::set<std::size_t> before;
+    for (const auto arcs : {net.preset(run[at]), net.postset(run[at])})
+      for (const Arc& arc : arcs) {
+        const auto [entry, first] = last.emplace(arc.place.value, at);
+        if (!first && entry->second != at) before.insert(std::exchange(entry->second, at));
+      }
+    for (const std::size_t earlier : before) after[earlier].push_back(at);
+    waiting_for[at] = before.size();
+  }
+  return after;
+}
+
+/// Goes on with the subsystem at hand for as long as it can, the layers above and then the one that was first
+/// in the old order coming next. Outcomes that are the end of their subsystem come last.
+Run grouped(const net::Net& net, const Run& run) {
+  std::vector<std::size_t> waiting_for;
+  const std::vector<std::vector<std::size_t>> after = followers(net, run, waiting_for);
+  const auto rank = [&](std::size_t at) { return net[run[at]].name.ends_with(" none") ? 1 : 0; };
+  std::map<std::uint32_t, std::set<std::pair<int, std::size_t>>> ready;  // by subsystem
+  std::set<std::tuple<int, std::size_t, std::uint32_t>> order;
+  const auto offer = [&](std::size_t at) {
+    const std::uint32_t subsystem = net[run[at]].subsystem;
+    ready[subsystem].insert({rank(at), at});
+    order.insert({subsystem == net::no_subsystem ? -1 : rank(at), at, subsystem});
+  };
+  for (std::size_t at = 0; at < run.size(); ++at)
+    if (waiting_for[at] == 0) offer(at);
+  Run result;
+  std::uint32_t acting = net::no_subsystem;
+  while (!order.empty()) {
+    const bool goes_on = !ready[acting].empty() && ready[acting].begin()->first == 0;
+    if (!goes_on) acting = std::get<2>(*order.begin());
+    const auto [its_rank, at] = *ready[acting].begin();
+    ready[acting].erase(ready[acting].begin());
+    order.erase({acting == net::no_subsystem ? -1 : its_rank, at, acting});
+    result.push_back(run[at]);
+    for (const std::size_t next : after[at])
+      if (--waiting_for[next] == 0) offer(next);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<TransitionId> tidy(const net::Net& net, std::vector<TransitionId> run) {
+  const explore::PtNet compiled(net);
+  const std::optional<explore::Marking> end = end_of(compiled, run);
+  if (!end) return run;
+  run = RoundRemoval(net, compiled, *end).shortened(std::move(run));
+  run = searched_again(net, *end, run);
+  return grouped(net, run);
+}
+
+}  // namespace tessera::verify

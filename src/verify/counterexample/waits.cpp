@@ -1,0 +1,154 @@
+#include "verify/counterexample/waits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tessera::verify {
+namespace {
+
+using net::TransitionId;
+
+/// "full" of "a.control.y->b.control.x.full"
+std::string state_of(const std::string& place) { return place.substr(place.rfind('.') + 1); }
+std::string channel_of(const std::string& place) { return place.substr(0, place.rfind('.')); }
+
+}  // namespace
+
+Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
+    : net_(net), tokens_(std::move(tokens)), names_(subsystem_names(net)), transitions_(names_.size()) {
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::Transition& transition = net.transitions()[index];
+    if (transition.subsystem < transitions_.size() &&
+        transition.condition.truth != net::Condition::Truth::never)
+      transitions_[transition.subsystem].push_back({index});
+  }
+}
+
+bool Waits::moves(std::uint32_t subsystem) const {
+  return std::ranges::any_of(transitions_[subsystem], [&](TransitionId id) {
+    return std::ranges::all_of(net_.preset(id), [&](const net::Arc& arc) { return has(arc); });
+  });
+}
+
+bool Waits::has_ended(std::uint32_t subsystem) const {
+  const std::string end = names_[subsystem] + ".out";
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    const net::Place& given = net_.places()[place];
+    if (tokens_[place] > 0 && given.subsystem == subsystem && !given.fused() && given.name != end)
+      return false;
+  }
+  // It has not ended if it has never begun: its agent is still to start it.
+  const std::string agent = names_[subsystem].substr(0, names_[subsystem].rfind('.'));
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    const std::string& name = net_.places()[place].name;
+    if (tokens_[place] > 0 && (name == "in" || name == agent + ".in")) return false;
+  }
+  return true;
+}
+
+std::set<std::uint32_t> Waits::lacking(std::uint32_t subsystem) const {
+  return verify::lacking(net_, tokens_, transitions_[subsystem]);
+}
+
+std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
+  std::vector<std::string> texts;
+  const std::set<std::uint32_t> lacks = lacking(subsystem);
+  const bool all_own =
+      std::ranges::all_of(lacks, [&](std::uint32_t place) { return is_own_memory(subsystem, place); });
+  for (const std::uint32_t place : lacks) {
+    // What it would have to give itself belongs to another branch than the one that waits for others.
+    if (!all_own && is_own_memory(subsystem, place)) continue;
+    if (std::string text = line(subsystem, place); std::ranges::count(texts, text) == 0)
+      texts.push_back(std::move(text));
+  }
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place)
+    if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
+        net_.places()[place].name.ends_with(".none"))
+      texts.push_back(names_[subsystem] + " left a behaviour, and none of its initial conditions held");
+  return texts;
+}
+
+std::string Waits::line(std::uint32_t subsystem, std::uint32_t missing) const {
+  const std::string& place = net_.places()[missing].name;
+  const std::string state = state_of(place);
+  std::string what = " waits for the memory of ";
+  if (state == "full") what = " waits for a value of ";
+  if (state == "ack") what = " waits for the acknowledgement of ";
+  std::string from;
+  for (const std::uint32_t giver : givers(missing, subsystem))
+    from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : names_[giver]);
+  return names_[subsystem] + what + channel_of(place) + (from.empty() ? ", which nobody gives" : from);
+}
+
+std::set<std::uint32_t> Waits::givers(std::uint32_t place, std::uint32_t waiting) const {
+  std::set<std::uint32_t> all;
+  for (std::uint32_t subsystem = 0; subsystem < transitions_.size(); ++subsystem)
+    if (!giving(subsystem, place).empty()) all.insert(subsystem);
+  if (all.size() > 1) all.erase(waiting);
+  return all;
+}
+
+std::vector<TransitionId> Waits::giving(std::uint32_t subsystem, std::uint32_t place) const {
+  const auto here = [&](const net::Arc& arc) { return arc.place.value == place; };
+  std::vector<TransitionId> all;
+  for (const TransitionId id : transitions_[subsystem])
+    if (std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here))
+      all.push_back(id);
+  return all;
+}
+
+bool Waits::is_own_memory(std::uint32_t subsystem, std::uint32_t place) const {
+  const std::string state = state_of(net_.places()[place].name);
+  return state != "full" && state != "ack" && givers(place, subsystem) == std::set{subsystem};
+}
+
+std::string Waits::takes_no_more(std::uint32_t reader, std::uint32_t place) const {
+  return names_[reader] + " goes on and receives " + channel_of(net_.places()[place].name) + " no more";
+}
+
+std::string Waits::gives_no_more(std::uint32_t giver, std::uint32_t place) const {
+  const std::string& name = net_.places()[place].name;
+  const std::string state = state_of(name);
+  std::string does = " goes on and gives the memory of ";
+  if (state == "full") does = " goes on and sends ";
+  if (state == "ack") does = " goes on and acknowledges ";
+  return names_[giver] + does + channel_of(name) + " no more";
+}
+
+std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
+                                const std::vector<TransitionId>& transitions) {
+  const auto has = [&](const net::Arc& arc) { return tokens[arc.place.value] >= arc.weight; };
+  std::set<std::uint32_t> places;
+  for (const TransitionId id : transitions) {
+    // Who waits with a timeout is told of by what it waits for, not by what the timeout takes back.
+    if (net[id].condition.kind == net::Condition::Kind::elapsed) continue;
+    const auto inputs = net.preset(id);
+    const auto of_channel = [&](const net::Arc& arc) { return has(arc) || net[arc.place].fused(); };
+    if (!std::ranges::all_of(inputs, of_channel)) continue;
+    for (const net::Arc& arc : inputs)
+      if (!has(arc)) places.insert(arc.place.value);
+  }
+  return places;
+}
+
+std::vector<std::uint32_t> tokens_after(const net::Net& net, const std::vector<TransitionId>& run) {
+  std::vector<std::uint32_t> tokens;
+  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
+  for (const TransitionId id : run) {
+    for (const net::Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
+    for (const net::Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
+  }
+  return tokens;
+}
+
+std::vector<std::string> subsystem_names(const net::Net& net) {
+  std::vector<std::string> names;
+  for (const net::Place& place : net.places()) {
+    if (place.subsystem == net::no_subsystem || place.layer != net::Layer::subsystem) continue;
+    if (place.subsystem >= names.size()) names.resize(std::size_t{place.subsystem} + 1);
+    if (place.name.ends_with(".in")) names[place.subsystem] = place.name.substr(0, place.name.size() - 3);
+  }
+  return names;
+}
+
+}  // namespace tessera::verify

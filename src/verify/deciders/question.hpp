@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+#include "net/property.hpp"
+#include "verify/communication/communication.hpp"
+
+namespace tessera::verify {
+
+/// One thing to decide about a net. A property is one question or several.
+struct Question {
+  enum class Kind : std::uint8_t {
+    safe,
+    exclusive_channels,  ///< subjects: memories, by SharedMemory::id
+    deadlock_free,
+    goes_on,          ///< subjects: subsystems, by Place::subsystem
+    channels_flow,    ///< subjects: channels, by Place::channel
+    sound_pages,      ///< subjects: pages
+    live_behaviours,  ///< subjects: places that start a transition function
+    claims            ///< of `property`; subjects: their numbers
+  } kind = Kind::safe;
+  Assume assume = Assume::conditions;
+  /// What the question is about, one by one, as far as it is still open: the answer is yes if it is for each.
+  /// Empty for a question about the net as a whole.
+  std::vector<std::uint32_t> subjects{};
+  const net::Property* property = nullptr;
+};
+
+/// Can a run show that the answer is no? Not if it says that something cannot be reached.
+[[nodiscard]] inline bool has_runs(const Question& question) {
+  return question.kind != Question::Kind::live_behaviours &&
+         (question.property == nullptr || question.property->kind != net::Property::Kind::reachable);
+}
+
+/// What a method found out about a question.
+struct Finding {
+  enum class Kind : std::uint8_t { holds, violated, unknown } kind = Kind::unknown;
+  std::string method{};       ///< in words; empty: the title of the decider
+  std::string why{};          ///< for violated and unknown: in one line
+  std::string explanation{};  ///< what the method did
+  /// unknown: the subjects that are still open. violated: those of which some are to blame, for those that
+  /// look for a run.
+  std::vector<std::uint32_t> subjects{};
+  /// violated: a run that shows it, of transitions of the abstract net.
+  std::vector<net::TransitionId> trace{};
+  bool has_trace = false;
+  std::vector<std::string> waits{};
+  std::uint64_t states = 0;
+};
+
+}  // namespace tessera::verify

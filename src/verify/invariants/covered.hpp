@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+#include "verify/invariants/unit_invariants.hpp"
+
+/// What place invariants say about pages and channels.
+namespace tessera::verify {
+
+/// Something that the invariants do not settle.
+struct Gap {
+  std::uint32_t subject = 0;
+  std::string why;
+};
+
+/// The pages that hold a place which no unit invariant keeps apart from their input and output; empty: every
+/// page is entered once at a time and left empty. Linear in the net times the depth of its pages.
+[[nodiscard]] std::vector<Gap> uncovered_pages(const net::HierarchicalNet& pages, const net::Net& net,
+                                               const UnitInvariants& units);
+
+/// The memories (verify/forbidden.hpp) whose writes and reads no unit invariant keeps apart. Linear.
+[[nodiscard]] std::vector<Gap> uncovered_memories(const net::Net& net, const UnitInvariants& units);
+
+}  // namespace tessera::verify

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "net/net.hpp"
+#include "verify/communication/communication.hpp"
+
+namespace tessera::verify {
+
+/// What is left of some subsystems when all that holds nobody up is left out: a net with a place for every
+/// point of a behaviour at which a subsystem can be, `full` and `ack` of every channel at which somebody may
+/// have to wait, and a transition for every way on. A transfer is one step: a write counts as done once it
+/// has begun, a read once it is over. Everything a trap needs to know; `empty` is left out.
+class Skeleton {
+ public:
+  /// A place where a token waits for as long as it takes.
+  struct Stop {
+    std::uint32_t place = 0;
+    std::uint32_t subsystem = 0;
+    std::uint32_t channel = 0;
+    Side side = Side::receive;  ///< send: for the acknowledgement
+    /// Places that may be marked together with this one: those of the other branches of a parallel transfer.
+    std::vector<std::uint32_t> beside;
+    std::uint32_t stage = 0;  ///< stops of one stage may be occupied together
+  };
+
+  Skeleton(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems);
+
+  [[nodiscard]] const net::Net& net() const { return net_; }
+  [[nodiscard]] const std::vector<Stop>& stops() const { return stops_; }
+  /// All places of a subsystem.
+  [[nodiscard]] std::span<const std::uint32_t> of_subsystem(std::uint32_t subsystem) const {
+    return places_of_[subsystem];
+  }
+  /// The place whose token a stop waits for.
+  [[nodiscard]] std::uint32_t awaited(const Stop& stop) const {
+    return stop.side == Side::send ? memory_[stop.channel].acknowledged : memory_[stop.channel].full;
+  }
+
+ private:
+  struct Memory {
+    std::uint32_t full = 0, acknowledged = 0;
+  };
+
+  std::uint32_t place(std::uint32_t tokens = 0);
+  std::uint32_t point(std::uint32_t subsystem, std::uint32_t tokens = 0);
+  void step(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
+  void draw(std::uint32_t subsystem);
+  std::uint32_t draw_stage(std::uint32_t subsystem, const Stage& stage, std::uint32_t from);
+  void draw_block(std::uint32_t subsystem, const Communication& communication, std::uint32_t from,
+                  std::uint32_t to);
+  void draw_send(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from, std::uint32_t to);
+  void draw_receive(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from, std::uint32_t to);
+
+  const CommunicationStructure& structure_;
+  net::Net net_;
+  std::vector<Memory> memory_;                         // per channel
+  std::vector<std::vector<std::uint32_t>> places_of_;  // per subsystem
+  std::vector<Stop> stops_;
+  std::uint32_t stages_ = 0;
+};
+
+}  // namespace tessera::verify

@@ -1,0 +1,97 @@
+#include "verify/waiting/waiting.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "verify/circuits/folding.hpp"
+#include "verify/waiting/waiting_cycles.hpp"
+
+namespace tessera::verify {
+namespace {
+
+/// Why nothing is known of the group: a behaviour after which it may be that nothing follows, or a channel of
+/// which only its net tells who waits for what.
+std::string unfit(const CommunicationStructure& structure, const CircuitGroup& group) {
+  for (const std::uint32_t subsystem : group.subsystems)
+    for (const BehaviourFlow& behaviour : structure.subsystems[subsystem].behaviours) {
+      if (!behaviour.complete)
+        return "after '" + behaviour.name + "' none of the initial conditions may hold";
+      for (const Stage& stage : behaviour.stages)
+        for (const Communication& communication : stage)
+          if (const ChannelFlow& channel = structure.channels[communication.channel]; channel.own_model)
+            return "'" + channel.name + "' has a communication model of its own";
+    }
+  return {};
+}
+
+std::string suspicion(const CommunicationStructure& structure, const CircleSearch& search) {
+  const Wait& wait = search.suspected().front();
+  const std::string who = structure.subsystems[wait.subsystem].name;
+  const std::string where = "'" + who + "' waits at " + structure.channels[wait.channel].name;
+  if (search.deserted() && wait.waiting_for == CircleSearch::nobody)
+    return where + ", which nobody else uses";
+  if (search.deserted())
+    return where + " for " + structure.subsystems[wait.waiting_for].name + ", which need not come back to it";
+  CircuitGroup circle;
+  circle.circuit = search.suspected();
+  return "it is not excluded that " + in_words(structure, circle);
+}
+
+}  // namespace
+
+WaitingReport judge_waiting(const CommunicationStructure& structure,
+                            std::span<const CircuitGroup* const> groups, const explore::Limits& limits) {
+  WaitingReport report;
+  report.goes_on.resize(structure.subsystems.size(), false);
+  const auto refuse = [&](std::string why) {
+    if (report.why_not.empty()) report.why_not = std::move(why);
+  };
+  std::vector<const CircuitGroup*> group_of(structure.subsystems.size(), nullptr);
+  std::vector<std::uint32_t> judged;
+  for (const CircuitGroup* group : groups) {
+    if (std::string why = unfit(structure, *group); !why.empty()) {
+      refuse(std::move(why));
+      continue;
+    }
+    for (const std::uint32_t subsystem : group->subsystems) {
+      group_of[subsystem] = group;
+      judged.push_back(subsystem);
+    }
+  }
+  explore::Watch watch(limits);
+  CircleSearch search(structure, judged, watch);
+  CircleSearch::End end = search.run();
+  while (end == CircleSearch::End::suspected) {
+    refuse(suspicion(structure, search));
+    const CircuitGroup* const group = group_of[search.suspected().front().subsystem];
+    search.give_up_on(group->subsystems);
+    for (const std::uint32_t subsystem : group->subsystems) group_of[subsystem] = nullptr;
+    end = search.run();
+  }
+  if (end == CircleSearch::End::gave_up) refuse(watch.why());
+  if (end == CircleSearch::End::excluded)
+    for (const std::uint32_t subsystem : judged) report.goes_on[subsystem] = group_of[subsystem] != nullptr;
+  report.complete = end == CircleSearch::End::excluded;
+  report.stops = search.stops();
+  report.traps = search.traps();
+  return report;
+}
+
+std::vector<bool> flowing_channels(const CommunicationStructure& structure,
+                                   const std::vector<bool>& goes_on) {
+  const auto uses_for_ever = [&](std::optional<std::uint32_t> subsystem, std::uint32_t channel, Side side) {
+    return subsystem && goes_on[*subsystem] && comes_back(structure, *subsystem, channel, side);
+  };
+  std::vector<bool> flows;
+  for (std::uint32_t index = 0; index < structure.channels.size(); ++index) {
+    const ChannelFlow& channel = structure.channels[index];
+    // Where the sender may take its value back and the reader may pass by, the two can keep missing each
+    // other.
+    const bool meet = waits_to_receive(channel) || !channel.send_timeout;
+    flows.push_back(uses_for_ever(channel.receiver, index, Side::receive) &&
+                    (channel.always_readable || (meet && uses_for_ever(channel.sender, index, Side::send))));
+  }
+  return flows;
+}
+
+}  // namespace tessera::verify

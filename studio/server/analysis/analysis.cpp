@@ -1,0 +1,101 @@
+#include "server/analysis/analysis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "diagnostics/diagnostics.hpp"
+#include "diagnostics/utf8.hpp"
+#include "drawing/drawing.hpp"
+#include "layers/layers.hpp"
+#include "layers/properties.hpp"
+#include "net/flatten.hpp"
+#include "project/verification/pipeline.hpp"
+#include "server/analysis/folder.hpp"
+#include "server/analysis/structure.hpp"
+#include "server/http/json_text.hpp"
+#include "spec/parser.hpp"
+#include "verify/hashes.hpp"
+
+namespace tessera::server {
+
+namespace {
+
+using diagnostics::Diagnostics;
+using Json = nlohmann::ordered_json;
+
+/// Byte column to column in UTF-16 units, as browsers count; both from 1.
+std::uint32_t browser_column(std::string_view line, std::uint32_t column) {
+  std::uint32_t units = 1;
+  for (std::size_t at = 0; at + 1 < column && at < line.size();) {
+    const diagnostics::CodePoint point = diagnostics::decode(line, at);
+    units += point.code > 0xffff ? 2 : 1;
+    at += point.length;
+  }
+  return units;
+}
+
+Json diagnostic_json(const diagnostics::Diagnostic& one, const Diagnostics& all) {
+  constexpr std::array<const char*, 3> severities{"error", "warning", "hint"};
+  const std::string_view line = all.line(one.span.line);
+  return {{"severity", severities[static_cast<std::size_t>(one.severity)]},
+          {"code", one.code},
+          {"message", one.message},
+          {"hint", one.hint},
+          {"line", one.span.line},
+          {"column", browser_column(line, one.span.column)},
+          {"end_line", one.span.line},
+          {"end_column", browser_column(line, one.span.column + one.span.length)}};
+}
+
+/// Adds the nets of a model without errors, as far as they can be built.
+void add_nets(Analysis& analysis, Diagnostics& found) {
+  project::judge_models(*analysis.model, found);
+  analysis.pages = layers::build(*analysis.model, found);
+  if (analysis.pages) analysis.net = net::flatten(*analysis.pages, found);
+  if (!analysis.net) return;
+  static_cast<void>(layers::properties(*analysis.model, *analysis.pages, *analysis.net, found));
+  analysis.net_hash = verify::hash_of(*analysis.net);
+}
+
+}  // namespace
+
+Analysis analyse(const std::string& name, const std::string& text) {
+  Analysis analysis;
+  Diagnostics found(name, text);
+  std::optional<spec::Model> known = spec::parse_what_is_known(found);
+  const std::string structure = known ? text_of(structure_json(*known)) : "null";
+  if (known && !found.has_errors()) {
+    analysis.model = std::move(known);
+    add_nets(analysis, found);
+  }
+  Json diagnostics = Json::array();
+  for (const diagnostics::Diagnostic& one : found.sorted())
+    diagnostics.push_back(diagnostic_json(one, found));
+  std::string json = "{\"diagnostics\":" + text_of(diagnostics) + ",\"structure\":" + structure;
+  if (analysis.net) {
+    json += ",\"net_hash\":\"" + analysis.net_hash + "\",\"net\":";
+    json += drawing::to_json(*analysis.pages, *analysis.net, /*indent=*/-1) + "}";
+  } else {
+    json += ",\"net_hash\":null,\"net\":null}";
+  }
+  analysis.json = std::make_shared<const std::string>(std::move(json));
+  return analysis;
+}
+
+std::shared_ptr<const Analysis> Analyses::of(const std::string& text) {
+  const std::string revision = revision_of(text);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(kept_, revision, &Kept::revision);
+    if (found != kept_.end()) return found->analysis;
+  }
+  auto made = std::make_shared<const Analysis>(analyse(name_, text));
+  const std::lock_guard lock(mutex_);
+  kept_.push_front({revision, made});
+  if (kept_.size() > most_kept) kept_.pop_back();
+  return made;
+}
+
+}  // namespace tessera::server

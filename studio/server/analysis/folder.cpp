@@ -1,0 +1,117 @@
+#include "server/analysis/folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "tessera/net_hash.hpp"
+
+namespace tessera::server {
+
+namespace {
+
+/// Closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return number_; }
+  [[nodiscard]] bool valid() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+std::string reason() { return std::strerror(errno); }
+
+SpecFile::Content unreadable(std::string why) { return {{}, revision_of({}), std::move(why)}; }
+
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(file, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return fsync(file) == 0;
+}
+
+}  // namespace
+
+std::string revision_of(std::string_view text) {
+  NetHash hash;
+  hash.place(text, 0);
+  return hash.hex();
+}
+
+SpecFile::SpecFile(std::filesystem::path file)
+    : path_(std::move(file)),
+      name_(path_.filename().string()),
+      folder_(open(path_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (folder_ < 0) throw std::runtime_error(fmt::format("{}: {}", path_.parent_path().string(), reason()));
+}
+
+SpecFile::~SpecFile() { close(folder_); }
+
+SpecFile::Content SpecFile::read() const {
+  const Descriptor file(openat(folder_, name_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid())
+    return unreadable(errno == ELOOP ? "it is a symbolic link now, which is not followed" : reason());
+  struct stat status {};
+  if (fstat(file.get(), &status) != 0) return unreadable(reason());
+  if (!S_ISREG(status.st_mode)) return unreadable("it is no file");
+  Content content;
+  std::array<char, 65536> piece{};
+  for (;;) {
+    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return unreadable(reason());
+    if (count == 0) break;
+    content.text.append(piece.data(), static_cast<std::size_t>(count));
+    if (content.text.size() > largest) return unreadable("it is larger than 8 MB");
+  }
+  content.revision = revision_of(content.text);
+  return content;
+}
+
+SpecFile::Outcome SpecFile::write(std::string_view text, std::string_view revision) {
+  const std::lock_guard lock(writing_);
+  const auto failed = [&](std::string why) { return Outcome{Written::failed, unreadable(std::move(why))}; };
+  Content now = read();
+  if (now.revision != revision) return {Written::conflict, std::move(now)};
+  struct stat status {};
+  const mode_t mode =
+      fstatat(folder_, name_.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 ? status.st_mode & 0777U : 0644;
+  if (S_ISLNK(status.st_mode)) return failed("it is a symbolic link now, which is not followed");
+  const std::string beside = fmt::format(".{}.{}", name_, getpid());
+  unlinkat(folder_, beside.c_str(), 0);  // of an earlier process with our number
+  {
+    const Descriptor file(
+        openat(folder_, beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+    if (!file.valid()) return failed(reason());
+    if (!write_all(file.get(), text)) {
+      std::string why = reason();
+      unlinkat(folder_, beside.c_str(), 0);
+      return failed(std::move(why));
+    }
+  }
+  if (Content last = read(); last.revision != revision) {  // another editor was faster
+    unlinkat(folder_, beside.c_str(), 0);
+    return {Written::conflict, std::move(last)};
+  }
+  if (renameat(folder_, beside.c_str(), folder_, name_.c_str()) != 0) return failed(reason());
+  return {Written::yes, {std::string(text), revision_of(text), {}}};
+}
+
+}  // namespace tessera::server

@@ -1,0 +1,113 @@
+#include "server/http/answer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tessera::server {
+
+using nlohmann::json;
+
+void answer(httplib::Response& response, std::string text, int status) {
+  answer_pieces(response, {std::make_shared<const std::string>(std::move(text))});
+  response.status = status;
+}
+
+void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
+                   const std::string& type) {
+  std::size_t size = 0;
+  for (const auto& piece : pieces) size += piece->size();
+  response.status = 200;
+  response.set_content_provider(
+      size, type,
+      [pieces = std::move(pieces)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+        for (const auto& piece : pieces) {
+          if (offset < piece->size())
+            return sink.write(piece->data() + offset, std::min(length, piece->size() - offset));
+          offset -= piece->size();
+        }
+        return false;
+      });
+}
+
+void answer_error(httplib::Response& response, int status, std::string_view error, std::string_view hint) {
+  response.status = status;
+  response.set_content(text_of(json{{"error", error}, {"hint", hint}}), "application/json");
+}
+
+Body::Body(const httplib::Request& request, httplib::Response& response)
+    : response_(response), json_(json::parse(request.body, nullptr, /*allow_exceptions=*/false)) {
+  if (!json_.is_object()) complain("the body is no JSON object");
+}
+
+void Body::complain(const std::string& what) {
+  if (good_) answer_error(response_, 400, what);
+  good_ = false;
+}
+
+const json* Body::find(const char* name) const {
+  if (!json_.is_object()) return nullptr;
+  const auto found = json_.find(name);
+  return found == json_.end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string Body::text(const char* name) {
+  const json* member = find(name);
+  if (member != nullptr && member->is_string()) return member->get<std::string>();
+  complain(std::string("'") + name + "' has to be a text");
+  return {};
+}
+
+std::string Body::text_or(const char* name, std::string otherwise) {
+  return find(name) == nullptr ? std::move(otherwise) : text(name);
+}
+
+std::optional<double> Body::number(const char* name) {
+  const json* member = find(name);
+  if (member == nullptr) return std::nullopt;
+  if (member->is_number()) return member->get<double>();
+  complain(std::string("'") + name + "' has to be a number");
+  return std::nullopt;
+}
+
+bool Body::flag(const char* name) {
+  const json* member = find(name);
+  if (member == nullptr) return false;
+  if (member->is_boolean()) return member->get<bool>();
+  complain(std::string("'") + name + "' has to be true or false");
+  return false;
+}
+
+std::vector<std::uint32_t> Body::indices(const char* list, const char* member) {
+  constexpr std::size_t most = 10'000;
+  std::vector<std::uint32_t> numbers;
+  const json* given = find(list);
+  if (given == nullptr) return numbers;
+  if (!given->is_array() || given->size() > most) {
+    complain(std::string("'") + list + "' has to be a list");
+    return numbers;
+  }
+  for (const json& one : *given) {
+    if (!one.is_object()) complain(std::string("'") + list + "' has to be a list of objects");
+    const auto found = one.is_object() ? one.find(member) : one.end();
+    if (found == one.end()) continue;
+    if (found->is_number_unsigned() && found->get<std::uint64_t>() < UINT32_MAX)
+      numbers.push_back(found->get<std::uint32_t>());
+    else
+      complain(std::string("'") + member + "' has to be an index");
+  }
+  return numbers;
+}
+
+std::vector<std::string> Body::texts(const char* name) {
+  const json* member = find(name);
+  std::vector<std::string> texts;
+  if (member == nullptr) return texts;
+  if (member->is_array())
+    for (const json& one : *member)
+      if (one.is_string()) texts.push_back(one.get<std::string>());
+  if (!member->is_array() || texts.size() != member->size())
+    complain(std::string("'") + name + "' has to be a list of texts");
+  return texts;
+}
+
+}  // namespace tessera::server

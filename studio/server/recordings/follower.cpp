@@ -1,0 +1,97 @@
+#include "server/recordings/follower.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace tessera::server {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::size_t piece_of_path = std::size_t{1} << 20U;
+constexpr std::size_t most_values = std::size_t{64} << 10U;  // bytes of an event
+constexpr auto between_looks = std::chrono::milliseconds(30);
+constexpr auto between_values = std::chrono::milliseconds(50);
+constexpr auto between_poses = std::chrono::milliseconds(50);
+constexpr auto between_markings = std::chrono::milliseconds(500);
+constexpr auto between_subsystems = std::chrono::milliseconds(200);
+
+/// Of a time that somebody else says.
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(std::clamp(seconds * 1e9, -9e18, 9e18));
+}
+
+}  // namespace
+
+Follower::Follower(RecordingStream::Source recording, const std::filesystem::path& path,
+                   const Analysis& analysis)
+    : recording_(std::move(recording), *analysis.net), path_(path) {}
+
+void Follower::rest() { std::this_thread::sleep_for(between_looks); }
+
+Follower::News Follower::look(std::optional<json> snapshot, bool last) {
+  News news;
+  if (snapshot) snapshot_ = std::move(snapshot);
+  add_firings(news);
+  add_path(news, last);
+  const bool has_read_all = !news.more;
+  if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
+  add_values(news, news.rested || (last && has_read_all));
+  return news;
+}
+
+void Follower::add_firings(News& news) {
+  const RecordingTail::Batch batch = recording_.next();
+  news.more = batch.more;
+  time_ns_ = std::max(time_ns_, batch.time_ns);
+  news.time_ns = time_ns_;
+  if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return;
+  news.marking = recording_.marking();
+  news.firings = {{"t", batch.time_ns}, {"dropped", batch.dropped}, {"firings", batch.firings}};
+  // A page that plays the firings knows the marking; now and then it is told, in case one was lost.
+  const bool plays_on = batch.dropped == 0 && !batch.jumped;
+  if (plays_on && Clock::now() - marking_told_ < between_markings) return;
+  marking_told_ = Clock::now();
+  news.firings["marking"] = *news.marking;
+}
+
+/// at_once: also those that would be told a little later.
+void Follower::add_values(News& news, bool at_once) {
+  if (!at_once && Clock::now() - values_told_ < between_values) return;
+  json values = recording_.take_changed_values(at_once ? SIZE_MAX : most_values);
+  if (values.empty()) return;
+  values_told_ = Clock::now();
+  news.values = {{"t", time_ns_}, {"values", std::move(values)}};
+}
+
+void Follower::add_path(News& news, bool at_once) {
+  const std::string bytes = path_.more(piece_of_path);
+  news.more = news.more || bytes.size() == piece_of_path;
+  news.path = points_.feed(bytes);
+  if (!news.path.empty()) pose_waiting_ = news.path.back();
+  if (!pose_waiting_ || (!at_once && Clock::now() - pose_told_ < between_poses)) return;
+  pose_told_ = Clock::now();
+  const PathPoint pose = *std::exchange(pose_waiting_, std::nullopt);
+  news.pose = {{"t", pose.time_ns}, {"x", pose.x_m}, {"y", pose.y_m}, {"heading", pose.heading_rad}};
+}
+
+void Follower::add_snapshot(const json& snapshot, News& news) {
+  news.time_ns = std::max(news.time_ns, nanoseconds(snapshot.value("time_s", 0.0)));
+  if (Clock::now() - subsystems_told_ >= between_subsystems) {
+    subsystems_told_ = Clock::now();
+    news.subsystems = {{"t", nanoseconds(snapshot.value("time_s", 0.0))},
+                       {"subsystems", snapshot.value("subsystems", json::array())},
+                       {"channels", snapshot.value("channels", json::array())}};
+  }
+  news.has_state = snapshot.contains("paused");
+  news.paused = snapshot.value("paused", false);
+  const std::uint64_t pauses = snapshot.value("pauses", std::uint64_t{0});
+  // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
+  news.rested = pauses != std::exchange(pauses_, pauses) && news.paused;
+  news.broke_at = snapshot.value("broke_at", "");
+}
+
+}  // namespace tessera::server

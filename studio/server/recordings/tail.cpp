@@ -1,0 +1,122 @@
+#include "server/recordings/tail.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "server/recordings/value_json.hpp"
+
+namespace tessera::server {
+
+// ------------------------------------------------------------------------------------------------ names
+
+template <class Elements>
+NetNames::Numbers NetNames::numbers_of(const Elements& elements) {
+  Numbers numbers;
+  for (std::uint32_t index = 0; index < elements.size(); ++index)
+    numbers.emplace_back(elements[index].name, index);
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
+NetNames::NetNames(const net::Net& net)
+    : places_(numbers_of(net.places())), transitions_(numbers_of(net.transitions())) {}
+
+std::uint32_t NetNames::find(const Numbers& numbers, std::string_view name) {
+  const auto found = std::ranges::lower_bound(numbers, name, {}, &Numbers::value_type::first);
+  return found != numbers.end() && found->first == name ? found->second : UINT32_MAX;
+}
+
+std::vector<std::uint32_t> NetNames::transitions_of(const Recording& recording) const {
+  std::vector<std::uint32_t> indices;
+  for (const Recording::TransitionName& one : recording.transitions)
+    indices.push_back(find(transitions_, one.name));
+  return indices;
+}
+
+std::vector<std::uint32_t> NetNames::marked(std::string_view lines) const {
+  std::vector<std::uint32_t> places;
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    if (const std::uint32_t place = find(places_, lines.substr(0, end)); place != UINT32_MAX)
+      places.push_back(place);
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return places;
+}
+
+// ------------------------------------------------------------------------------------------------ tail
+
+RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names)
+    : recording(std::move(its_recording)),
+      transitions(names.transitions_of(*recording)),
+      values(*recording),
+      has_changed(recording->buffers.size()) {}
+
+RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net)
+    : names_(net), stream_(std::move(source)), tokens_(net) {}
+
+void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
+  const Event& event = entry.event;
+  batch.time_ns = std::max(batch.time_ns, event.time_ns);
+  if (event.kind() == Event::Kind::firing) {
+    const std::uint32_t transition = segment_->transitions[event.subject];
+    if (transition == UINT32_MAX) return;
+    tokens_.fire(transition);
+    batch.firings.emplace_back(event.time_ns, transition);
+  } else if (event.kind() == Event::Kind::value) {
+    const auto change = segment_->values.follow(entry);
+    if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
+    segment_->has_changed[change->number] = true;
+    segment_->changed.push_back(change->number);
+  } else if (event.kind() == Event::Kind::marking && event.version == 0) {
+    tokens_.set(names_.marked(entry.text));
+    batch.jumped = true;
+  }
+}
+
+/// Of many firings, only the last are kept.
+void RecordingTail::keep_the_last(Batch& batch) {
+  // Threads write one after the other; the page shows time.
+  std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
+  if (batch.firings.size() <= most_firings) return;
+  const std::size_t beyond = batch.firings.size() - most_firings;
+  batch.dropped += beyond;
+  batch.firings.erase(batch.firings.begin(), batch.firings.begin() + static_cast<std::ptrdiff_t>(beyond));
+}
+
+RecordingTail::Batch RecordingTail::next() {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto patience = std::chrono::milliseconds(30);
+  const Clock::time_point until = Clock::now() + patience;
+  Batch batch;
+  do {
+    if (stream_.next() && stream_.begins()) {
+      values_ = take_changed_values();
+      segment_.emplace(stream_.recording(), names_);
+    }
+    if (!stream_.recording()) continue;
+    for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);
+    keep_the_last(batch);
+  } while (stream_.more() && Clock::now() < until);
+  batch.more = stream_.more();
+  return batch;
+}
+
+nlohmann::json RecordingTail::take_changed_values(std::size_t most) {
+  std::size_t bytes = 0;
+  while (segment_ && !segment_->changed.empty() && bytes < most) {
+    const std::uint32_t buffer = segment_->changed.front();
+    segment_->changed.pop_front();
+    segment_->has_changed[buffer] = false;
+    const replay::ValueTrack::Value held = segment_->values.value(buffer);
+    if (held.hashed || held.layout == nullptr || held.bytes.size() > largest_value) continue;
+    nlohmann::json value = json_of(*held.layout, held.bytes);
+    if (value.is_null()) continue;
+    const std::string& path = segment_->recording->buffers[buffer].path;
+    bytes += path.size() + held.bytes.size();
+    values_[path] = std::move(value);
+  }
+  return std::exchange(values_, nlohmann::json::object());
+}
+
+}  // namespace tessera::server

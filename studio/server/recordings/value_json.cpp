@@ -1,0 +1,58 @@
+#include "server/recordings/value_json.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+namespace tessera::server {
+
+using nlohmann::json;
+using Scalar = ValueLayout::Scalar;
+
+json json_of(const Scalar& scalar) {
+  switch (scalar.kind) {
+    case Scalar::Kind::boolean:
+      return scalar.integer != 0;
+    case Scalar::Kind::integer:
+      return scalar.integer;
+    case Scalar::Kind::natural:
+      return static_cast<std::uint64_t>(scalar.integer);
+    case Scalar::Kind::real:
+      return scalar.number;
+    case Scalar::Kind::text:
+      return scalar.text;
+  }
+  return nullptr;
+}
+
+namespace {
+
+/// Where "points[3].x" is; what is not there yet is made.
+json& element(json& value, std::string_view path) {
+  json* here = &value;
+  while (!path.empty()) {
+    if (path.front() == '[') {
+      std::size_t index = 0;
+      std::from_chars(path.data() + 1, path.data() + path.size(), index);
+      here = &(*here)[index];
+      path.remove_prefix(path.find(']') + 1);
+    } else {
+      path.remove_prefix(path.front() == '.' ? 1 : 0);
+      const std::size_t end = std::min(path.find_first_of(".["), path.size());
+      here = &(*here)[std::string(path.substr(0, end))];
+      path.remove_prefix(end);
+    }
+  }
+  return *here;
+}
+
+}  // namespace
+
+json json_of(const ValueLayout& layout, std::string_view bytes) {
+  json value;
+  const bool whole = layout.visit(
+      bytes, [&](const std::string& path, const Scalar& scalar) { element(value, path) = json_of(scalar); });
+  return whole ? value : json(nullptr);
+}
+
+}  // namespace tessera::server

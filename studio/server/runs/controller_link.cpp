@@ -1,0 +1,172 @@
+#include "server/runs/controller_link.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "tessera/monitor.hpp"
+
+namespace tessera::server {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// -1: nobody listens there.
+int connected_to(const std::filesystem::path& file) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (file.native().size() >= sizeof address.sun_path) return -1;
+  std::memcpy(address.sun_path, file.c_str(), file.native().size() + 1);
+  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return made;
+  close(made);
+  return -1;
+}
+
+}  // namespace
+
+std::vector<std::string> listening_sockets() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(monitor_folder(), ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    if (entry->path().extension() != ".sock" || !entry->is_socket(ignored)) continue;
+    const int found = connected_to(entry->path());
+    if (found < 0) continue;
+    close(found);
+    names.push_back(entry->path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+ControllerLink::~ControllerLink() { close(); }
+
+bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
+  const int made = connected_to(file);
+  if (made < 0) return false;
+  const std::lock_guard lock(mutex_);
+  socket_ = made;
+  open_ = true;
+  answered_.notify_all();
+  return !own || say("{\"command\":\"own\"}\n");
+}
+
+bool ControllerLink::is_over() {
+  const std::lock_guard lock(mutex_);
+  return over_;
+}
+
+bool ControllerLink::say(const std::string& line) {
+  return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
+}
+
+bool ControllerLink::is_process(std::int64_t id) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
+}
+
+/// What has come by now.
+void ControllerLink::hear() {
+  constexpr std::size_t most = std::size_t{64} << 20U;  // more makes no sense
+  std::array<char, 65536> bytes{};
+  ssize_t count = 0;
+  while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
+    if (count < 0) break;
+    heard_.append(bytes.data(), static_cast<std::size_t>(count));
+    if (heard_.size() > most) return close();
+  }
+  const bool lost = count < 0 && errno != EAGAIN && errno != EINTR;
+  if (socket_ >= 0 && (count == 0 || lost)) close();
+  understand();
+}
+
+/// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
+void ControllerLink::understand() {
+  std::size_t taken = 0;
+  for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
+    const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
+    json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+    const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;
+    if (bytes > longest_piece) return close();  // not what a controller sends
+    if (bytes > heard_.size() - end - 1) break;
+    if (line.is_object() && line.contains("recording_bytes"))
+      piece_ = {heard_.substr(end + 1, bytes), line.value("begins", false), line.value("more", false)};
+    else if (line.is_object())
+      take(std::move(line));
+    taken = end + 1 + bytes;
+  }
+  heard_.erase(0, taken);
+}
+
+void ControllerLink::take(json line) {
+  if (line.contains("ended")) {
+    ended_ = true;
+  } else if (!line.contains("answer")) {
+    snapshot_ = std::move(line);
+  } else {
+    const std::lock_guard lock(mutex_);
+    answers_[line.value("answer", 0)] = line.value("error", "");
+    answered_.notify_all();
+  }
+}
+
+GrowingRecording::Piece ControllerLink::recording() {
+  const auto until = Clock::now() + std::chrono::milliseconds(100);
+  if (!asked_ && !ended_ && socket_ >= 0) {
+    const std::lock_guard lock(mutex_);
+    asked_ = say("{\"command\":\"recording\"}\n");
+  }
+  for (hear(); !piece_ && asked_ && socket_ >= 0 && Clock::now() < until; hear()) {
+    pollfd source{.fd = socket_, .events = POLLIN, .revents = 0};
+    poll(&source, 1, 10);
+  }
+  GrowingRecording::Piece piece;
+  piece.more = asked_ && socket_ >= 0;
+  if (!piece_) return piece;
+  piece = *std::exchange(piece_, std::nullopt);
+  asked_ = false;
+  if (socket_ < 0) piece.more = !piece.bytes.empty();
+  return piece;
+}
+
+std::optional<json> ControllerLink::snapshot() {
+  hear();
+  return std::exchange(snapshot_, std::nullopt);
+}
+
+std::string ControllerLink::command(json command) {
+  constexpr auto patience = std::chrono::seconds(5);
+  std::unique_lock lock(mutex_);
+  if (!answered_.wait_for(lock, patience, [&] { return open_ || over_; }) || over_)
+    return over_ ? "the controller has ended" : "the controller does not listen yet";
+  const int id = ++last_;
+  command["id"] = id;
+  if (!say(command.dump() + "\n")) return "the controller takes no commands";
+  if (!answered_.wait_for(lock, patience, [&] { return !open_ || answers_.contains(id); }))
+    return "the controller does not answer";
+  const auto answer = answers_.find(id);
+  return answer == answers_.end() ? "the controller has ended" : answers_.extract(answer).mapped();
+}
+
+void ControllerLink::close() {
+  const std::lock_guard lock(mutex_);
+  if (socket_ >= 0) ::close(socket_);
+  socket_ = -1;
+  open_ = false;
+  over_ = true;
+  answered_.notify_all();
+}
+
+}  // namespace tessera::server

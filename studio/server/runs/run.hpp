@@ -1,0 +1,89 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "project/build/controller.hpp"
+#include "server/analysis/analysis.hpp"
+#include "server/http/events.hpp"
+#include "server/http/path.hpp"
+#include "server/recordings/follower.hpp"
+#include "server/runs/controller_link.hpp"
+
+namespace tessera::server {
+
+/// What is asked of a run.
+struct RunRequest {
+  enum class Kind : std::uint8_t {
+    simulate,  ///< the simulated clock
+    run,       ///< the steady clock and real drivers
+    attach     ///< a controller that somebody else has started
+  } kind = Kind::simulate;
+  std::string socket;  ///< of attach: a name in tessera::monitor_folder()
+  std::string world, track, duration;
+  std::uint64_t seed = 1;
+  double speed = 1;
+  bool paused = false;
+};
+
+/// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
+/// One that is attached to is only followed; it goes on when this ends.
+///
+/// Threads: any.
+class Run {
+ public:
+  /// spec: the file. The run's files get a folder of their own (project::RunFolder).
+  Run(std::string id, RunRequest request, std::filesystem::path spec,
+      std::shared_ptr<const Analysis> analysis, Events& events);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  enum class State : std::uint8_t { building, running, paused, ended, failed };
+  [[nodiscard]] bool over() const;
+  /// {"run", "state", "kind", ...}: docs/studio.md.
+  [[nodiscard]] nlohmann::json info(bool all) const;
+  /// What is wrong with it; empty: done.
+  [[nodiscard]] std::string control(nlohmann::json command);
+  void stop() { stop_ = true; }
+
+ private:
+  class Teller;
+  [[nodiscard]] bool is_building() const;
+  void make_and_run();
+  [[nodiscard]] std::optional<project::Controller> make();
+  void execute(project::Controller controller);
+  void attach();
+  [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot);
+  void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
+  [[nodiscard]] bool tell(Follower& follower, std::optional<nlohmann::json> snapshot, bool last);
+  void set_state(State state, const std::string& why = {});
+  void publish(const char* event, nlohmann::json data) const;
+
+  const std::string id_;
+  const RunRequest request_;
+  const std::filesystem::path spec_;
+  const std::shared_ptr<const Analysis> analysis_;
+  Events& events_;
+  ControllerLink link_;
+  std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
+  std::thread follower_, thread_;
+
+  mutable std::mutex mutex_;  ///< of what follows
+  State state_ = State::building;
+  std::string why_;
+  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
+  ThinPath path_{5000};
+  std::vector<std::uint32_t> marking_;
+  std::int64_t time_ns_ = 0;
+};
+
+}  // namespace tessera::server

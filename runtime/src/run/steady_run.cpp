@@ -289,7 +289,7 @@ void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
 
 bool SteadyRun::any_owing(const Assembly& assembly) {
   return std::any_of(assembly.executors.begin(), assembly.executors.end(),
-                     [](const auto& executor) { return executor->operations().effectors().owing(); });
+                     [](const auto& executor) { return executor->effectors().owing(); });
 }
 
 void SteadyRun::stop_process(Time since, RecordingLane* lane) {

@@ -209,7 +209,7 @@ void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& thre
   }
   if (!assembly.options.monitor) return;
   monitor_.emplace(assembly, clock_);
-  monitor_->complain_of_failure(clock_.now());
+  monitor_->warn_of_failure(clock_.now());
 }
 
 void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {

@@ -3,21 +3,22 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "assembly/assembly.hpp"
 #include "system/stop_signals.hpp"
+#include "watch/monitor_protocol.hpp"
 
 namespace tessera {
 
-/// What those who watch a run in simulated time have asked for: pause, single steps, breakpoints, speed
-/// (tessera/monitor.hpp has the commands). Whatever is asked for, the run fires the same transitions at the
-/// same simulated times.
+/// What those who watch a run in simulated time have asked for: pause, single
+/// steps, breakpoints, speed (tessera/monitor.hpp has the commands). Whatever
+/// is asked for, the run fires the same transitions at the same simulated
+/// times.
 ///
-/// Threads: `command` and `shown` the watcher's, the rest the run's.
+/// Threads: `execute` and `shown` the watcher's, the rest the run's.
 class RemoteControl {
  public:
   /// speed: simulated seconds a second; 0: as fast as possible.
@@ -27,15 +28,9 @@ class RemoteControl {
   RemoteControl& operator=(const RemoteControl&) = delete;
 
   // ---- the watcher's
-  /// Empty: done. Else what is wrong with it.
-  [[nodiscard]] std::string command(const nlohmann::json& command);
-  struct Shown {
-    bool paused = false;
-    double speed = 0;
-    std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
-    std::uint64_t pauses = 0;  ///< how often it has come to rest
-  };
-  [[nodiscard]] Shown shown() const;
+  /// What is wrong with the command; empty: it is done.
+  [[nodiscard]] std::string execute(const SimulationCommand& command);
+  [[nodiscard]] Snapshot::Simulation shown() const;
   /// What has been recorded shall be in the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
   /// The run shall end because who started it has gone.
@@ -45,9 +40,11 @@ class RemoteControl {
   [[nodiscard]] double speed() const { return speed_.load(std::memory_order_relaxed); }
   /// Whether `fired` has to be told of every firing by itself.
   [[nodiscard]] bool one_by_one() const { return one_by_one_.load(std::memory_order_relaxed); }
-  /// Returns at once unless it is paused (false); else when that is over or a signal has come.
+  /// Returns at once unless it is paused (false); else when that is over or a
+  /// signal has come.
   bool wait_while_paused(const StopSignals& signals);
-  /// Returns when it is time (false: before that, because of a command or a signal).
+  /// Returns when it is time (false: before that, because of a command or a
+  /// signal).
   [[nodiscard]] bool wait_for(Duration time, const StopSignals& signals);
   /// Around each firing that is told of.
   void about_to_fire();
@@ -61,14 +58,22 @@ class RemoteControl {
     std::string name;
     std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them
     std::uint32_t index = 0;                                    ///< place or transition
-    bool known = false, held = false;  ///< of marked and enabled: when it was last looked at
+    bool known = false,
+         held = false;  ///< of marked and enabled: when it was last looked at
   };
   [[nodiscard]] bool resting() const { return paused_ && firings_left_ == 0 && !to_iteration_; }
   [[nodiscard]] bool find(Breakpoint& breakpoint) const;
   [[nodiscard]] bool holds(const Breakpoint& breakpoint) const;
   void look_at(Breakpoint& breakpoint, std::uint32_t fired);
-  [[nodiscard]] std::string set_breakpoints(const nlohmann::json& command);
-  [[nodiscard]] std::string step_iteration(const nlohmann::json& command);
+  void set_paused(bool paused);
+  // What `execute` does under its lock.
+  [[nodiscard]] static std::string apply(const commands::Unknown& command);
+  [[nodiscard]] std::string apply(const commands::Pause& command);
+  [[nodiscard]] std::string apply(const commands::Resume& command);
+  [[nodiscard]] std::string apply(const commands::StepFiring& command);
+  [[nodiscard]] std::string apply(const commands::StepIteration& command);
+  [[nodiscard]] std::string apply(const commands::SetSpeed& command);
+  [[nodiscard]] std::string apply(const commands::SetBreakpoints& command);
   void update();
   void take_news() const;
 

@@ -26,8 +26,8 @@ namespace {
 
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
 constexpr std::size_t most_clients = 32;
-/// The snapshot of a large system takes long to write: the thread rests for so
-/// many times as long.
+/// The snapshot of a large system takes long to write: the thread rests for so many times as
+/// long.
 constexpr std::int64_t rest_per_work = 50;
 
 /// As it is where that cannot be found out: the folder may have gone.
@@ -78,8 +78,7 @@ void Monitor::warn_of_failure(Time now) const {
                    fmt::format("`tessera top` cannot look at this run: {}", failure_));
 }
 
-// --------------------------------------------------------------------------------------------
-// the thread
+// -------------------------------------------------------------------------------------------- the thread
 
 /// Whatever goes wrong with those who watch ends the watching and not the run.
 void Monitor::serve() {
@@ -148,9 +147,8 @@ void Monitor::receive(MonitorClient& client) {
   client.check_limits();
 }
 
-/// The commands of a client that has gone without waiting for the answer are
-/// executed: one may be an emergency stop, sent while this process did not get
-/// on.
+/// The commands of a client that has gone without waiting for the answer are executed: one may be an
+/// emergency stop, sent while this process did not get on.
 void Monitor::receive_rest(MonitorClient& client) {
   for (std::size_t received = 0; received < MonitorClient::longest_command;) {
     const std::size_t count = client.receive();
@@ -203,8 +201,7 @@ std::string Monitor::snapshot_line() const {
   return to_line(snapshot);
 }
 
-// --------------------------------------------------------------------------------------------
-// commands
+// -------------------------------------------------------------------------------------------- commands
 
 void Monitor::execute_commands(MonitorClient& client) {
   while (const std::optional<std::string> line = client.take_line())

@@ -13,10 +13,9 @@
 
 namespace tessera {
 
-/// Serves what the subsystems show, and the recording (tessera/monitor.hpp), in
-/// a thread of its own, from construction to destruction, which is best after
-/// the recorder was closed: the last clients see all of it. Takes no part in
-/// the run: what goes wrong with it is in `failure` and ends nothing.
+/// Serves what the subsystems show, and the recording (tessera/monitor.hpp), in a thread of its own, from
+/// construction to destruction, which is best after the recorder was closed: the last clients see all of it.
+/// Takes no part in the run: what goes wrong with it is in `warn_of_failure` and ends nothing.
 ///
 /// Threads: made and destroyed by one; the assembly must outlive it.
 class Monitor {

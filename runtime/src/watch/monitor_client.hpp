@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// The connection of a monitor to one client, with what has been received and
-/// what has not been sent yet. Never waits for the client.
+/// The connection of a monitor to one client, with what has been received and what has not been sent yet.
+/// Never waits for the client.
 ///
 /// Threads: the monitor's.
 class MonitorClient {
@@ -23,8 +23,7 @@ class MonitorClient {
   MonitorClient(const MonitorClient&) = delete;
   MonitorClient& operator=(const MonitorClient&) = delete;
 
-  /// At most so many bytes of commands are received from a client that has
-  /// gone.
+  /// At most so many bytes of commands are received from a client that has gone.
   static constexpr std::size_t longest_command = std::size_t{1} << 20U;
 
   [[nodiscard]] int socket() const { return socket_; }
@@ -51,8 +50,8 @@ class MonitorClient {
   bool add_piece(const std::string& recording);
   /// Sends as much as there is room for.
   void send();
-  /// The client is not up to date, so it goes without this snapshot. It is gone
-  /// if it has taken nothing for long.
+  /// The client is not up to date, so it goes without this snapshot. It is gone if it has taken nothing for
+  /// long.
   void skip_snapshot();
   /// Whether it has gone without a snapshot since that was asked last.
   [[nodiscard]] bool take_skipped();

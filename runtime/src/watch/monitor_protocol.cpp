@@ -27,8 +27,7 @@ using nlohmann::json;
           {"longest_call_s", subsystem.longest_call_s}};
 }
 
-/// null: it has none. Nothing is copied: copying what is nested deeply takes a
-/// deep stack.
+/// null: it has none. Nothing is copied: copying what is nested deeply takes a deep stack.
 [[nodiscard]] const json& member_of(const json& object, const char* name) {
   static const json none;
   const auto found = object.find(name);

@@ -9,8 +9,7 @@
 
 namespace tessera {
 
-// The lines that a monitor and its clients send each other, which
-// tessera/monitor.hpp describes.
+// The lines that a monitor and its clients send each other, which tessera/monitor.hpp describes.
 
 /// What a client sees of a run at one moment.
 struct Snapshot {
@@ -30,8 +29,7 @@ struct Snapshot {
     bool paused = false;
     std::uint64_t pauses = 0;  ///< how often it has come to rest
     double speed = 0;          ///< simulated seconds a second; 0: as fast as possible
-    std::string broke_at;      ///< the place or transition whose breakpoint paused
-                               ///< it; empty: none
+    std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
   };
   std::string system;
   std::int64_t pid = 0;
@@ -44,8 +42,7 @@ struct Snapshot {
   std::optional<Simulation> simulation;
 };
 
-/// Lines, with their ends. What is no UTF-8 (a path may be anything) is
-/// replaced.
+/// Lines, with their ends. What is no UTF-8 (a path may be anything) is replaced.
 [[nodiscard]] std::string to_line(const Snapshot& snapshot);
 [[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error);
 /// Before a piece of the recording.
@@ -77,8 +74,7 @@ struct SetSpeed {
   std::optional<double> value;  ///< nullopt: it is no number
 };
 struct SetBreakpoints {
-  std::vector<std::string> places, transitions,
-      conditions;  ///< names; empty: one that is no text
+  std::vector<std::string> places, transitions, conditions;  ///< names; empty: one that is no text
 };
 /// Its name is unknown.
 struct Unknown {};

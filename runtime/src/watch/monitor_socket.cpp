@@ -39,8 +39,8 @@ namespace {
          (peer.uid == geteuid() || peer.uid == 0);
 }
 
-/// The process that made the socket was killed: it is gone, and nobody else
-/// (through a tunnel, from a container) listens.
+/// The process that made the socket was killed: it is gone, and nobody else (through a tunnel, from a
+/// container) listens.
 [[nodiscard]] bool is_left_behind(const std::filesystem::path& file) {
   const std::string name = file.stem().string();  // SYSTEM.PID
   const std::size_t dot = name.rfind('.');

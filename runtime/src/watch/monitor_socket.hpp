@@ -5,9 +5,8 @@
 
 namespace tessera {
 
-/// The Unix socket at which a run listens (tessera/monitor.hpp), in a folder
-/// that only its owner may enter. Making it removes the sockets of runs that
-/// were killed.
+/// The Unix socket at which a run listens (tessera/monitor.hpp), in a folder that only its owner may enter.
+/// Making it removes the sockets of runs that were killed.
 class MonitorSocket {
  public:
   explicit MonitorSocket(std::string_view system);

@@ -24,8 +24,7 @@ RemoteControl::RemoteControl(Assembly& assembly, bool paused, double speed)
 
 RemoteControl::~RemoteControl() { close(news_); }
 
-// --------------------------------------------------------------------------------------------
-// the watcher's
+// -------------------------------------------------------------------------------------------- the watcher's
 
 std::string RemoteControl::execute(const SimulationCommand& command) {
   const std::lock_guard lock(mutex_);
@@ -139,8 +138,7 @@ void RemoteControl::abandon() {
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
 }
 
-// --------------------------------------------------------------------------------------------
-// the run's
+// -------------------------------------------------------------------------------------------- the run's
 
 void RemoteControl::update() { one_by_one_ = paused_ || !breakpoints_.empty(); }
 

@@ -13,10 +13,9 @@
 
 namespace tessera {
 
-/// What those who watch a run in simulated time have asked for: pause, single
-/// steps, breakpoints, speed (tessera/monitor.hpp has the commands). Whatever
-/// is asked for, the run fires the same transitions at the same simulated
-/// times.
+/// What those who watch a run in simulated time have asked for: pause, single steps, breakpoints, speed
+/// (tessera/monitor.hpp has the commands). Whatever is asked for, the run fires the same transitions at the
+/// same simulated times.
 ///
 /// Threads: `execute` and `shown` the watcher's, the rest the run's.
 class RemoteControl {
@@ -40,11 +39,9 @@ class RemoteControl {
   [[nodiscard]] double speed() const { return speed_.load(std::memory_order_relaxed); }
   /// Whether `fired` has to be told of every firing by itself.
   [[nodiscard]] bool one_by_one() const { return one_by_one_.load(std::memory_order_relaxed); }
-  /// Returns at once unless it is paused (false); else when that is over or a
-  /// signal has come.
+  /// Returns at once unless it is paused (false); else when that is over or a signal has come.
   bool wait_while_paused(const StopSignals& signals);
-  /// Returns when it is time (false: before that, because of a command or a
-  /// signal).
+  /// Returns when it is time (false: before that, because of a command or a signal).
   [[nodiscard]] bool wait_for(Duration time, const StopSignals& signals);
   /// Around each firing that is told of.
   void about_to_fire();
@@ -58,8 +55,7 @@ class RemoteControl {
     std::string name;
     std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them
     std::uint32_t index = 0;                                    ///< place or transition
-    bool known = false,
-         held = false;  ///< of marked and enabled: when it was last looked at
+    bool known = false, held = false;  ///< of marked and enabled: when it was last looked at
   };
   [[nodiscard]] bool resting() const { return paused_ && firings_left_ == 0 && !to_iteration_; }
   [[nodiscard]] bool find(Breakpoint& breakpoint) const;

@@ -1,60 +1,27 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "drawing.hpp"
 #include "sim/trace.hpp"
 #include "tessera/device.hpp"
+#include "world_devices.hpp"
 #include "world_library.hpp"
 
-using tessera::DriverRequest;
-using tessera::Time;
-using tessera::World;
-namespace sim = tessera::sim;
-using tessera::WorldOptions;
-using testing::HasSubstr;
 using namespace std::chrono_literals;
 
+namespace tessera::testing {
 namespace {
-
-const DriverRequest eye{"robot.sensor.left", "reflectance", "eye_left", {}};
-const DriverRequest wheel{"robot.motor.left", "velocity", "wheel_left", {}};
-
-std::unique_ptr<World> open(const WorldOptions& options) {
-  std::string error;
-  auto world = open_world(options, error);
-  if (!world) throw std::runtime_error(error);
-  return world;
-}
-
-double read(tessera::RealReceptor& receptor) {
-  std::array<std::byte, 8> bytes{};
-  EXPECT_TRUE(receptor.read(bytes));
-  double value = 0;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return value;
-}
-
-bool write(tessera::RealEffector& effector, double value) {
-  return effector.write(std::as_bytes(std::span(&value, 1)));
-}
-
-std::string temporary(const std::string& name) {
-  return std::filesystem::temp_directory_path() / ("tessera_world_" + std::to_string(getpid()) + "_" + name);
-}
-
-std::string file_with(const std::string& name, const std::string& text) {
-  std::ofstream(temporary(name)) << text;
-  return temporary(name);
-}
 
 std::string bytes_of(const std::string& path) {
   std::ostringstream text;
@@ -72,7 +39,7 @@ std::string driven(double left, double right, std::chrono::milliseconds time, co
                              .trace = temporary(name)};
   const auto world = open(options);
   std::string error;
-  const auto left_wheel = world->effector(wheel, error);
+  const auto left_wheel = world->effector(wheel_request, error);
   const auto right_wheel = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
   EXPECT_TRUE(write(*left_wheel, left));
   EXPECT_TRUE(write(*right_wheel, right));
@@ -113,8 +80,8 @@ TEST(World, ATraceDoesNotDisturbWhatSensorsSee) {
                              .start_heading_rad = 0,
                              .trace = trace});
     std::string error;
-    const auto sensor = world->receptor(eye, error);
-    const auto left = world->effector(wheel, error);
+    const auto sensor = world->receptor(eye_request, error);
+    const auto left = world->effector(wheel_request, error);
     const auto right = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
     std::vector<double> values;
     for (auto t = 0ms; t < 5s; t += 50ms) {
@@ -156,7 +123,7 @@ TEST(World, OfSeveralRobotsNoPathIsShownAsThatOfTheRobot) {
     // The second one alone is the robot, though its joint is not the first.
     const auto mine = world->effector({"b.motor.left", "velocity", "wheel_left_2", {}}, error);
     ASSERT_TRUE(mine) << error;
-    const auto other = both ? world->receptor(eye, error) : nullptr;
+    const auto other = both ? world->receptor(eye_request, error) : nullptr;
     world->advance_to(Time(100ms));
     ASSERT_TRUE(world->finish(error)) << error;
     const auto trace = sim::read_trace(options.trace, error);
@@ -188,7 +155,7 @@ TEST(World, HowOftenTheClockStopsDoesNotMatterToThePath) {
     const WorldOptions options{.world = line_world(), .trace = temporary("steps.csv")};
     const auto world = open(options);
     std::string error;
-    const auto left = world->effector(wheel, error);
+    const auto left = world->effector(wheel_request, error);
     EXPECT_TRUE(write(*left, 4));
     for (auto t = 0ms; t <= 2s; t += step) world->advance_to(Time(t));
     EXPECT_TRUE(world->finish(error));
@@ -232,89 +199,8 @@ TEST(World, NoiseIsAnOption) {
   EXPECT_EQ(read(*quiet), 1);
 }
 
-TEST(World, SaysWhatItHasWhenAskedForWhatItHasNot) {
-  const auto world = open({.world = line_world()});
-  struct Case {
-    DriverRequest request;
-    bool receptor;
-    std::string message;
-  };
-  for (const Case& c : {
-           Case{{"a.b.c", "reflectance", "eye_lef", {}},
-                true,
-                "a.b.c: no site 'eye_lef' (did you mean 'eye_left'?); there are eye_left, eye_middle, "
-                "eye_right"},
-           Case{{"a.b.c", "velocity", "xyzzy", {}},
-                false,
-                "a.b.c: no actuator 'xyzzy'; there are wheel_left, wheel_right"},
-           Case{{"a.b.c", "reflectence", "eye_left", {}},
-                true,
-                "a.b.c: no receptor 'reflectence' (did you mean 'reflectance'?); there is reflectance"},
-           Case{{"a.b.c", "torque", "wheel_left", {}},
-                false,
-                "a.b.c: no effector 'torque'; there is velocity"},
-           Case{{"a.b.c", "reflectance", "eye_left", {{"nois", 1}}},
-                true,
-                "a.b.c: no option 'nois' (did you mean 'noise'?); there are noise, footprint"},
-           Case{{"a.b.c", "reflectance", "eye_left", {{"noise", -1}}},
-                true,
-                "a.b.c: option 'noise' must be a number from 0 up"},
-           Case{{"a.b.c", "velocity", "wheel_left", {{"gain", 1}}},
-                false,
-                "a.b.c: no option 'gain'; there is none at all"},
-       }) {
-    std::string error;
-    EXPECT_TRUE(c.receptor ? world->receptor(c.request, error) == nullptr
-                           : world->effector(c.request, error) == nullptr);
-    EXPECT_EQ(error, c.message);
-  }
-}
-
-TEST(World, SaysWhyItDoesNotOpen) {
-  const std::string broken = file_with("broken.xml", "<mujoco><worldbody><body></mujoco>");
-  const std::string unknown = file_with("unknown.xml", "<mujoco><worldbody><blob/></worldbody></mujoco>");
-  const std::string fixed =
-      file_with("fixed.xml", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>");
-  struct Case {
-    WorldOptions options;
-    std::string part;
-  };
-  for (const Case& c :
-       {Case{{.world = "/nowhere/world.xml"}, "/nowhere/world.xml: "}, Case{{.world = broken}, "XML"},
-        Case{{.world = unknown}, "blob"},
-        Case{{.world = line_world(), .track = "/nowhere/track.png"}, "/nowhere/track.png"},
-        Case{{.world = line_world(), .track = shipped_track("oval.png"), .metres_per_pixel = 0}, "positive"},
-        Case{{.world = line_world(), .start_x_m = std::nan("")}, "finite"},
-        Case{{.world = line_world(), .footprint_m = -1}, "footprint"},
-        Case{{.world = fixed, .start_x_m = 1}, "free joint"}}) {
-    std::string error;
-    EXPECT_EQ(open_world(c.options, error), nullptr);
-    EXPECT_THAT(error, HasSubstr(c.part));
-  }
-}
-
-TEST(World, ATraceThatCannotBeWrittenIsSaidAtTheEnd) {
-  for (const std::string path : {"/nowhere/trace.csv", "/dev/full"}) {
-    const auto world = open({.world = line_world(), .trace = path});
-    world->advance_to(Time(2s));
-    std::string error;
-    EXPECT_FALSE(world->finish(error));
-    EXPECT_THAT(error, HasSubstr(path));
-  }
-}
-
-TEST(World, ABufferOfAnotherSizeIsRefused) {
-  const auto world = open({.world = line_world()});
-  std::string error;
-  std::array<std::byte, 2> two{};
-  const auto receptor = world->receptor(eye, error);
-  const auto effector = world->effector(wheel, error);
-  EXPECT_THROW(static_cast<void>(receptor->read(two)), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(effector->write(two)), std::invalid_argument);
-}
-
 TEST(World, DevicesConvertToAndFromFloat32) {
-  const auto read_single = [](tessera::RealReceptor& receptor) {
+  const auto read_single = [](RealReceptor& receptor) {
     float value = 0;
     EXPECT_TRUE(receptor.read(std::as_writable_bytes(std::span(&value, 1))));
     return value;
@@ -322,11 +208,11 @@ TEST(World, DevicesConvertToAndFromFloat32) {
   std::string error;
   const WorldOptions options{.world = line_world()};
   const auto wide = open(options), narrow = open(options);
-  EXPECT_EQ(read_single(*narrow->receptor(eye, error)),
-            static_cast<float>(read(*wide->receptor(eye, error))));
+  EXPECT_EQ(read_single(*narrow->receptor(eye_request, error)),
+            static_cast<float>(read(*wide->receptor(eye_request, error))));
   const auto path = [&](const std::string& name, auto speed) {
     const auto world = open({.world = line_world(), .track = {}, .trace = temporary(name)});
-    EXPECT_TRUE(world->effector(wheel, error)->write(std::as_bytes(std::span(&speed, 1))));
+    EXPECT_TRUE(world->effector(wheel_request, error)->write(std::as_bytes(std::span(&speed, 1))));
     world->advance_to(Time(1s));
     EXPECT_TRUE(world->finish(error)) << error;
     return bytes_of(temporary(name));
@@ -336,58 +222,10 @@ TEST(World, DevicesConvertToAndFromFloat32) {
   EXPECT_NE(of_single, path("still.csv", 0.0));
 }
 
-TEST(World, AWheelRefusesWhatIsNotFinite) {
-  const auto world = open({.world = line_world()});
-  std::string error;
-  const auto effector = world->effector(wheel, error);
-  EXPECT_FALSE(write(*effector, std::nan("")));
-  EXPECT_FALSE(write(*effector, -INFINITY));
-  EXPECT_TRUE(write(*effector, 1));
-}
-
-/// A world whose physics fails once it runs.
-void expect_failure(const std::string& mjcf, const std::string& part) {
-  const auto world = open({.world = mjcf});
-  std::string error;
-  const auto receptor = world->receptor({"a", "reflectance", "s", {}}, error);
-  ASSERT_NE(receptor, nullptr) << error;
-  world->advance_to(Time(2s));
-  EXPECT_FALSE(world->finish(error));
-  EXPECT_THAT(error, HasSubstr("the physics failed at"));
-  EXPECT_THAT(error, HasSubstr(part));
-  std::array<std::byte, 8> value{};
-  EXPECT_THROW(static_cast<void>(receptor->read(value)), std::runtime_error);
-}
-
-TEST(World, AnUnstableSimulationIsAnError) {
-  expect_failure(
-      file_with("unstable.xml", R"(<mujoco><option timestep="0.05"/><worldbody><body><site name="s"/>
-    <joint type="slide" stiffness="1e9"/><geom size="0.1" mass="0.001"/></body></worldbody></mujoco>)"),
-      "unstable");
-}
-
-/// Falls on the floor: contacts need more of the engine's stack than there is in the end.
-std::string falling_with_stack(int numbers) {
-  return file_with("stack.xml",
-                   "<mujoco><size nstack='" + std::to_string(numbers) + R"('/><worldbody><site name="s"/>
-    <geom type="plane" size="1 1 1"/><body pos="0 0 0.5"><freejoint/><geom type="box" size="0.1 0.1 0.1"/></body>
-    </worldbody></mujoco>)");
-}
-
-TEST(World, AnErrorOfTheEngineDoesNotEndTheProcess) {
-  expect_failure(falling_with_stack(150), "tack overflow");
-}
-
-TEST(World, AnErrorOfTheEngineWhileLoadingDoesNotEndTheProcess) {
-  std::string error;
-  EXPECT_EQ(open_world({.world = falling_with_stack(1)}, error), nullptr);
-  EXPECT_THAT(error, HasSubstr("tack overflow"));
-}
-
 TEST(World, DevicesOutliveIt) {
   auto world = open({.world = line_world()});
   std::string error;
-  const auto receptor = world->receptor(eye, error);
+  const auto receptor = world->receptor(eye_request, error);
   world.reset();
   EXPECT_GT(read(*receptor), 0.9);
 }
@@ -395,8 +233,8 @@ TEST(World, DevicesOutliveIt) {
 TEST(World, DevicesMayBeUsedWhileItMoves) {
   const auto world = open({.world = line_world(), .track = shipped_track("oval.png")});
   std::string error;
-  const auto receptor = world->receptor(eye, error);
-  const auto effector = world->effector(wheel, error);
+  const auto receptor = world->receptor(eye_request, error);
+  const auto effector = world->effector(wheel_request, error);
   std::thread sensor([&] {
     for (int i = 0; i < 2000; ++i) EXPECT_GE(read(*receptor), 0);
   });
@@ -410,3 +248,4 @@ TEST(World, DevicesMayBeUsedWhileItMoves) {
 }
 
 }  // namespace
+}  // namespace tessera::testing

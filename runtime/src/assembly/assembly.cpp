@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <exception>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "assembly/planted_faults.hpp"
+#include "assembly/recording_setup.hpp"
 #include "subsystem/parameters.hpp"
 
 namespace tessera {
@@ -21,13 +22,13 @@ class Assembler {
       : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
 
   bool run() {
-    return check_version() && read_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
+    return check_version() && plan_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
            read_script() && set_values() && make_devices() && make_channels() && open_recording() &&
            make_executors();
   }
 
   bool run(LooseParts& loose) {
-    if (!check_version() || !read_faults() || !bind() || !link_ports() || !compile_plans() || !check_hash() ||
+    if (!check_version() || !plan_faults() || !bind() || !link_ports() || !compile_plans() || !check_hash() ||
         !set_values())
       return false;
     for (std::uint32_t index = 0; index < parts_.size(); ++index)
@@ -58,7 +59,7 @@ class Assembler {
       parts.instance = &instance;
       parts.index = static_cast<std::uint32_t>(parts_.size() - 1);
       parts.subsystem = instance.make();
-      plant_faults(parts);
+      plant_subsystem_faults(parts, assembly_.faults, clock_);
       parts.subsystem->bind(parts.bindings);
       parts.ports.resize(instance.net->ports.size());
       ports_.emplace_back();
@@ -68,42 +69,10 @@ class Assembler {
     return true;
   }
 
-  bool read_faults() {
-    for (const std::string& text : assembly_.options.inject) {
-      std::optional<Injection> fault =
-          read_injection(text, system_, assembly_.options.seed, assembly_.options.duration, error_);
-      if (!fault) return false;
-      assembly_.faults.push_back(std::make_shared<Injection>(std::move(*fault)));
-    }
+  bool plan_faults() {
+    if (!read_faults(assembly_.options, system_, assembly_.faults, error_)) return false;
     assembly_.signals = InjectedSignals(assembly_.faults);
     return true;
-  }
-
-  void plant_faults(SubsystemParts& parts) {
-    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
-      if (fault->instance == parts.index &&
-          (fault->kind == Injection::Kind::device || fault->kind == Injection::Kind::silence))
-        fault->context = &parts.subsystem->context();
-    Injections faults = faults_of(parts.index, "", [](const Injection& fault) {
-      return fault.kind == Injection::Kind::exception || fault.kind == Injection::Kind::stall ||
-             fault.kind == Injection::Kind::number;
-    });
-    if (faults.empty()) return;
-    auto faulty = std::make_unique<FaultySubsystem>(std::move(parts.subsystem), *parts.instance->net,
-                                                    std::move(faults), clock_);
-    parts.faulty = faulty.get();
-    parts.subsystem = std::move(faulty);
-  }
-
-  /// buffer: those of this device; empty: of all parts.
-  template <class Wanted>
-  [[nodiscard]] Injections faults_of(std::uint32_t instance, std::string_view buffer, Wanted wanted) const {
-    Injections found;
-    for (const std::shared_ptr<Injection>& fault : assembly_.faults)
-      if (fault->instance == instance && wanted(*fault) &&
-          (buffer.empty() || fault->part.empty() || fault->part == buffer))
-        found.push_back(fault);
-    return found;
   }
 
   /// Which channel is behind each port.
@@ -204,7 +173,7 @@ class Assembler {
       parts.receptors = std::move(devices.receptors);
       parts.effectors = std::move(devices.effectors);
       parts.drivers = std::move(devices.drivers);
-      plant_device_faults(parts);
+      plant_device_faults(parts, assembly_.faults, clock_);
     }
     error_ = finder.complaints();
     return error_.empty();
@@ -220,20 +189,6 @@ class Assembler {
       return fail("a run with hardware in the loop cannot be paused or sped up, so it cannot be controlled");
     if (!options.scenario.empty()) return fail("a scenario cannot be followed with hardware in the loop");
     return true;
-  }
-
-  void plant_device_faults(SubsystemParts& parts) {
-    const auto of_device = [](const Injection& fault) {
-      return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
-    };
-    const auto faults = [&](std::string_view buffer) { return faults_of(parts.index, buffer, of_device); };
-    for (std::size_t index = 0; index < parts.receptors.size(); ++index)
-      parts.receptors[index] = with_faults(std::move(parts.receptors[index]),
-                                           faults(parts.bindings.real_inputs[index].name), clock_);
-    for (std::size_t index = 0; index < parts.effectors.size(); ++index)
-      parts.effectors[index] =
-          with_faults(std::move(parts.effectors[index]), faults(parts.bindings.real_outputs[index].name),
-                      clock_, parts.bindings.real_outputs[index].safe.get());
   }
 
   bool make_channels() {
@@ -309,15 +264,15 @@ class Assembler {
     if (options.recording.empty()) return true;
     const bool simulated = options.clock == RunOptions::Clock::simulated;
     assembly_.recorder =
-        Recorder::open(options.recording, header(simulated ? "simulated" : "steady"),
+        Recorder::open(options.recording, recording_header(system_, options, net_, parts_),
                        static_cast<std::uint32_t>(parts_.size()),
-                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_, longest_value(),
-                       options.record_limit,
+                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
+                       longest_recorded_value(options, parts_), options.record_limit,
                        options.record_limit.segment_bytes == 0
                            ? nullptr
                            : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
     if (assembly_.recorder == nullptr) return false;
-    if (options.values != RunOptions::Values::none) record_values();
+    record_values(options, *assembly_.recorder, parts_);
     return true;
   }
 
@@ -330,69 +285,6 @@ class Assembler {
           channels[net_.first_of_instance[index] + transition.index] =
               static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
     return channels;
-  }
-
-  /// Larger values are not recorded whole.
-  [[nodiscard]] std::uint64_t value_limit() const {
-    return assembly_.options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
-  }
-
-  [[nodiscard]] std::size_t longest_value() const {
-    std::size_t longest = 0;
-    if (assembly_.options.values == RunOptions::Values::none) return longest;
-    for (const SubsystemParts& parts : parts_)
-      for_buffers(parts.bindings, [&](Recording::Direction, const auto& buffer) {
-        if (buffer.encoding != nullptr)
-          longest = std::max(longest, std::min<std::size_t>(buffer.encoding->most, value_limit()));
-      });
-    return longest;
-  }
-
-  void record_values() {
-    std::uint32_t first = 0;
-    for (SubsystemParts& parts : parts_) {
-      parts.values = std::make_unique<ValueRecorder>(parts.bindings, first, value_limit(),
-                                                     *assembly_.recorder->lane(parts.index));
-      first += count_buffers(parts.bindings);
-    }
-  }
-
-  [[nodiscard]] std::string header(const char* clock) const {
-    nlohmann::ordered_json header{{"system", system_.name},
-                                  {"net_hash", system_.net_hash},
-                                  {"verification_hash", system_.verification_hash}};
-    header["verdicts"] = nlohmann::ordered_json::array();
-    for (const VerifiedProperty& property : system_.verdicts)
-      header["verdicts"].push_back(
-          {{"name", property.name}, {"verdict", property.verdict}, {"method", property.method}});
-    header["seed"] = assembly_.options.seed;
-    header["clock"] = clock;
-    if (!assembly_.options.inject.empty()) header["injected"] = assembly_.options.inject;
-    header["instances"] = nlohmann::ordered_json::array();
-    for (const SubsystemParts& parts : parts_) header["instances"].push_back(parts.path);
-    header["transitions"] = nlohmann::ordered_json::array();
-    for (const FlatNet::FlatTransition& transition : net_.transitions)
-      header["transitions"].push_back(nlohmann::ordered_json::array({transition.name, transition.instance}));
-    if (assembly_.options.values != RunOptions::Values::none) describe_values(header);
-    return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  }
-
-  /// And what else `simulate --from` needs to know.
-  void describe_values(nlohmann::ordered_json& header) const {
-    header["parameters"] = assembly_.options.parameters;
-    if (assembly_.options.duration) header["duration_ns"] = assembly_.options.duration->count();
-    header["behaviours"] = nlohmann::ordered_json::array();
-    nlohmann::ordered_json buffers = nlohmann::ordered_json::array();
-    for (const SubsystemParts& parts : parts_) {
-      nlohmann::ordered_json& behaviours = header["behaviours"].emplace_back(nlohmann::ordered_json::array());
-      for (const Behaviour& behaviour : parts.instance->net->behaviours) behaviours.push_back(behaviour.name);
-      for_buffers(parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
-        buffers.push_back(nlohmann::ordered_json::array(
-            {fmt::format("{}.{}", parts.path, buffer.name), parts.index, name_of(direction),
-             buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
-      });
-    }
-    header["values"] = {{"limit", value_limit()}, {"buffers", std::move(buffers)}};
   }
 
   bool make_executors() {

@@ -71,8 +71,8 @@ class OpenDevices {
     for (const bool effectors : {true, false})
       for (const auto& executor : assembly_.executors) {
         Operations& operations = executor->operations();
-        if (operations.commands_devices() != effectors) continue;
-        if (StopSignals::pending() == 0 && operations.open_devices(error)) continue;
+        if (operations.devices().none() == effectors) continue;
+        if (StopSignals::pending() == 0 && operations.devices().open(error)) continue;
         if (error.empty())
           error = fmt::format("{} while devices were opened", StopSignals::name(StopSignals::pending()));
         close();
@@ -87,8 +87,8 @@ class OpenDevices {
     std::vector<std::string> wrong;
     for (const bool effectors : {false, true})
       for (auto executor = assembly_.executors.rbegin(); executor != assembly_.executors.rend(); ++executor) {
-        if ((*executor)->operations().commands_devices() != effectors) continue;
-        const std::vector<std::string> more = (*executor)->operations().close_devices();
+        if ((*executor)->effectors().none() == effectors) continue;
+        const std::vector<std::string> more = (*executor)->operations().devices().close();
         wrong.insert(wrong.end(), more.begin(), more.end());
       }
     return wrong;

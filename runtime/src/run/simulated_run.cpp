@@ -149,7 +149,7 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
   if (assembly.options.monitor) {
     remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused, assembly.options.speed);
     monitor_.emplace(assembly, clock_, remote_.get());
-    monitor_->complain_of_failure(clock_.now());
+    monitor_->warn_of_failure(clock_.now());
   }
   calls_.emplace(assembly);
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);

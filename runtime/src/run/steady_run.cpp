@@ -209,7 +209,7 @@ void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& thre
   }
   if (!assembly.options.monitor) return;
   monitor_.emplace(assembly, clock_);
-  monitor_->complain_of_failure(clock_.now());
+  monitor_->warn_of_failure(clock_.now());
 }
 
 void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {
@@ -289,7 +289,7 @@ void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
 
 bool SteadyRun::any_owing(const Assembly& assembly) {
   return std::any_of(assembly.executors.begin(), assembly.executors.end(),
-                     [](const auto& executor) { return executor->operations().effectors().owing(); });
+                     [](const auto& executor) { return executor->effectors().owing(); });
 }
 
 void SteadyRun::stop_process(Time since, RecordingLane* lane) {

@@ -1,10 +1,6 @@
 #include "subsystem/subsystem_executor.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <utility>
 
 #include "system/thread_role.hpp"
@@ -16,6 +12,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
                                      Shared shared, RecordingLane* lane)
     : index_(index),
       operations_(std::move(parts), shared.control, shared.clock, lane),
+      releases_(operations_.parts().instance->period, operations_.parts().instance->policies.overrun),
       plan_(std::move(plan)),
       first_transition_(first_transition),
       control_(shared.control),
@@ -31,8 +28,7 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       wants_next_(plan_->ports.size()) {
   marked_.reserve(plan_->places.size());
   const auto timed = [](const Plan::PlaceEntry& place) { return place.timed; };
-  watches_time_ = simulated_ || operations_.parts().instance->period > Duration::zero() ||
-                  operations_.watches_time() ||
+  watches_time_ = simulated_ || releases_.have_rate() || operations_.devices().watches_time() ||
                   std::any_of(plan_->places.begin(), plan_->places.end(), timed);
 }
 
@@ -68,11 +64,11 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
       renew_time();
       continue;
     }
-    operations_.guard_effectors(now_, name_of(marked_.front()));
+    operations_.devices().guard(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
     if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
     if (std::exchange(waits_after_, firings_) != firings_) waits_since_ = now();
-    return {State::waiting, next_deadline(), operations_.next_beat()};
+    return {State::waiting, next_deadline(), operations_.devices().next_beat()};
   }
 }
 
@@ -312,107 +308,10 @@ void SubsystemExecutor::arrive_at_end() {
     fault(plan_->out, "ended by an error that no `next` leads to another behaviour");
 }
 
-Time SubsystemExecutor::release() {
-  const Instance& instance = *operations_.parts().instance;
-  const Duration period = instance.period;
-  const Duration waited = std::exchange(waited_, Duration::zero());
-  if (period == Duration::zero()) return Time::min();
-  renew_time();
-  const Time arrival = now_;
-  const auto first_not_before = [&](Time time) {
-    return (time.time_since_epoch() + period - Duration(1)) / period;
-  };
-  if (next_release_ < 0) {
-    next_release_ = arrival.time_since_epoch() / period;  // the first call starts at once
-  } else {
-    const std::int64_t now = first_not_before(arrival), without_waiting = first_not_before(arrival - waited);
-    count_overruns(without_waiting);
-    if (instance.policies.overrun != Overrun::catch_up)
-      next_release_ = std::max(next_release_, now);
-    else
-      next_release_ =
-          std::max(next_release_, now - std::max<std::int64_t>(0, without_waiting - next_release_));
-  }
-  return Time(period * next_release_++);
-}
-
-/// Instants before `end` that no call has been made for.
-void SubsystemExecutor::count_overruns(std::int64_t end) {
-  const std::int64_t missed = end - std::max(next_release_, counted_to_);
-  if (missed <= 0) return;
-  counted_to_ = end;
-  overruns_ += static_cast<std::uint64_t>(missed);
-  if (operations_.parts().instance->policies.overrun == Overrun::fault)
-    missed_ = static_cast<std::uint64_t>(missed);
-  if (lane_ != nullptr)
-    lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX)));
-}
-
 bool SubsystemExecutor::advance_operations() {
   for (const std::uint32_t place : marked_)
     if (tokens_[place].phase != Phase::finished && now_ >= tokens_[place].due && advance(place)) return true;
   return false;
-}
-
-/// Begins or ends a transition function; false when that has to wait.
-bool SubsystemExecutor::advance(std::uint32_t place) {
-  Token& token = tokens_[place];
-  const Duration watchdog = operations_.parts().instance->policies.watchdog;
-  if (token.phase == Phase::released_later) {
-    // User code may take long: nobody must be held back meanwhile by a wait that is over.
-    if (registrations_ > 0 && !register_waits()) return true;
-    const std::uint16_t behaviour = plan_->places[place].subject;
-    const Time begin = now();
-    gauges_.begin_call(behaviour, begin);
-    operations_.start_call(behaviour, begin, std::exchange(missed_, 0));
-    time_is_known_ = false;
-    token.phase = Phase::running;
-    token.due = Time::min();
-    if (simulated_) token.due = begin + operations_.takes(behaviour);
-    if (watchdog > Duration::zero() && token.due > begin + watchdog)
-      returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
-    if (token.due > begin) return true;
-  }
-  if (returns_ != Time{}) {
-    token.due = std::exchange(returns_, Time{});
-    if (mark_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed))) {
-      effectors().make_safe({SafeReason::Kind::stalls}, Effectors::Busy::leaves_out);
-      tell_alarm(lane_);
-      effectors().record(lane_);
-    }
-    return true;
-  }
-  if (watched_ || operations_.commands_devices()) renew_time();
-  operations_.finish_call(now_);
-  gauges_.end_call(now_);
-  if (watchdog > Duration::zero()) end_alarm();
-  show();
-  token.phase = Phase::finished;
-  return true;
-}
-
-bool SubsystemExecutor::mark_alarm(std::int64_t since_ns) {
-  control_.mark_stalled(index_, true);
-  // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
-  // the call and both looks are sequentially consistent.
-  if (!gauges_.calling.load(std::memory_order_seq_cst) ||
-      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns) {
-    control_.mark_stalled(index_, false);
-    return false;
-  }
-  wake_receivers();
-  return true;
-}
-
-void SubsystemExecutor::tell_alarm(RecordingLane* lane) const {
-  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
-}
-
-void SubsystemExecutor::end_alarm() {
-  gauges_.calling.store(false, std::memory_order_seq_cst);
-  if (!control_.is_stalled(index_)) return;
-  control_.mark_stalled(index_, false);
-  wake_receivers();
 }
 
 void SubsystemExecutor::wake_receivers() {
@@ -420,21 +319,11 @@ void SubsystemExecutor::wake_receivers() {
     if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
 }
 
-/// Once an iteration, for those who watch.
-void SubsystemExecutor::show() {
-  gauges_.iterations.store(operations_.iterations(), std::memory_order_relaxed);
-  gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
-  gauges_.firings.store(firings_, std::memory_order_relaxed);
-  gauges_.overruns.store(overruns_, std::memory_order_relaxed);
-}
-
 // -------------------------------------------------------------------------------------------- ends
 
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
-  operations_.report(Fault::net, name_of(place), text);
-  std::array<char, 512> reason;
-  const auto end = fmt::format_to_n(reason.data(), reason.size(), "{}: {}", path(), text);
-  control_.request_stop({reason.data(), std::min(end.size, reason.size())}, /*fault=*/true);
+  operations_.reports().report(Fault::net, name_of(place), text);
+  operations_.reports().fail_run(text);
 }
 
 void SubsystemExecutor::end() {

@@ -10,6 +10,7 @@
 #include "nets/plan.hpp"
 #include "subsystem/gauges.hpp"
 #include "subsystem/operations.hpp"
+#include "subsystem/releases.hpp"
 
 namespace tessera {
 
@@ -70,7 +71,7 @@ class SubsystemExecutor {
   };
   [[nodiscard]] FollowProgress follow();
   /// A line on the console and in the recording.
-  void note(std::string_view text) { operations_.log(LogLevel::info, text); }
+  void note(std::string_view text) { operations_.reports().log(LogLevel::info, text); }
 
   /// The transition function of call `since` has run longer than the watchdog allows: marks that, and those
   /// who receive from here look at their devices; false: it has returned meanwhile. Threads: any.
@@ -80,17 +81,17 @@ class SubsystemExecutor {
 
   /// Gives the safe command if something asks for it by now. Threads: as `step`.
   void guard() {
-    if (!marked_.empty()) operations_.guard_effectors(clock_.now(), name_of(marked_.front()));
+    if (!marked_.empty()) operations_.devices().guard(clock_.now(), name_of(marked_.front()));
   }
   /// The safe command, on every way out of the run; insist tries again where a device has refused it.
-  void leave() { operations_.leave(); }
-  void insist() { operations_.insist(); }
+  void leave() { operations_.devices().leave(); }
+  void insist() { operations_.devices().insist(); }
   /// Threads: as its members say.
-  [[nodiscard]] Effectors& effectors() { return operations_.effectors(); }
+  [[nodiscard]] Effectors& effectors() { return operations_.devices().effectors(); }
   /// Calls the heartbeats that are due, while it waits, and returns when the next one is.
   Time beat(Time now) {
-    operations_.beat(now, name_of(marked_.front()));
-    return operations_.next_beat();
+    operations_.devices().beat(now, name_of(marked_.front()));
+    return operations_.devices().next_beat();
   }
 
   /// Tokens of one channel that a transition lacks, which has everything else or needs only time.
@@ -116,10 +117,10 @@ class SubsystemExecutor {
   [[nodiscard]] Operations& operations() { return operations_; }
   /// What has happened to the thread of the subsystem, for the recording. Threads: that one.
   /// Async-signal-safe.
-  void record_death(std::string_view text) { operations_.record_death(text); }
+  void record_death(std::string_view text) { operations_.reports().record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
-  [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
+  [[nodiscard]] std::uint64_t overruns() const { return releases_.overruns(); }
   /// A token is in that place of the table.
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
@@ -168,9 +169,10 @@ class SubsystemExecutor {
   void look_for_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();
-  [[nodiscard]] bool advance(std::uint32_t place);
+
+  // Calls.
   [[nodiscard]] Time release();
-  void count_overruns(std::int64_t end);
+  [[nodiscard]] bool advance(std::uint32_t place);
   void end_alarm();
   void wake_receivers();
   [[nodiscard]] std::string_view name_of(std::uint32_t place) const {
@@ -193,6 +195,7 @@ class SubsystemExecutor {
 
   std::uint32_t index_;
   Operations operations_;
+  Releases releases_;
   std::shared_ptr<const Plan> plan_;
   std::uint32_t first_transition_;
   RunControl& control_;
@@ -218,15 +221,12 @@ class SubsystemExecutor {
   std::vector<std::uint32_t> script_;  // transitions to follow, or Plan::none: no initial condition holds
   std::size_t followed_ = 0;           // of the script
 
-  std::int64_t next_release_ = -1;  // k of the grid; -1: before the first call
-  std::uint64_t missed_ = 0;        // instants that the next call has to fail for
-  std::int64_t counted_to_ = 0;     // k up to which overruns have been counted
-  Time returns_{};                  // simulated: when a call returns whose watchdog comes first
+  Time returns_{};  // simulated: when a call returns whose watchdog comes first
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   Time waits_since_ = Time::max();
   std::uint64_t waits_after_ = UINT64_MAX;  // firings_ at waits_since_
-  std::uint64_t firings_ = 0, overruns_ = 0;
+  std::uint64_t firings_ = 0;
   std::uint32_t last_fired_ = Plan::none;
   Gauges gauges_;
   Time instant_ = Time::min();

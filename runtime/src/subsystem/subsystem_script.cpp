@@ -35,7 +35,7 @@ SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
   }
   renew_time();
   while (advance_operations()) continue;
-  operations_.guard_effectors(now_, name_of(marked_.front()));
+  operations_.devices().guard(now_, name_of(marked_.front()));
   if (!try_fire(transition)) {
     --followed_;
     return {Followed::waiting, script_deadline(transition)};

@@ -33,7 +33,7 @@ bool SubsystemExecutor::register_waits() {
 }
 
 Time SubsystemExecutor::next_deadline() const {
-  Time deadline = operations_.guard_deadline(now_);
+  Time deadline = operations_.devices().guard_deadline(now_);
   for (const std::uint32_t place : marked_) {
     const Token& token = tokens_[place];
     if (token.phase != Phase::finished) {

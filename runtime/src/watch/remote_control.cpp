@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
+#include <variant>
 
 namespace tessera {
 namespace {
-
-using nlohmann::json;
 
 constexpr double fastest = 1000;
 
@@ -28,32 +26,9 @@ RemoteControl::~RemoteControl() { close(news_); }
 
 // -------------------------------------------------------------------------------------------- the watcher's
 
-std::string RemoteControl::command(const json& command) {
+std::string RemoteControl::execute(const SimulationCommand& command) {
   const std::lock_guard lock(mutex_);
-  const std::string what = command.is_object() ? command.value("command", "") : "";
-  std::string wrong;
-  if (what == "pause" || what == "resume") {
-    paused_ = what == "pause";
-    firings_left_ = 0;
-    to_iteration_ = false;
-    broke_at_.clear();
-  } else if (what == "step_firing") {
-    paused_ = true;
-    ++firings_left_;
-  } else if (what == "step_iteration") {
-    wrong = step_iteration(command);
-  } else if (what == "speed") {
-    const json value = command.value("value", json());
-    const double speed = value.is_number() ? value.get<double>() : -1;
-    if (std::isfinite(speed) && speed >= 0 && speed <= fastest)
-      speed_ = speed;
-    else
-      wrong = "a speed is a number from 0 (as fast as possible) to 1000";
-  } else if (what == "breakpoints") {
-    wrong = set_breakpoints(command);
-  } else {
-    wrong = "there is no such command";
-  }
+  std::string wrong = std::visit([this](const auto& one) { return apply(one); }, command);
   if (!wrong.empty()) return wrong;
   update();
   const std::uint64_t one = 1;
@@ -61,12 +36,37 @@ std::string RemoteControl::command(const json& command) {
   return {};
 }
 
-std::string RemoteControl::step_iteration(const json& command) {
-  const std::string path = command.value("subsystem", "");
+std::string RemoteControl::apply(const commands::Unknown& /*command*/) { return "there is no such command"; }
+
+std::string RemoteControl::apply(const commands::Pause& /*command*/) {
+  set_paused(true);
+  return {};
+}
+
+std::string RemoteControl::apply(const commands::Resume& /*command*/) {
+  set_paused(false);
+  return {};
+}
+
+void RemoteControl::set_paused(bool paused) {
+  paused_ = paused;
+  firings_left_ = 0;
+  to_iteration_ = false;
+  broke_at_.clear();
+}
+
+std::string RemoteControl::apply(const commands::StepFiring& /*command*/) {
+  paused_ = true;
+  ++firings_left_;
+  return {};
+}
+
+std::string RemoteControl::apply(const commands::StepIteration& command) {
   std::uint32_t found = UINT32_MAX;
   for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance)
-    if (assembly_.executors[instance]->path() == path) found = instance;
-  if (!path.empty() && found == UINT32_MAX) return "there is no subsystem '" + path + "'";
+    if (assembly_.executors[instance]->path() == command.subsystem) found = instance;
+  if (!command.subsystem.empty() && found == UINT32_MAX)
+    return "there is no subsystem '" + command.subsystem + "'";
   paused_ = true;
   to_iteration_ = true;
   iterating_ = found;
@@ -74,15 +74,24 @@ std::string RemoteControl::step_iteration(const json& command) {
   return {};
 }
 
-std::string RemoteControl::set_breakpoints(const json& command) {
+std::string RemoteControl::apply(const commands::SetSpeed& command) {
+  const double speed = command.value.value_or(-1);
+  if (!std::isfinite(speed) || speed < 0 || speed > fastest)
+    return "a speed is a number from 0 (as fast as possible) to 1000";
+  speed_ = speed;
+  return {};
+}
+
+std::string RemoteControl::apply(const commands::SetBreakpoints& command) {
   using When = Breakpoint::When;
   std::vector<Breakpoint> wanted;
-  if (assembly_.recorder == nullptr && !command.value("transitions", json::array()).empty())
+  if (assembly_.recorder == nullptr && !command.transitions.empty())
     return "a breakpoint on a transition needs a run that is recorded";
-  for (const auto& [list, when] : {std::pair{"places", When::marked}, std::pair{"transitions", When::fires},
-                                   std::pair{"conditions", When::enabled}})
-    for (const json& name : command.value(list, json::array())) {
-      Breakpoint one{.when = when, .name = name.is_string() ? name.get<std::string>() : std::string()};
+  for (const auto& [names, when] :
+       {std::pair{&command.places, When::marked}, std::pair{&command.transitions, When::fires},
+        std::pair{&command.conditions, When::enabled}})
+    for (const std::string& name : *names) {
+      Breakpoint one{.when = when, .name = name};
       if (!find(one))
         return std::string("no subsystem or channel of the controller has the ") +
                (when == When::marked ? "place '" : "transition '") + one.name + "'";
@@ -118,9 +127,9 @@ bool RemoteControl::find(Breakpoint& breakpoint) const {
   return false;
 }
 
-RemoteControl::Shown RemoteControl::shown() const {
+Snapshot::Simulation RemoteControl::shown() const {
   const std::lock_guard lock(mutex_);
-  return {resting(), speed_, broke_at_, pauses_};
+  return {.paused = resting(), .pauses = pauses_, .speed = speed_, .broke_at = broke_at_};
 }
 
 void RemoteControl::abandon() {

@@ -3,13 +3,13 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "assembly/assembly.hpp"
 #include "system/stop_signals.hpp"
+#include "watch/monitor_protocol.hpp"
 
 namespace tessera {
 
@@ -17,7 +17,7 @@ namespace tessera {
 /// (tessera/monitor.hpp has the commands). Whatever is asked for, the run fires the same transitions at the
 /// same simulated times.
 ///
-/// Threads: `command` and `shown` the watcher's, the rest the run's.
+/// Threads: `execute` and `shown` the watcher's, the rest the run's.
 class RemoteControl {
  public:
   /// speed: simulated seconds a second; 0: as fast as possible.
@@ -27,15 +27,9 @@ class RemoteControl {
   RemoteControl& operator=(const RemoteControl&) = delete;
 
   // ---- the watcher's
-  /// Empty: done. Else what is wrong with it.
-  [[nodiscard]] std::string command(const nlohmann::json& command);
-  struct Shown {
-    bool paused = false;
-    double speed = 0;
-    std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
-    std::uint64_t pauses = 0;  ///< how often it has come to rest
-  };
-  [[nodiscard]] Shown shown() const;
+  /// What is wrong with the command; empty: it is done.
+  [[nodiscard]] std::string execute(const SimulationCommand& command);
+  [[nodiscard]] Snapshot::Simulation shown() const;
   /// What has been recorded shall be in the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
   /// The run shall end because who started it has gone.
@@ -67,8 +61,15 @@ class RemoteControl {
   [[nodiscard]] bool find(Breakpoint& breakpoint) const;
   [[nodiscard]] bool holds(const Breakpoint& breakpoint) const;
   void look_at(Breakpoint& breakpoint, std::uint32_t fired);
-  [[nodiscard]] std::string set_breakpoints(const nlohmann::json& command);
-  [[nodiscard]] std::string step_iteration(const nlohmann::json& command);
+  void set_paused(bool paused);
+  // What `execute` does under its lock.
+  [[nodiscard]] static std::string apply(const commands::Unknown& command);
+  [[nodiscard]] std::string apply(const commands::Pause& command);
+  [[nodiscard]] std::string apply(const commands::Resume& command);
+  [[nodiscard]] std::string apply(const commands::StepFiring& command);
+  [[nodiscard]] std::string apply(const commands::StepIteration& command);
+  [[nodiscard]] std::string apply(const commands::SetSpeed& command);
+  [[nodiscard]] std::string apply(const commands::SetBreakpoints& command);
   void update();
   void take_news() const;
 

@@ -1,0 +1,68 @@
+#include "assembly/planted_faults.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] bool is_of_device(const Injection& fault) {
+  return fault.kind == Injection::Kind::device || fault.kind == Injection::Kind::silence;
+}
+
+[[nodiscard]] bool is_of_transition_function(const Injection& fault) {
+  return fault.kind == Injection::Kind::exception || fault.kind == Injection::Kind::stall ||
+         fault.kind == Injection::Kind::number;
+}
+
+/// buffer: those of this device; empty: of all parts.
+template <class Wanted>
+[[nodiscard]] Injections faults_of(const Injections& faults, std::uint32_t instance, std::string_view buffer,
+                                   Wanted wanted) {
+  Injections found;
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->instance == instance && wanted(*fault) &&
+        (buffer.empty() || fault->part.empty() || fault->part == buffer))
+      found.push_back(fault);
+  return found;
+}
+
+}  // namespace
+
+bool read_faults(const RunOptions& options, const System& system, Injections& faults, std::string& error) {
+  for (const std::string& text : options.inject) {
+    std::optional<Injection> fault = read_injection(text, system, options.seed, options.duration, error);
+    if (!fault) return false;
+    faults.push_back(std::make_shared<Injection>(std::move(*fault)));
+  }
+  return true;
+}
+
+void plant_subsystem_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock) {
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->instance == parts.index && is_of_device(*fault)) fault->context = &parts.subsystem->context();
+  Injections own = faults_of(faults, parts.index, "", is_of_transition_function);
+  if (own.empty()) return;
+  auto faulty = std::make_unique<FaultySubsystem>(std::move(parts.subsystem), *parts.instance->net,
+                                                  std::move(own), clock);
+  parts.faulty = faulty.get();
+  parts.subsystem = std::move(faulty);
+}
+
+void plant_device_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock) {
+  const auto of = [&](std::string_view buffer) {
+    return faults_of(faults, parts.index, buffer, is_of_device);
+  };
+  for (std::size_t index = 0; index < parts.receptors.size(); ++index)
+    parts.receptors[index] =
+        with_faults(std::move(parts.receptors[index]), of(parts.bindings.real_inputs[index].name), clock);
+  for (std::size_t index = 0; index < parts.effectors.size(); ++index)
+    parts.effectors[index] =
+        with_faults(std::move(parts.effectors[index]), of(parts.bindings.real_outputs[index].name), clock,
+                    parts.bindings.real_outputs[index].safe.get());
+}
+
+}  // namespace tessera

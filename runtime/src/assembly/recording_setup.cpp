@@ -1,0 +1,84 @@
+#include "assembly/recording_setup.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "recorder/value_recorder.hpp"
+
+namespace tessera {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Larger values are not recorded whole.
+[[nodiscard]] std::uint64_t value_limit(const RunOptions& options) {
+  return options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
+}
+
+void describe_values(const RunOptions& options, std::span<const SubsystemParts> all, ordered_json& header) {
+  header["parameters"] = options.parameters;
+  if (options.duration) header["duration_ns"] = options.duration->count();
+  header["behaviours"] = ordered_json::array();
+  ordered_json buffers = ordered_json::array();
+  for (const SubsystemParts& parts : all) {
+    ordered_json& behaviours = header["behaviours"].emplace_back(ordered_json::array());
+    for (const Behaviour& behaviour : parts.instance->net->behaviours) behaviours.push_back(behaviour.name);
+    for_buffers(parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
+      buffers.push_back(
+          ordered_json::array({fmt::format("{}.{}", parts.path, buffer.name), parts.index, name_of(direction),
+                               buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
+    });
+  }
+  header["values"] = {{"limit", value_limit(options)}, {"buffers", std::move(buffers)}};
+}
+
+}  // namespace
+
+std::string recording_header(const System& system, const RunOptions& options, const FlatNet& net,
+                             std::span<const SubsystemParts> all) {
+  ordered_json header{{"system", system.name},
+                      {"net_hash", system.net_hash},
+                      {"verification_hash", system.verification_hash}};
+  header["verdicts"] = ordered_json::array();
+  for (const VerifiedProperty& property : system.verdicts)
+    header["verdicts"].push_back(
+        {{"name", property.name}, {"verdict", property.verdict}, {"method", property.method}});
+  header["seed"] = options.seed;
+  header["clock"] = options.clock == RunOptions::Clock::simulated ? "simulated" : "steady";
+  if (!options.inject.empty()) header["injected"] = options.inject;
+  header["instances"] = ordered_json::array();
+  for (const SubsystemParts& parts : all) header["instances"].push_back(parts.path);
+  header["transitions"] = ordered_json::array();
+  for (const FlatNet::FlatTransition& transition : net.transitions)
+    header["transitions"].push_back(ordered_json::array({transition.name, transition.instance}));
+  if (options.values != RunOptions::Values::none) describe_values(options, all, header);
+  return header.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::size_t longest_recorded_value(const RunOptions& options, std::span<const SubsystemParts> all) {
+  std::size_t longest = 0;
+  if (options.values == RunOptions::Values::none) return longest;
+  for (const SubsystemParts& parts : all)
+    for_buffers(parts.bindings, [&](Recording::Direction, const auto& buffer) {
+      if (buffer.encoding != nullptr)
+        longest = std::max(longest, std::min<std::size_t>(buffer.encoding->most, value_limit(options)));
+    });
+  return longest;
+}
+
+void record_values(const RunOptions& options, Recorder& recorder, std::span<SubsystemParts> all) {
+  if (options.values == RunOptions::Values::none) return;
+  std::uint32_t first = 0;
+  for (SubsystemParts& parts : all) {
+    parts.values = std::make_unique<ValueRecorder>(parts.bindings, first, value_limit(options),
+                                                   *recorder.lane(parts.index));
+    first += count_buffers(parts.bindings);
+  }
+}
+
+}  // namespace tessera

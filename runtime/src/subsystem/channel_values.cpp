@@ -1,0 +1,135 @@
+#include "subsystem/channel_values.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace tessera {
+namespace {
+
+/// A value of another thread may be younger than this thread's last look at the clock.
+[[nodiscard]] Duration age(Time stamp, Time now) { return std::max(now - stamp, Duration::zero()); }
+
+void assign(void* to, const void* from, std::size_t size, const ValueType* type) {
+  if (type == nullptr)
+    std::memcpy(to, from, size);
+  else
+    type->assign(to, from);
+}
+
+}  // namespace
+
+ChannelValues::ChannelValues(const SubsystemParts& parts, const RunControl& control)
+    : parts_(parts), control_(control), inputs_(parts.bindings.inputs.size()) {
+  for (std::size_t index = 0; index < inputs_.size(); ++index)
+    inputs_[index].arrival = parts_.bindings.inputs[index].arrival;
+  for (const PortLink& port : parts_.ports) {
+    if (port.side != Side::receive) continue;
+    inputs_[port.buffer].used = true;
+    inputs_[port.buffer].source = port.peer;
+  }
+  if (!parts_.effectors.empty()) find_received_inputs();
+}
+
+/// A place that reads is one of the behaviour that its name begins with: "follow.rcv.line.in".
+void ChannelValues::find_received_inputs() {
+  const SubsystemNet& net = *parts_.instance->net;
+  received_.resize(net.behaviours.size());
+  for (const Place& place : net.places) {
+    if (place.does.kind != Does::Kind::read) continue;
+    const std::string_view owner = place.name.substr(0, place.name.find('.'));
+    for (std::size_t behaviour = 0; behaviour < net.behaviours.size(); ++behaviour)
+      for (std::size_t port = 0; port < net.ports.size(); ++port)
+        if (net.behaviours[behaviour].name == owner && net.ports[port].name == place.does.subject)
+          received_[behaviour].push_back(parts_.ports[port].buffer);
+  }
+}
+
+void ChannelValues::write(std::uint32_t port, std::uint16_t slot, Time now, bool valid) {
+  const PortLink& link = parts_.ports[port];
+  const Bindings::Outgoing& output = parts_.bindings.outputs[link.buffer];
+  SharedChannel::Memory& memory = link.channel->memory(slot);
+  assign(memory.bytes.data(), output.value, output.size, output.type);
+  memory.stamp = now;
+  memory.valid = valid;
+  memory.sequence = link.channel->next_sequence();
+  output.departure->stamp = now;
+}
+
+/// A slot may hold a value that was read before, or an older one: only a newer one is fresh.
+void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
+  const PortLink& link = parts_.ports[port];
+  const Bindings::Incoming& input = parts_.bindings.inputs[link.buffer];
+  Input& state = inputs_[link.buffer];
+  input.arrival->timed_out = false;
+  const SharedChannel::Memory& memory = link.channel->memory(slot);
+  if (memory.sequence == 0 || memory.sequence == state.sequence) return;
+  assign(input.value, memory.bytes.data(), input.size, input.type);
+  const bool newer = memory.sequence > state.newest;
+  input.arrival->fresh = input.arrival->fresh || newer;
+  state.newest = std::max(state.newest, memory.sequence);
+  state.sequence = memory.sequence;
+  if (memory.valid && memory.stamp >= control_.valid_from()) {
+    state.last_valid = memory.stamp;
+    state.known = true;
+  }
+  input.arrival->valid = memory.valid;
+  input.arrival->stamp = memory.stamp;
+  input.arrival->age = age(memory.stamp, now);
+  if (parts_.values != nullptr) parts_.values->input(link.buffer, now, newer);
+}
+
+void ChannelValues::note_timeout(std::uint32_t port) {
+  const PortLink& link = parts_.ports[port];
+  if (link.side == Side::receive)
+    parts_.bindings.inputs[link.buffer].arrival->timed_out = true;
+  else
+    parts_.bindings.outputs[link.buffer].departure->timed_out = true;
+}
+
+void ChannelValues::note_answer(std::uint32_t port) {
+  const PortLink& link = parts_.ports[port];
+  if (link.side == Side::send) parts_.bindings.outputs[link.buffer].departure->timed_out = false;
+}
+
+void ChannelValues::await_inputs(std::uint16_t behaviour) {
+  if (received_.empty()) return;
+  for (const std::uint32_t input : received_[behaviour]) inputs_[input].awaited = true;
+}
+
+void ChannelValues::refresh_ages(Time now) {
+  for (const Input& input : inputs_)
+    if (input.sequence != 0) input.arrival->age = age(input.arrival->stamp, now);
+}
+
+void ChannelValues::mark_seen() {
+  for (const Input& input : inputs_) input.arrival->fresh = false;
+}
+
+SafeReason ChannelValues::why_hold(Time now) const {
+  using Why = SafeReason::Kind;
+  const Duration stale = parts_.instance->stale;
+  for (std::size_t index = 0; index < inputs_.size(); ++index) {
+    const Input& input = inputs_[index];
+    if (!input.used) continue;
+    const std::string_view name = parts_.bindings.inputs[index].name;
+    if (input.source != UINT32_MAX) {
+      if (control_.has_ended(input.source)) return {Why::source_ended, name};
+      if (control_.is_stalled(input.source)) return {Why::source_stalls, name};
+    }
+    if (stale > Duration::zero() && now - input.last_valid > stale) return {Why::stale, name};
+    if (input.awaited && (!input.known || input.last_valid < control_.valid_from()))
+      return {Why::starting, name};
+  }
+  return {};
+}
+
+Time ChannelValues::stale_from() const {
+  Time earliest = Time::max();
+  for (const Input& input : inputs_)
+    if (input.used) earliest = std::min(earliest, input.last_valid + parts_.instance->stale + Duration(1));
+  return earliest;
+}
+
+}  // namespace tessera

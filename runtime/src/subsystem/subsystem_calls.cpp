@@ -1,0 +1,92 @@
+// How a subsystem calls its transition functions: when, and what happens when one does not return in time.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+#include "subsystem/subsystem_executor.hpp"
+
+namespace tessera {
+
+/// When the call of a token that has just arrived begins.
+Time SubsystemExecutor::release() {
+  const Duration waited = std::exchange(waited_, Duration::zero());
+  if (!releases_.have_rate()) return Time::min();
+  renew_time();
+  const Releases::Release release = releases_.next(now_, waited);
+  if (release.overruns > 0 && lane_ != nullptr)
+    lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::uint64_t>(release.overruns, UINT32_MAX)));
+  return release.at;
+}
+
+/// Begins or ends a transition function; false when that has to wait.
+bool SubsystemExecutor::advance(std::uint32_t place) {
+  Token& token = tokens_[place];
+  const Duration watchdog = operations_.parts().instance->policies.watchdog;
+  if (token.phase == Phase::released_later) {
+    // User code may take long: nobody must be held back meanwhile by a wait that is over.
+    if (registrations_ > 0 && !register_waits()) return true;
+    const std::uint16_t behaviour = plan_->places[place].subject;
+    const Time begin = now();
+    gauges_.begin_call(behaviour, begin);
+    operations_.start_call(behaviour, begin, releases_.take_missed());
+    time_is_known_ = false;
+    token.phase = Phase::running;
+    token.due = Time::min();
+    if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (watchdog > Duration::zero() && token.due > begin + watchdog)
+      returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
+    if (token.due > begin) return true;
+  }
+  if (returns_ != Time{}) {
+    token.due = std::exchange(returns_, Time{});
+    if (mark_alarm(gauges_.called_at_ns.load(std::memory_order_relaxed))) {
+      effectors().make_safe({SafeReason::Kind::stalls}, Effectors::Busy::leaves_out);
+      tell_alarm(lane_);
+      effectors().record(lane_);
+    }
+    return true;
+  }
+  if (watched_ || !operations_.devices().none()) renew_time();
+  operations_.finish_call(now_);
+  gauges_.end_call(now_);
+  if (watchdog > Duration::zero()) end_alarm();
+  show();
+  token.phase = Phase::finished;
+  return true;
+}
+
+bool SubsystemExecutor::mark_alarm(std::int64_t since_ns) {
+  control_.mark_stalled(index_, true);
+  // Either this sees that the call is over, or the subsystem's thread sees the mark: mark_stalled, the end of
+  // the call and both looks are sequentially consistent.
+  if (!gauges_.calling.load(std::memory_order_seq_cst) ||
+      gauges_.called_at_ns.load(std::memory_order_relaxed) != since_ns) {
+    control_.mark_stalled(index_, false);
+    return false;
+  }
+  wake_receivers();
+  return true;
+}
+
+void SubsystemExecutor::tell_alarm(RecordingLane* lane) const {
+  operations_.report_stall(gauges_.behaviour.load(std::memory_order_relaxed), lane);
+}
+
+void SubsystemExecutor::end_alarm() {
+  gauges_.calling.store(false, std::memory_order_seq_cst);
+  if (!control_.is_stalled(index_)) return;
+  control_.mark_stalled(index_, false);
+  wake_receivers();
+}
+
+/// Once an iteration, for those who watch.
+void SubsystemExecutor::show() {
+  gauges_.iterations.store(operations_.iterations(), std::memory_order_relaxed);
+  gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
+  gauges_.firings.store(firings_, std::memory_order_relaxed);
+  gauges_.overruns.store(overruns(), std::memory_order_relaxed);
+}
+
+}  // namespace tessera

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/device_life.hpp"
+#include "nets/shared_channel.hpp"
+#include "recorder/value_recorder.hpp"
+#include "subsystem/injection.hpp"
+#include "subsystem/parameter_changes.hpp"
+#include "tessera/device.hpp"
+#include "tessera/subsystem.hpp"
+#include "tessera/tables.hpp"
+
+namespace tessera {
+
+/// One end of a channel as its subsystem sees it.
+struct PortLink {
+  SharedChannel* channel = nullptr;
+  Side side = Side::send;
+  std::uint32_t buffer = 0;         ///< into Bindings::inputs or outputs
+  Duration timeout{0};              ///< zero: waits for ever
+  std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none
+};
+
+/// What a subsystem is made of besides its net.
+struct SubsystemParts {
+  std::string path;
+  std::uint32_t index = 0;  ///< into System::instances
+  const Instance* instance = nullptr;
+  std::unique_ptr<Subsystem> subsystem;
+  Bindings bindings;
+  std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs
+  std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
+  std::vector<DriverInUse> drivers;                      ///< behind receptors and effectors
+  std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
+  FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
+  std::unique_ptr<ValueRecorder> values;                 ///< nullptr: they are not recorded
+  ParameterChanges* changes = nullptr;                   ///< nullptr: parameters stay as they are
+};
+
+}  // namespace tessera

@@ -1,0 +1,116 @@
+#include "watch/monitor_protocol.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace tessera {
+namespace {
+
+using nlohmann::json;
+
+[[nodiscard]] std::string line_of(const json& object) {
+  return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+[[nodiscard]] json to_json(const Snapshot::Subsystem& subsystem) {
+  return {{"path", subsystem.path},
+          {"behaviour", subsystem.behaviour ? json(*subsystem.behaviour) : json()},
+          {"calling", subsystem.calling},
+          {"ended", subsystem.ended},
+          {"iterations", subsystem.iterations},
+          {"firings", subsystem.firings},
+          {"overruns", subsystem.overruns},
+          {"errors", subsystem.errors},
+          {"period_s", subsystem.period_s},
+          {"called_at_s", subsystem.called_at_s},
+          {"call_s", subsystem.call_s},
+          {"longest_call_s", subsystem.longest_call_s}};
+}
+
+/// null: it has none. Nothing is copied: copying what is nested deeply takes a deep stack.
+[[nodiscard]] const json& member_of(const json& object, const char* name) {
+  static const json none;
+  const auto found = object.find(name);
+  return found == object.end() ? none : *found;
+}
+
+/// A list of names, or one name alone.
+[[nodiscard]] std::vector<std::string> names_in(const json& object, const char* list) {
+  std::vector<std::string> names;
+  for (const json& name : member_of(object, list))
+    names.push_back(name.is_string() ? name.get<std::string>() : std::string());
+  return names;
+}
+
+/// Throws what a member of another type makes nlohmann::json throw.
+[[nodiscard]] SimulationCommand simulation_command(const std::string& name, const json& object) {
+  if (name == "pause") return commands::Pause{};
+  if (name == "resume") return commands::Resume{};
+  if (name == "step_firing") return commands::StepFiring{};
+  if (name == "step_iteration") return commands::StepIteration{object.value("subsystem", "")};
+  if (name == "breakpoints")
+    return commands::SetBreakpoints{names_in(object, "places"), names_in(object, "transitions"),
+                                    names_in(object, "conditions")};
+  if (name != "speed") return commands::Unknown{};
+  const json& value = member_of(object, "value");
+  return commands::SetSpeed{value.is_number() ? std::optional(value.get<double>()) : std::nullopt};
+}
+
+/// Throws as simulation_command.
+[[nodiscard]] AnsweredCommand answered_command(const json& object) {
+  const std::string name = object.value("command", "");
+  if (name == "set") return commands::SetParameter{object.at("path"), object.at("value")};
+  if (name == "emergency_stop")
+    return commands::EmergencyStop{object.value("why", "an operator asks for it")};
+  if (name == "reset") return commands::Reset{};
+  return simulation_command(name, object);
+}
+
+}  // namespace
+
+std::string to_line(const Snapshot& snapshot) {
+  json subsystems = json::array(), channels = json::array();
+  for (const Snapshot::Subsystem& subsystem : snapshot.subsystems) subsystems.push_back(to_json(subsystem));
+  for (const Snapshot::Channel& channel : snapshot.channels)
+    channels.push_back({{"name", channel.name}, {"marked", channel.marked}});
+  json all{{"system", snapshot.system},           {"pid", snapshot.pid},
+           {"net_hash", snapshot.net_hash},       {"time_s", snapshot.time_s},
+           {"subsystems", std::move(subsystems)}, {"channels", std::move(channels)}};
+  if (snapshot.emergency) all["emergency"] = *snapshot.emergency;
+  if (snapshot.recording) all["recording"] = *snapshot.recording;
+  if (snapshot.simulation) {
+    all["paused"] = snapshot.simulation->paused;
+    all["pauses"] = snapshot.simulation->pauses;
+    all["speed"] = snapshot.simulation->speed;
+    all["broke_at"] = snapshot.simulation->broke_at;
+  }
+  return line_of(all);
+}
+
+std::string answer_line(std::int64_t id, const std::string& error) {
+  return line_of({{"answer", id}, {"error", error}});
+}
+
+std::string piece_line(std::size_t bytes, bool begins, bool more) {
+  return line_of({{"recording_bytes", bytes}, {"begins", begins}, {"more", more}});
+}
+
+std::string ended_line() { return line_of({{"ended", true}}); }
+
+Request parse_request(const std::string& line) {
+  const json object = json::parse(line, nullptr, /*allow_exceptions=*/false);
+  Request request;
+  if (!object.is_object()) return request;
+  // These have no answer, so their id does not matter.
+  const json& name = member_of(object, "command");
+  if (name == "own") return {0, commands::Own{}};
+  if (name == "recording") return {0, commands::SendRecording{}};
+  try {
+    request.id = object.value("id", request.id);
+    request.command = answered_command(object);
+  } catch (const json::exception&) {  // members of another type
+  }
+  return request;
+}
+
+}  // namespace tessera

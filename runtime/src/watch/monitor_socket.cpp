@@ -1,0 +1,120 @@
+#include "watch/monitor_socket.hpp"
+
+#include <fmt/core.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "tessera/monitor.hpp"
+
+namespace tessera {
+namespace {
+
+/// The folder, which must be ours alone: somebody else's could be a trap.
+[[nodiscard]] bool own_folder(const std::string& folder, std::string& failure) {
+  struct stat status {};
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    failure = fmt::format("cannot make '{}': {}", folder, std::strerror(errno));
+  else if (lstat(folder.c_str(), &status) != 0)
+    failure = fmt::format("cannot look at '{}': {}", folder, std::strerror(errno));
+  else if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 077U) != 0)
+    failure = fmt::format("'{}' is not a folder that only its owner may enter", folder);
+  return failure.empty();
+}
+
+[[nodiscard]] bool is_owner(int client) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return getsockopt(client, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+         (peer.uid == geteuid() || peer.uid == 0);
+}
+
+/// The process that made the socket was killed: it is gone, and nobody else (through a tunnel, from a
+/// container) listens.
+[[nodiscard]] bool is_left_behind(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();  // SYSTEM.PID
+  const std::size_t dot = name.rfind('.');
+  if (file.extension() != ".sock" || dot == std::string::npos ||
+      file.native().size() >= sizeof(sockaddr_un::sun_path))
+    return false;
+  pid_t process = 0;
+  const auto [end, problem] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), process);
+  if (problem != std::errc{} || end != name.data() + name.size() || process <= 0) return false;
+  if (kill(process, 0) == 0 || errno != ESRCH) return false;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, file.c_str(), file.native().size() + 1);
+  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (made < 0) return false;
+  const bool refused = connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
+                       errno == ECONNREFUSED;
+  close(made);
+  return refused;
+}
+
+void remove_left_behind(const std::string& folder) {
+  std::error_code problem;
+  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem))
+    if (is_left_behind(entry->path())) unlink(entry->path().c_str());
+}
+
+}  // namespace
+
+std::string monitor_folder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  if (runtime != nullptr && *runtime != '\0') return std::string(runtime) + "/tessera";
+  return fmt::format("/tmp/tessera-{}", geteuid());
+}
+
+MonitorSocket::MonitorSocket(std::string_view system) { listen_in(monitor_folder(), system); }
+
+MonitorSocket::~MonitorSocket() {
+  if (descriptor_ < 0) return;
+  close(descriptor_);
+  unlink(file_.c_str());
+}
+
+void MonitorSocket::listen_in(const std::string& folder, std::string_view system) {
+  if (!own_folder(folder, failure_)) return;
+  remove_left_behind(folder);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string file = fmt::format("{}/{}.{}.sock", folder, system, getpid());
+  if (file.size() >= sizeof address.sun_path) {
+    failure_ = fmt::format("the path '{}' is too long for a socket", file);
+    return;
+  }
+  std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
+  unlink(file.c_str());  // of an earlier process with our number
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const auto* name = reinterpret_cast<const sockaddr*>(&address);
+  if (descriptor < 0 || bind(descriptor, name, sizeof address) != 0 || listen(descriptor, 4) != 0) {
+    failure_ = fmt::format("cannot listen at '{}': {}", file, std::strerror(errno));
+    if (descriptor >= 0) close(descriptor);
+    return;
+  }
+  chmod(file.c_str(), 0600);
+  file_ = file;
+  descriptor_ = descriptor;
+}
+
+MonitorSocket::Accepted MonitorSocket::accept() const {
+  const int client = accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (client < 0) return {-1, errno != EAGAIN && errno != EINTR && errno != ECONNABORTED};
+  if (is_owner(client)) return {client, false};
+  close(client);
+  return {};
+}
+
+}  // namespace tessera

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tessera {
+
+/// The Unix socket at which a run listens (tessera/monitor.hpp), in a folder that only its owner may enter.
+/// Making it removes the sockets of runs that were killed.
+class MonitorSocket {
+ public:
+  explicit MonitorSocket(std::string_view system);
+  ~MonitorSocket();
+  MonitorSocket(const MonitorSocket&) = delete;
+  MonitorSocket& operator=(const MonitorSocket&) = delete;
+
+  /// -1: it does not listen, because of `failure`.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+
+  /// A connection of the owner of this process, or of root.
+  struct Accepted {
+    int socket = -1;         ///< -1: none
+    bool exhausted = false;  ///< no descriptor is left: try again later
+  };
+  [[nodiscard]] Accepted accept() const;
+
+ private:
+  void listen_in(const std::string& folder, std::string_view system);
+
+  std::string file_, failure_;
+  int descriptor_ = -1;
+};
+
+}  // namespace tessera

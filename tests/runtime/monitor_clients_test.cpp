@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "../eventually.hpp"
+#include "controlled_run.hpp"
+#include "test_system.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+using nlohmann::json;
+
+TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {
+  start();
+  rest(1);
+  std::string recorded;
+  for (std::uint64_t step = 2; step < 10; ++step) {
+    do recorded += piece();
+    while (more_);
+    EXPECT_EQ(recorded, bytes_of(options_.recording));
+    EXPECT_EQ(command({{"command", "step_firing"}}), "");
+    rest(step);
+  }
+  finish();
+  recorded += what_comes_at_the_end();
+  EXPECT_EQ(recorded, bytes_of(options_.recording));
+}
+
+TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
+  options_.clock = RunOptions::Clock::steady;
+  options_.duration = 600s;
+  start();
+  std::string recorded;
+  while (recorded.size() < 10'000 || more_) recorded += piece();
+  EXPECT_EQ(bytes_of(options_.recording).substr(0, recorded.size()), recorded);
+  EXPECT_NE(command({{"command", "pause"}}), "");
+  kill(getpid(), SIGTERM);
+  running_.join();
+  EXPECT_EQ(summary_.ended, "SIGTERM");
+  recorded += what_comes_at_the_end();
+  EXPECT_EQ(recorded, bytes_of(options_.recording));
+}
+
+TEST_F(Controlled, WithoutARecordingThereAreNoBytes) {
+  options_.recording.clear();
+  start();
+  rest(1);
+  EXPECT_EQ(piece(), "");
+  EXPECT_FALSE(more_);
+  finish();
+}
+
+TEST_F(Controlled, EndsWithItsOwner) {
+  start();
+  rest(1);
+  send_line("{\"command\":\"own\"}");
+  EXPECT_EQ(command({{"command", "pause"}}), "");
+  close(socket_);
+  socket_ = -1;
+  running_.join();
+  EXPECT_EQ(summary_.ended, "stopped: who started it has gone");
+}
+
+TEST_F(Controlled, ExecutesCommandsOfAClientThatHasGone) {
+  start();
+  rest(1);
+  const std::size_t before = firings_in(options_.recording), asked = 50;
+  const std::string line = "{\"command\":\"step_firing\"}\n";
+  for (std::size_t sent = 0; sent < asked;) {
+    const int client = connect_another();
+    if (client < 0) continue;  // it has not got round to the last ones
+    EXPECT_EQ(send(client, line.data(), line.size(), MSG_NOSIGNAL), static_cast<ssize_t>(line.size()));
+    close(client);
+    ++sent;
+  }
+  EXPECT_TRUE(eventually([&] { return firings_in(options_.recording) == before + asked; }));
+  finish();
+}
+
+TEST_F(Controlled, HostileClientsDoNoHarm) {
+  start();
+  rest(1);
+  const std::vector<std::string> talks{
+      std::string(3'000'000, 'x'),                                  // no end of line
+      std::string(500'000, '[') + "\n",                             // nested
+      "{\"command\":\"breakpoints\",\"places\":[\"\xff\xfe\"]}\n",  // no UTF-8, which is in the answer
+      "{\"id\":1e400,\"command\":\"speed\",\"value\":1e400}\n",
+      "{\"id\":\"\xc3\",\"command\":{}}\n" + std::string(100, '\n'),
+      std::string(1000, '\0'),
+      "{\"command\":\"recording\"}"};  // half a line
+  for (int round = 0; round < 300; ++round) {
+    const int client = connect_another();
+    if (client < 0) continue;
+    const std::string& talk = talks[static_cast<std::size_t>(round) % talks.size()];
+    send(client, talk.data(), talk.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    close(client);
+  }
+  std::vector<int> clients;
+  for (int count = 0; count < 64; ++count) clients.push_back(connect_another());
+  EXPECT_EQ(command({{"command", "pause"}}), "") << "it is still served";
+  for (const int client : clients)
+    if (client >= 0) close(client);
+  finish();
+  EXPECT_EQ(summary_.ended, "duration");
+}
+
+TEST_F(Controlled, APathThatIsNoTextAndAFolderThatHasGoneEndNothing) {
+  const std::filesystem::path before = std::filesystem::current_path(),
+                              gone = std::filesystem::path(folder_) / "gone";
+  std::filesystem::create_directories(gone);
+  std::filesystem::current_path(gone);
+  options_.recording = "r\xff\xfe.tsr";
+  start();
+  std::filesystem::remove_all(gone);
+  EXPECT_TRUE(rest(1).contains("recording"));
+  EXPECT_NE(command({{"command", "breakpoints"}, {"places", {"nowhere"}}}), "");
+  finish();
+  std::filesystem::current_path(before);
+  EXPECT_EQ(summary_.ended, "duration");
+}
+
+}  // namespace
+}  // namespace tessera::testing

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "../eventually.hpp"
+#include "../schema/judge.hpp"
 #include "nets.hpp"
 #include "rerun/rerun.hpp"
 #include "tessera/monitor.hpp"
@@ -105,6 +106,7 @@ class Controlled : public ::testing::Test {
       }
       const json line = json::parse(said_.substr(0, end), nullptr, false);
       said_.erase(0, end + 1);
+      schema_test::judge_line(line);
       if (wanted(line)) return line;
     }
   }
@@ -136,8 +138,10 @@ class Controlled : public ::testing::Test {
     what["id"] = ++last_;
     const std::string line = what.dump() + "\n";
     send(socket_, line.data(), line.size(), MSG_NOSIGNAL);
-    return await([&](const json& answer) { return answer.value("answer", 0) == last_; })
-        .value("error", "none");
+    std::string wrong =
+        await([&](const json& answer) { return answer.value("answer", 0) == last_; }).value("error", "none");
+    if (wrong.empty()) schema_test::judge_command(what);
+    return wrong;
   }
   json rest(std::uint64_t pauses) {
     return await(

@@ -57,7 +57,8 @@ class Judge {
   }
 
  private:
-  static constexpr const char* gone = "tests/schema/judge.js does not run: is there `npm ci` in tests/schema?";
+  static constexpr const char* gone =
+      "tests/schema/judge.js does not run: is there `npm ci` in tests/schema?";
 
   [[nodiscard]] std::string next_line() {
     std::size_t end = 0;
@@ -105,7 +106,9 @@ void judge_event(const std::string& name, const json& data) {
   judge({{"kind", "event"}, {"name", name}, {"data", data}}, "the event " + name);
 }
 
-void judge_line(const json& data) { judge({{"kind", "line"}, {"data", data}}, "a line of the control socket"); }
+void judge_line(const json& data) {
+  judge({{"kind", "line"}, {"data", data}}, "a line of the control socket");
+}
 
 void judge_command(const json& data) {
   judge({{"kind", "command"}, {"data", data}}, "a command of the control socket");

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "../schema/judge.hpp"
 

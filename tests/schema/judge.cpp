@@ -1,6 +1,5 @@
 #include "judge.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -10,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <mutex>
+#include <string>
+#include <string_view>
 
 extern char** environ;
 

@@ -41,6 +41,11 @@ test('a message with a member that the schema does not know is refused', () => {
   assert.match(wrongWith(pose, 'studio', '$defs', 'Events', 'properties', 'position'), /has no/);
 });
 
+test('the net that the tests of the page draw is one', () => {
+  const net = new URL('../../studio/web/tests/model/line_follower.json', import.meta.url);
+  assert.equal(wrongWith(JSON.parse(readFileSync(net, 'utf8')), 'net'), '');
+});
+
 test('every part of the schemas can be compiled', () => {
   for (const [name, { $defs }] of Object.entries(schemas))
     for (const one of Object.keys($defs)) assert.doesNotThrow(() => wrongWith(null, name, '$defs', one), `${name} ${one}`);

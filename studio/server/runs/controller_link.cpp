@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "tessera/monitor.hpp"
 

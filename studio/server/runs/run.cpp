@@ -10,6 +10,7 @@
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/launch.hpp"
+#include "project/process/control_messages.hpp"
 #include "project/process/death.hpp"
 #include "project/process/listener.hpp"
 #include "project/process/process.hpp"

@@ -31,13 +31,14 @@ function(tessera_module name)
   target_link_libraries(tessera_${name} PUBLIC ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE} tessera_flags)
 endfunction()
 
-# tessera_gtest(NAME SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [LOCK name] [WHOLE])
+# tessera_gtest(NAME SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [LOCK name] [WHOLE] [JUDGED])
 # LOCK: its cases share something and run one after the other.
+# JUDGED: it asks whether messages fit their schemas (tests/schema/judge.hpp).
 # WHOLE: ctest lists one case, since what SetUpTestSuite makes takes longer than the cases.
 # An executable test_NAME whose cases ctest lists one by one.
 include(GoogleTest)
 function(tessera_gtest name)
-  cmake_parse_arguments(TEST "WHOLE" "TIMEOUT;LOCK" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "WHOLE;JUDGED" "TIMEOUT;LOCK" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 120)
   endif()
@@ -47,6 +48,10 @@ function(tessera_gtest name)
   set(properties TIMEOUT ${TEST_TIMEOUT})
   if(TEST_LOCK)
     list(APPEND properties RESOURCE_LOCK ${TEST_LOCK})
+  endif()
+  if(TEST_JUDGED)
+    target_link_libraries(test_${name} PRIVATE tessera_judge)
+    list(APPEND properties FIXTURES_REQUIRED schema_packages)
   endif()
   if(TEST_WHOLE)
     add_test(NAME ${name} COMMAND test_${name})

@@ -2,21 +2,21 @@
 
 #include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "cli/commands/commands.hpp"
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "project/process/control_messages.hpp"
 
 /// What an operator does to a controller that runs: `tessera set`, `emergency-stop`, `reset`.
 namespace tessera::cli {
 
 namespace {
-
-using nlohmann::json;
 
 struct OperateOptions {
   std::vector<std::string> values;
@@ -26,11 +26,9 @@ struct OperateOptions {
 constexpr std::chrono::seconds patience{2};
 constexpr int question = 1;
 
-bool tell(RunningController& controller, json command) {
+bool tell(RunningController& controller, const project::ControlCommand& command) {
   controller.be_patient_for(patience);
-  command["id"] = question;
-  // Text that is not UTF-8 names nothing: the controller says so.
-  return controller.send(command.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  return controller.send(project::line_of(command, question));
 }
 
 /// What the controller answers: what is wrong; empty: nothing.
@@ -40,14 +38,15 @@ std::string answer_of(RunningController& controller) {
   while (std::chrono::steady_clock::now() < end) {
     const std::optional<std::string> said = controller.line();
     if (!said) break;
-    const json answer = json::parse(*said, nullptr, /*allow_exceptions=*/false);
-    if (answer.is_object() && answer.value("answer", 0) == question) return answer.value("error", "");
+    std::optional<project::ControlLine> line = project::read_control_line(*said);
+    auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    if (answer != nullptr && answer->id == question) return std::move(answer->error);
   }
   return controller.name() + " has ended, or does not answer";
 }
 
-std::string ask(RunningController& controller, json command) {
-  tell(controller, std::move(command));
+std::string ask(RunningController& controller, const project::ControlCommand& command) {
+  tell(controller, command);
   return answer_of(controller);
 }
 
@@ -58,8 +57,7 @@ int set_command(const OperateOptions& options) {
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
-    const json command{
-        {"command", "set"}, {"path", one.substr(0, equals)}, {"value", one.substr(equals + 1)}};
+    const project::command::Set command{one.substr(0, equals), one.substr(equals + 1)};
     if (const std::string wrong = ask(*controller, command); !wrong.empty()) code = complain(wrong);
   }
   return code;
@@ -68,8 +66,7 @@ int set_command(const OperateOptions& options) {
 /// All controllers unless one is named: who asks for it has no time to look up names.
 int emergency_stop_command(const OperateOptions& options) {
   std::vector<RunningController> controllers = find_controllers(options.which);
-  json command{{"command", "emergency_stop"}};
-  if (!options.why.empty()) command["why"] = options.why;
+  const project::command::EmergencyStop command{options.why};
   // All are told before one is waited for.
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
@@ -85,7 +82,7 @@ int emergency_stop_command(const OperateOptions& options) {
 int reset_command(const OperateOptions& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
-  const std::string wrong = ask(*controller, {{"command", "reset"}});
+  const std::string wrong = ask(*controller, project::command::Reset{});
   return wrong.empty() ? ok : complain(wrong);
 }
 

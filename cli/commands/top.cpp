@@ -1,19 +1,22 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "cli/commands/commands.hpp"
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "project/process/control_messages.hpp"
 
 namespace tessera::cli {
 
 namespace {
 
-using nlohmann::json;
+using project::Snapshot;
 
 struct TopOptions {
   std::string which;
@@ -29,44 +32,38 @@ std::string duration_of(double seconds) {
 }
 
 /// "20.0 of 20 Hz": iterations a second between two snapshots.
-std::string rate_of(const json& now, const json& before, double elapsed_s) {
-  const double done = now.at("iterations").get<double>() - before.at("iterations").get<double>();
-  const double wanted = now.at("period_s").get<double>();
+std::string rate_of(const Snapshot::Subsystem& now, const Snapshot::Subsystem& before, double elapsed_s) {
+  const double done = static_cast<double>(now.iterations) - static_cast<double>(before.iterations);
   const std::string kept = elapsed_s > 0 ? fmt::format("{:.1f}", done / elapsed_s) : "-";
-  return wanted > 0 ? fmt::format("{} of {:.4g} Hz", kept, 1 / wanted) : kept + " Hz";
+  return now.period_s > 0 ? fmt::format("{} of {:.4g} Hz", kept, 1 / now.period_s) : kept + " Hz";
 }
 
-std::string state_of(const json& subsystem) {
-  if (subsystem.at("ended").get<bool>()) return "ended";
-  if (subsystem.at("behaviour").is_null()) return "-";
-  return subsystem.at("behaviour").get<std::string>() + (subsystem.at("calling").get<bool>() ? " *" : "");
+std::string state_of(const Snapshot::Subsystem& subsystem) {
+  if (subsystem.ended) return "ended";
+  if (!subsystem.behaviour) return "-";
+  return *subsystem.behaviour + (subsystem.calling ? " *" : "");
 }
 
-std::string table(const json& now, const json& before) {
-  const double elapsed_s = now.at("time_s").get<double>() - before.at("time_s").get<double>();
+/// Both of one controller.
+std::string table(const Snapshot& now, const Snapshot& before) {
+  const double elapsed_s = now.time_s - before.time_s;
   std::string text =
       fmt::format("{}  process {}  {:.1f} s  net {}\n\n{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n",
-                  now.at("system").get<std::string>(), now.at("pid").get<int>(),
-                  now.at("time_s").get<double>(), now.at("net_hash").get<std::string>(), "subsystem",
-                  "behaviour", "rate", "call", "longest", "overruns", "errors");
-  if (now.contains("emergency"))
-    text = fmt::format("EMERGENCY STOP: {}\n`tessera reset` ends it\n\n{}",
-                       now.at("emergency").get<std::string>(), text);
-  for (std::size_t index = 0; index < now.at("subsystems").size(); ++index) {
-    const json& one = now.at("subsystems")[index];
-    text += fmt::format("{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n", one.at("path").get<std::string>(),
-                        state_of(one), rate_of(one, before.at("subsystems")[index], elapsed_s),
-                        duration_of(one.at("call_s").get<double>()),
-                        duration_of(one.at("longest_call_s").get<double>()),
-                        one.at("overruns").get<std::uint64_t>(), one.at("errors").get<std::uint64_t>());
+                  now.system, now.process, now.time_s, now.net_hash, "subsystem", "behaviour", "rate", "call",
+                  "longest", "overruns", "errors");
+  if (now.emergency)
+    text = fmt::format("EMERGENCY STOP: {}\n`tessera reset` ends it\n\n{}", *now.emergency, text);
+  for (std::size_t index = 0; index < now.subsystems.size() && index < before.subsystems.size(); ++index) {
+    const Snapshot::Subsystem& one = now.subsystems[index];
+    text += fmt::format("{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n", one.path, state_of(one),
+                        rate_of(one, before.subsystems[index], elapsed_s), duration_of(one.call_s),
+                        duration_of(one.longest_call_s), one.overruns, one.errors);
   }
   text += fmt::format("\n{:<60} {}\n", "channel", "state");
-  for (const json& channel : now.at("channels")) {
+  for (const Snapshot::Channel& channel : now.channels) {
     std::string marked;
-    for (const json& place : channel.at("marked"))
-      marked += (marked.empty() ? "" : " + ") + place.get<std::string>();
-    text +=
-        fmt::format("{:<60} {}\n", channel.at("name").get<std::string>(), marked.empty() ? "in use" : marked);
+    for (const std::string& place : channel.marked) marked += (marked.empty() ? "" : " + ") + place;
+    text += fmt::format("{:<60} {}\n", channel.name, marked.empty() ? "in use" : marked);
   }
   return text;
 }
@@ -74,21 +71,23 @@ std::string table(const json& now, const json& before) {
 int top_command(const TopOptions& options) {
   std::optional<RunningController> watched = find_controller(options.which);
   if (!watched) return failed;
-  json before;
-  while (const std::optional<std::string> line = watched->line()) {
-    json now = json::parse(*line, nullptr, false);
-    if (now.is_discarded()) return complain("the controller sent what this version does not understand");
-    if (now.contains("ended")) break;
+  std::optional<Snapshot> before;
+  while (const std::optional<std::string> said = watched->line()) {
+    std::optional<project::ControlLine> line = project::read_control_line(*said);
+    if (!line) return complain("the controller sent what this version does not understand");
+    if (std::holds_alternative<project::ControllerHasEnded>(*line)) break;
+    auto* now = std::get_if<Snapshot>(&*line);
+    if (now == nullptr) continue;
     if (options.lines) {
-      fmt::print("{}\n", *line);
+      fmt::print("{}\n", *said);
       if (options.once) return ok;
-    } else if (!before.is_null()) {
+    } else if (before) {
       const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.once;
-      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", table(now, before));
+      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", table(*now, *before));
       if (options.once) return ok;
     }
     std::fflush(stdout);
-    before = std::move(now);
+    before = std::move(*now);
   }
   fmt::print("the controller has ended\n");
   return ok;

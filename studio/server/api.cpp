@@ -249,13 +249,14 @@ void Api::control_run(const Request& request, Response& response) {
   const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
   if (run == nullptr) return answer_error(response, 404, "there is no such run");
   Body body(request, response);
-  json command{{"command", body.text("command")}, {"subsystem", body.text_or("subsystem", "")}};
-  if (const std::optional<double> value = body.number("value")) command["value"] = *value;
-  command["places"] = body.indices("breakpoints", "place");
-  command["transitions"] = body.indices("breakpoints", "transition");
-  command["conditions"] = body.indices("breakpoints", "condition");
+  const RunControl wanted{.command = body.text("command"),
+                          .subsystem = body.text_or("subsystem", ""),
+                          .speed = body.number("value"),
+                          .places = body.indices("breakpoints", "place"),
+                          .transitions = body.indices("breakpoints", "transition"),
+                          .conditions = body.indices("breakpoints", "condition")};
   if (!body.good()) return;
-  const std::string wrong = run->control(std::move(command));
+  const std::string wrong = run->control(wanted);
   if (!wrong.empty()) return answer_error(response, 409, wrong);
   answer(response, "{}");
 }

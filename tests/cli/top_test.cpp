@@ -1,3 +1,4 @@
+#include "../schema/judge.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -24,6 +25,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   EXPECT_TRUE(done.text.ends_with("0\n")) << done.text << content_of(folder_ / "run.txt");
   const nlohmann::json line = nlohmann::json::parse(content_of(folder_ / "line.json"), nullptr, false);
   ASSERT_TRUE(line.is_object());
+  schema_test::judge_line(line);
   EXPECT_EQ(line.at("subsystems").size(), 3U);
   EXPECT_EQ(line.at("channels").size(), 2U);
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "../eventually.hpp"
+#include "../schema/judge.hpp"
 #include "nets.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/recording.hpp"
@@ -101,6 +102,7 @@ json Controlled::await(const std::function<bool(const json&)>& wanted) {
     }
     const json line = json::parse(received_.substr(0, end), nullptr, false);
     received_.erase(0, end + 1);
+    schema_test::judge_line(line);
     if (wanted(line)) return line;
   }
 }
@@ -133,7 +135,10 @@ std::string Controlled::what_comes_at_the_end() {
 std::string Controlled::command(json what) {
   what["id"] = ++last_;
   send_line(what.dump());
-  return await([&](const json& answer) { return answer.value("answer", 0) == last_; }).value("error", "none");
+  std::string wrong =
+      await([&](const json& answer) { return answer.value("answer", 0) == last_; }).value("error", "none");
+  if (wrong.empty()) schema_test::judge_command(what);
+  return wrong;
 }
 
 json Controlled::rest(std::uint64_t pauses) {

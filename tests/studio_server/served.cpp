@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "../schema/judge.hpp"
+
 namespace tessera::server_test {
 
 namespace {
@@ -85,14 +87,15 @@ std::optional<std::string> EventStream::line() {
 
 nlohmann::json EventStream::next(const std::string& name,
                                  const std::function<bool(const nlohmann::json&)>& wanted) {
-  bool named = false;
+  std::string named;
   const auto end = std::chrono::steady_clock::now() + longest_wait;
   while (const std::optional<std::string> one = line()) {
     if (std::chrono::steady_clock::now() > end) break;
-    if (one->starts_with("event: ")) named = *one == "event: " + name;
-    if (!named || !one->starts_with("data: ")) continue;
+    if (one->starts_with("event: ")) named = one->substr(7);
+    if (!one->starts_with("data: ")) continue;
     nlohmann::json data = nlohmann::json::parse(one->substr(6), nullptr, false);
-    if (!wanted || wanted(data)) return data;
+    schema_test::judge_event(named, data);
+    if (named == name && (!wanted || wanted(data))) return data;
   }
   return nullptr;
 }
@@ -155,6 +158,7 @@ Reply Served::ask_with(const Headers& headers, const std::string& method, const 
     reply.headers.emplace(all.substr(at, colon - at), all.substr(colon + 2, next - colon - 2));
     at = next + 2;
   }
+  if (path.starts_with("/api/")) schema_test::judge_exchange(method, path, body, reply.status, reply.body);
   return reply;
 }
 

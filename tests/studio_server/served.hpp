@@ -31,7 +31,7 @@ struct Reply {
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
 };
 
-/// The events of one browser.
+/// The events of one browser; each that comes is judged by its schema.
 class EventStream {
  public:
   EventStream(int port, const std::string& token);
@@ -68,6 +68,7 @@ class Served : public testing::Test {
   [[nodiscard]] Reply post(const std::string& path, const nlohmann::json& body) const {
     return ask("POST", path, body.dump());
   }
+  /// What is asked of the API and answered is judged by its schema.
   [[nodiscard]] Reply ask(const std::string& method, const std::string& path, const std::string& body) const;
   /// Those headers and no others.
   [[nodiscard]] Reply ask_with(const Headers& headers, const std::string& method, const std::string& path,

@@ -50,6 +50,8 @@
 ///         begin and at the end.
 ///     {"command": "own"}                                 without an answer: the run ends with this
 ///     connection
+///
+/// share/tessera/control_socket.schema.json defines lines and commands; tests compare what is sent with it.
 namespace tessera {
 
 inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;

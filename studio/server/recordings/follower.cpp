@@ -32,7 +32,7 @@ Follower::Follower(RecordingStream::Source recording, const std::filesystem::pat
 
 void Follower::rest() { std::this_thread::sleep_for(between_looks); }
 
-Follower::News Follower::look(std::optional<json> snapshot, bool last) {
+Follower::News Follower::look(std::optional<project::Snapshot> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
   add_firings(news);
@@ -78,20 +78,21 @@ void Follower::add_path(News& news, bool at_once) {
   news.pose = {{"t", pose.time_ns}, {"x", pose.x_m}, {"y", pose.y_m}, {"heading", pose.heading_rad}};
 }
 
-void Follower::add_snapshot(const json& snapshot, News& news) {
-  news.time_ns = std::max(news.time_ns, nanoseconds(snapshot.value("time_s", 0.0)));
+void Follower::add_snapshot(const project::Snapshot& snapshot, News& news) {
+  const std::int64_t time_ns = nanoseconds(snapshot.time_s);
+  news.time_ns = std::max(news.time_ns, time_ns);
   if (Clock::now() - subsystems_told_ >= between_subsystems) {
     subsystems_told_ = Clock::now();
-    news.subsystems = {{"t", nanoseconds(snapshot.value("time_s", 0.0))},
-                       {"subsystems", snapshot.value("subsystems", json::array())},
-                       {"channels", snapshot.value("channels", json::array())}};
+    news.subsystems = {{"t", time_ns},
+                       {"subsystems", project::json_of(snapshot.subsystems)},
+                       {"channels", project::json_of(snapshot.channels)}};
   }
-  news.has_state = snapshot.contains("paused");
-  news.paused = snapshot.value("paused", false);
-  const std::uint64_t pauses = snapshot.value("pauses", std::uint64_t{0});
+  const project::Snapshot::Control control = snapshot.control.value_or(project::Snapshot::Control{});
+  news.has_state = snapshot.control.has_value();
+  news.paused = control.paused;
   // A step, or a breakpoint that comes soon, begins and ends between two snapshots.
-  news.rested = pauses != std::exchange(pauses_, pauses) && news.paused;
-  news.broke_at = snapshot.value("broke_at", "");
+  news.rested = control.pauses != std::exchange(pauses_, control.pauses) && news.paused;
+  news.broke_at = control.broke_at;
 }
 
 }  // namespace tessera::server

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "project/process/control_messages.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/http/path.hpp"
 #include "server/recordings/growing_file.hpp"
@@ -35,7 +36,7 @@ class Follower {
   /// snapshot: of the control socket, if there is a new one. What it says is told when everything that the
   /// run had recorded by then has been read.
   /// last: nothing is kept for later.
-  [[nodiscard]] News look(std::optional<nlohmann::json> snapshot, bool last);
+  [[nodiscard]] News look(std::optional<project::Snapshot> snapshot, bool last);
   /// Until it is worth while to look again.
   static void rest();
 
@@ -43,14 +44,14 @@ class Follower {
   void add_firings(News& news);
   void add_path(News& news, bool at_once);
   void add_values(News& news, bool at_once);
-  void add_snapshot(const nlohmann::json& snapshot, News& news);
+  void add_snapshot(const project::Snapshot& snapshot, News& news);
 
   RecordingTail recording_;
   GrowingFile path_;
   PathReader points_;
   std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, subsystems_told_{};
   std::optional<PathPoint> pose_waiting_;
-  std::optional<nlohmann::json> snapshot_;
+  std::optional<project::Snapshot> snapshot_;
   std::uint64_t pauses_ = 0;
   std::int64_t time_ns_ = 0;
 };

@@ -10,13 +10,14 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 namespace {
@@ -59,7 +60,7 @@ bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
   socket_ = made;
   open_ = true;
   answered_.notify_all();
-  return !own || say("{\"command\":\"own\"}\n");
+  return !own || say(project::line_of(project::command::Own{}));
 }
 
 bool ControllerLink::is_over() {
@@ -67,7 +68,7 @@ bool ControllerLink::is_over() {
   return over_;
 }
 
-bool ControllerLink::say(const std::string& line) {
+bool ControllerLink::say(const std::string& line) const {
   return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
 }
 
@@ -96,37 +97,38 @@ void ControllerLink::hear() {
 void ControllerLink::understand() {
   std::size_t taken = 0;
   for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
-    const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
-    json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
-    const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;
-    if (bytes > longest_piece) return close();  // not what a controller sends
-    if (bytes > heard_.size() - end - 1) break;
-    if (line.is_object() && line.contains("recording_bytes"))
-      piece_ = {heard_.substr(end + 1, bytes), line.value("begins", false), line.value("more", false)};
-    else if (line.is_object())
-      take(std::move(line));
+    std::optional<project::ControlLine> line =
+        project::read_control_line(std::string_view(heard_).substr(taken, end - taken));
+    std::size_t bytes = 0;
+    if (!line) {  // of another version, or nonsense
+    } else if (auto* snapshot = std::get_if<project::Snapshot>(&*line)) {
+      snapshot_ = std::move(*snapshot);
+    } else if (auto* answer = std::get_if<project::CommandAnswer>(&*line)) {
+      take(std::move(*answer));
+    } else if (const auto* head = std::get_if<project::PieceHead>(&*line)) {
+      bytes = head->bytes;
+      if (bytes > longest_piece) return close();  // not what a controller sends
+      if (bytes > heard_.size() - end - 1) break;
+      piece_ = {heard_.substr(end + 1, bytes), head->begins, head->more};
+    } else {
+      ended_ = true;
+    }
     taken = end + 1 + bytes;
   }
   heard_.erase(0, taken);
 }
 
-void ControllerLink::take(json line) {
-  if (line.contains("ended")) {
-    ended_ = true;
-  } else if (!line.contains("answer")) {
-    snapshot_ = std::move(line);
-  } else {
-    const std::lock_guard lock(mutex_);
-    answers_[line.value("answer", 0)] = line.value("error", "");
-    answered_.notify_all();
-  }
+void ControllerLink::take(project::CommandAnswer answer) {
+  const std::lock_guard lock(mutex_);
+  answers_[answer.id] = std::move(answer.error);
+  answered_.notify_all();
 }
 
 GrowingRecording::Piece ControllerLink::recording() {
   const auto until = Clock::now() + std::chrono::milliseconds(100);
   if (!asked_ && !ended_ && socket_ >= 0) {
     const std::lock_guard lock(mutex_);
-    asked_ = say("{\"command\":\"recording\"}\n");
+    asked_ = say(project::line_of(project::command::Recording{}));
   }
   for (hear(); !piece_ && asked_ && socket_ >= 0 && Clock::now() < until; hear()) {
     pollfd source{.fd = socket_, .events = POLLIN, .revents = 0};
@@ -141,19 +143,18 @@ GrowingRecording::Piece ControllerLink::recording() {
   return piece;
 }
 
-std::optional<json> ControllerLink::snapshot() {
+std::optional<project::Snapshot> ControllerLink::snapshot() {
   hear();
   return std::exchange(snapshot_, std::nullopt);
 }
 
-std::string ControllerLink::command(json command) {
+std::string ControllerLink::command(const project::ControlCommand& command) {
   constexpr auto patience = std::chrono::seconds(5);
   std::unique_lock lock(mutex_);
   if (!answered_.wait_for(lock, patience, [&] { return open_ || over_; }) || over_)
     return over_ ? "the controller has ended" : "the controller does not listen yet";
-  const int id = ++last_;
-  command["id"] = id;
-  if (!say(command.dump() + "\n")) return "the controller takes no commands";
+  const std::int64_t id = ++last_;
+  if (!say(project::line_of(command, id))) return "the controller takes no commands";
   if (!answered_.wait_for(lock, patience, [&] { return !open_ || answers_.contains(id); }))
     return "the controller does not answer";
   const auto answer = answers_.find(id);

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "project/process/control_messages.hpp"
 #include "tessera/growing_recording.hpp"
 
 namespace tessera::server {
@@ -30,13 +30,13 @@ class ControllerLink {
   /// It is that process of this machine, and not the end of a tunnel.
   [[nodiscard]] bool is_process(std::int64_t id);
   /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
-  [[nodiscard]] std::optional<nlohmann::json> snapshot();
+  [[nodiscard]] std::optional<project::Snapshot> snapshot();
   /// What the controller's recording holds besides what was asked for before, as it was after the last
   /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
   /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
   /// seconds each. Meanwhile somebody has to call connect and snapshot.
-  [[nodiscard]] std::string command(nlohmann::json command);
+  [[nodiscard]] std::string command(const project::ControlCommand& command);
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();
   /// It has said that its run is over. Otherwise, when it is over, the connection was lost.
@@ -45,19 +45,19 @@ class ControllerLink {
   void close();
 
  private:
-  [[nodiscard]] bool say(const std::string& line);
+  [[nodiscard]] bool say(const std::string& line) const;
   void hear();
   void understand();
-  void take(nlohmann::json line);
+  void take(project::CommandAnswer answer);
   int socket_ = -1;
   std::string heard_;
-  std::optional<nlohmann::json> snapshot_;
+  std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
   std::optional<GrowingRecording::Piece> piece_;  ///< what comes after it waits until it is taken
   std::mutex mutex_;                              ///< of what follows, and of writing and closing the socket
   std::condition_variable answered_;
-  std::map<int, std::string> answers_;
-  int last_ = 0;
+  std::map<std::int64_t, std::string> answers_;
+  std::int64_t last_ = 0;
   bool open_ = false, over_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/launch.hpp"
+#include "project/process/control_messages.hpp"
 #include "project/process/death.hpp"
 #include "project/process/listener.hpp"
 #include "project/process/process.hpp"
@@ -51,14 +52,37 @@ const char* name_of(RunRequest::Kind kind) {
   return "";
 }
 
-/// Indices to names; false: there is no such element.
+/// The names of elements; nullopt: there is no such element.
 template <class Elements>
-bool to_names(json& list, const Elements& elements) {
-  for (json& one : list) {
-    if (one.get<std::size_t>() >= elements.size()) return false;
-    one = elements[one.get<std::size_t>()].name;
+std::optional<std::vector<std::string>> names_at(const std::vector<std::uint32_t>& indices,
+                                                 const Elements& elements) {
+  std::vector<std::string> names;
+  for (const std::uint32_t index : indices) {
+    if (index >= elements.size()) return std::nullopt;
+    names.push_back(elements[index].name);
   }
-  return true;
+  return names;
+}
+
+/// For the controller, which knows names. nullopt: the net has no such place or transition.
+std::optional<project::ControlCommand> breakpoints_of(const RunControl& wanted, const net::Net& net) {
+  auto places = names_at(wanted.places, net.places());
+  auto transitions = names_at(wanted.transitions, net.transitions());
+  auto conditions = names_at(wanted.conditions, net.transitions());
+  if (!places || !transitions || !conditions) return std::nullopt;
+  return project::command::Breakpoints{std::move(*places), std::move(*transitions), std::move(*conditions)};
+}
+
+/// nullopt: there is no such command, or it is one of breakpoints.
+std::optional<project::ControlCommand> plain_command_of(const RunControl& wanted) {
+  using namespace project::command;
+  const std::string& what = wanted.command;
+  if (what == "pause") return Pause{};
+  if (what == "resume") return Resume{};
+  if (what == "step_firing") return StepFiring{};
+  if (what == "step_iteration") return StepIteration{wanted.subsystem};
+  if (what == "speed") return Speed{wanted.speed.value_or(-1)};  // which the controller refuses
+  return std::nullopt;
 }
 
 json read_summary(const std::filesystem::path& file) {
@@ -236,7 +260,7 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
 }
 
 /// true: there is more to tell at once.
-bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
+bool Run::tell(Follower& follower, std::optional<project::Snapshot> snapshot, bool last) {
   Follower::News news = follower.look(std::move(snapshot), last);
   std::optional<State> changed;
   {
@@ -260,27 +284,27 @@ bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
 }
 
 /// Why what runs there cannot be shown on this net; empty: it can.
-std::string Run::refused(const json& snapshot) const {
-  if (snapshot.value("net_hash", "") == analysis_->net_hash) return {};
+std::string Run::refused(const project::Snapshot& snapshot) const {
+  if (snapshot.net_hash == analysis_->net_hash) return {};
   return fmt::format("the controller runs another net (of the system {}) than the specification here",
-                     snapshot.value("system", "?"));
+                     snapshot.system);
 }
 
 /// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
 /// names a file of another machine, where this one may have an old one.
-std::filesystem::path Run::readable(const json& snapshot) {
+std::filesystem::path Run::readable(const project::Snapshot& snapshot) {
   std::error_code missing;
-  const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);
+  const std::filesystem::path file = std::filesystem::canonical(snapshot.recording.value_or(""), missing);
   const std::filesystem::path folder = spec_.parent_path();
   const auto [end, ignored] = std::ranges::mismatch(folder, file);
   const bool within = !missing && end == folder.end();
-  return within && link_.is_process(snapshot.value("pid", std::int64_t{-1})) ? file : std::filesystem::path();
+  return within && link_.is_process(snapshot.process) ? file : std::filesystem::path();
 }
 
 void Run::attach() {
   if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
     return set_state(State::failed, "nobody listens at " + request_.socket);
-  std::optional<json> snapshot;
+  std::optional<project::Snapshot> snapshot;
   while (!snapshot && !stop_ && !link_.is_over()) {
     snapshot = link_.snapshot();
     if (!snapshot) Follower::rest();
@@ -319,10 +343,9 @@ json Run::info(bool all) const {
   return info;
 }
 
-std::string Run::control(json command) {
-  const std::string what = command.value("command", "");
+std::string Run::control(const RunControl& wanted) {
   if (over()) return "the run is over";
-  if (what == "stop") {
+  if (wanted.command == "stop") {
     stop_ = true;
     return {};
   }
@@ -330,13 +353,12 @@ std::string Run::control(json command) {
   if (is_building()) return "the controller is still being made";
   if (request_.kind == RunRequest::Kind::attach && !controllable_)
     return "this controller can only be watched: it runs in real time";
-  if (what == "breakpoints") {
-    const bool known = to_names(command["places"], analysis_->net->places()) &&
-                       to_names(command["transitions"], analysis_->net->transitions()) &&
-                       to_names(command["conditions"], analysis_->net->transitions());
-    if (!known) return "the net has no such place or transition";
-  }
-  return link_.command(std::move(command));
+  const bool of_breakpoints = wanted.command == "breakpoints";
+  const std::optional<project::ControlCommand> command =
+      of_breakpoints ? breakpoints_of(wanted, *analysis_->net) : plain_command_of(wanted);
+  if (!command)
+    return of_breakpoints ? "the net has no such place or transition" : "there is no such command";
+  return link_.command(*command);
 }
 
 }  // namespace tessera::server

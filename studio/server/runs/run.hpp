@@ -33,6 +33,14 @@ struct RunRequest {
   bool paused = false;
 };
 
+/// What is asked of a run that goes on; each command reads its own members.
+struct RunControl {
+  std::string command;
+  std::string subsystem;                                       ///< of step_iteration
+  std::optional<double> speed;                                 ///< of speed
+  std::vector<std::uint32_t> places, transitions, conditions;  ///< of breakpoints: indices of the net
+};
+
 /// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
 /// One that is attached to is only followed; it goes on when this ends.
 ///
@@ -51,7 +59,7 @@ class Run {
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
   /// What is wrong with it; empty: done.
-  [[nodiscard]] std::string control(nlohmann::json command);
+  [[nodiscard]] std::string control(const RunControl& wanted);
   void stop() { stop_ = true; }
 
  private:
@@ -61,10 +69,10 @@ class Run {
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
   void attach();
-  [[nodiscard]] std::string refused(const nlohmann::json& snapshot) const;
-  [[nodiscard]] std::filesystem::path readable(const nlohmann::json& snapshot);
+  [[nodiscard]] std::string refused(const project::Snapshot& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable(const project::Snapshot& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
-  [[nodiscard]] bool tell(Follower& follower, std::optional<nlohmann::json> snapshot, bool last);
+  [[nodiscard]] bool tell(Follower& follower, std::optional<project::Snapshot> snapshot, bool last);
   void set_state(State state, const std::string& why = {});
   void publish(const char* event, nlohmann::json data) const;
 

@@ -1,14 +1,4 @@
-import type {
-  Analysis,
-  ControlRequest,
-  Project,
-  Recording,
-  RecordingInfo,
-  RunInfo,
-  RunRequest,
-  SpecAnswer,
-  VerifyEvent,
-} from "./protocol";
+import type { ControlRequest, Requests, RunRequest } from "./protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -55,10 +45,30 @@ export function shareToken(token: string, taken: (token: string) => void): void 
   });
 }
 
+type Body<Name extends keyof Requests> = Requests[Name] extends { body: infer Given } ? Given : undefined;
+interface Details<Name extends keyof Requests> {
+  /** What stands for JOB, RUN or NAME in the address. */
+  of?: string;
+  query?: Requests[Name] extends { query?: infer Given } ? Given : undefined;
+  body?: Body<Name>;
+}
+
+/** Where a request goes: "/api/runs/7/control" of "POST /api/runs/RUN/control". */
+function addressOf(name: string, of: string, query: object): string {
+  const path = name.replace(/^[A-Z]+ /, "").replace(/(?<=\/)[A-Z]+(?=\/|$)/, encodeURIComponent(of));
+  const asked = new URLSearchParams(Object.entries(query)).toString();
+  return asked ? `${path}?${asked}` : path;
+}
+
 export class Api {
   constructor(public token: string) {}
 
-  private async ask<T>(method: string, path: string, body?: unknown): Promise<T> {
+  private async ask<Name extends keyof Requests>(
+    name: Name,
+    { of = "", query, body }: Details<Name> = {},
+  ): Promise<Requests[Name]["answer"]> {
+    const method = name.split(" ", 1)[0]!;
+    const path = addressOf(name, of, query ?? {});
     const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
     if (body !== undefined) headers["Content-Type"] = "application/json";
     let answer: Response;
@@ -80,42 +90,33 @@ export class Api {
         String(json.hint ?? ""),
         json,
       );
-    return json as T;
+    return json as unknown as Requests[Name]["answer"];
   }
 
-  project = () => this.ask<Project>("GET", "/api/project");
-  spec = () => this.ask<SpecAnswer>("GET", "/api/spec");
-  save = (text: string, revision: string) =>
-    this.ask<{ revision: string; analysis: Analysis }>("PUT", "/api/spec", { text, revision });
-  check = (text: string) => this.ask<Analysis>("POST", "/api/check", { text });
-  verify = (text: string, properties?: string[], timeout = "30s") =>
-    this.ask<{ job: string }>("POST", "/api/verify", { text, timeout, ...(properties ? { properties } : {}) });
-  verifyState = (job: string) => this.ask<VerifyEvent>("GET", `/api/verify/${encodeURIComponent(job)}`);
-  stopVerify = (job: string) => this.ask<object>("DELETE", `/api/verify/${encodeURIComponent(job)}`);
-  start = (request: RunRequest) => this.ask<{ run: string }>("POST", "/api/runs", request);
-  control = (run: string, request: ControlRequest) =>
-    this.ask<object>("POST", `/api/runs/${encodeURIComponent(run)}/control`, request);
-  runs = () =>
-    this.ask<RunInfo[] | { runs: RunInfo[] }>("GET", "/api/runs").then((answer) =>
-      Array.isArray(answer) ? answer : answer.runs,
-    );
+  project = () => this.ask("GET /api/project");
+  spec = () => this.ask("GET /api/spec");
+  save = (text: string, revision: string) => this.ask("PUT /api/spec", { body: { text, revision } });
+  check = (text: string) => this.ask("POST /api/check", { body: { text } });
+  verify = (text: string, timeout = "30s") => this.ask("POST /api/verify", { body: { text, timeout } });
+  verifyState = (job: string) => this.ask("GET /api/verify/JOB", { of: job });
+  stopVerify = (job: string) => this.ask("DELETE /api/verify/JOB", { of: job });
+  start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });
+  control = (run: string, request: ControlRequest) => this.ask("POST /api/runs/RUN/control", { of: run, body: request });
+  runs = () => this.ask("GET /api/runs");
   /** Sockets where controllers listen. */
-  controllers = () => this.ask<string[]>("GET", "/api/controllers");
-  run = (run: string) => this.ask<RunInfo>("GET", `/api/runs/${encodeURIComponent(run)}`);
-  recordings = () =>
-    this.ask<RecordingInfo[] | { recordings: RecordingInfo[] }>("GET", "/api/recordings").then((answer) =>
-      Array.isArray(answer) ? answer : answer.recordings,
-    );
+  controllers = () => this.ask("GET /api/controllers");
+  run = (run: string) => this.ask("GET /api/runs/RUN", { of: run });
+  recordings = () => this.ask("GET /api/recordings");
   /** As much of it as is sent at once; from a moment on. */
   recording = (name: string, from?: number) =>
-    this.ask<Recording>("GET", `/api/recordings/${encodeURIComponent(name)}${from === undefined ? "" : `?from=${from}`}`);
+    this.ask("GET /api/recordings/NAME", { of: name, query: from === undefined ? {} : { from: String(from) } });
   /** The floor with that name, or that of the specification; nothing when there is no picture of it. */
   async floor(chosen: string | null | undefined): Promise<Floor | null> {
     try {
       const own = (await this.project()).simulation?.track;
       const name = chosen || own?.image;
       if (!name) return null;
-      const answer = await fetch(`/api/tracks/${encodeURIComponent(name)}`, {
+      const answer = await fetch(addressOf("GET /api/tracks/NAME" satisfies keyof Requests, name, {}), {
         headers: { Authorization: `Bearer ${this.token}` },
       });
       if (!answer.ok) return null;
@@ -125,5 +126,5 @@ export class Api {
       return null;
     }
   }
-  eventsAddress = () => `/api/events?token=${encodeURIComponent(this.token)}`;
+  eventsAddress = () => addressOf("GET /api/events" satisfies keyof Requests, "", { token: this.token });
 }

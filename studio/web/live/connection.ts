@@ -1,4 +1,5 @@
 import { Api, ApiError } from "./api";
+import type { Events } from "./protocol";
 import { Store } from "./store";
 
 export interface ConnectionState {
@@ -7,19 +8,29 @@ export interface ConnectionState {
   attempt: number;
 }
 type Handler = (data: never) => void;
-const names = ["hello", "spec", "verify", "build", "log", "run", "firings", "values", "pose", "subsystems"] as const;
-export type EventName = (typeof names)[number];
+const listened: Record<keyof Events, true> = {
+  hello: true,
+  spec: true,
+  verify: true,
+  build: true,
+  log: true,
+  run: true,
+  firings: true,
+  values: true,
+  pose: true,
+  subsystems: true,
+};
 
 /** The event stream, opened again whenever it breaks. */
 export class Connection {
   readonly store = new Store<ConnectionState>({ state: "connecting", attempt: 0 });
-  private readonly handlers = new Map<EventName, Set<Handler>>();
+  private readonly handlers = new Map<string, Set<Handler>>();
   private source: EventSource | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly api: Api) {}
 
-  on<T>(name: EventName, handler: (data: T) => void): void {
+  on<Name extends keyof Events>(name: Name, handler: (data: Events[Name]) => void): void {
     const set = this.handlers.get(name) ?? new Set();
     set.add(handler as Handler);
     this.handlers.set(name, set);
@@ -39,7 +50,7 @@ export class Connection {
     this.source = source;
     source.onopen = () => this.store.set({ state: "open", attempt: 0 });
     source.onerror = () => void this.broken();
-    for (const name of names)
+    for (const name of Object.keys(listened))
       source.addEventListener(name, (event) => {
         const data = JSON.parse((event as MessageEvent<string>).data) as never;
         this.handlers.get(name)?.forEach((handler) => handler(data));

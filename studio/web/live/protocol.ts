@@ -1,165 +1,542 @@
-import type { NetJson } from "../model/net";
+// Made by scripts/protocol.mjs of share/tessera/studio.schema.json: change that, and run `npm run protocol`.
+import type { NetJson } from "../model/net_json";
 
-/** What server and page say to each other; docs/studio.md describes it. */
+/** Null: never; true: always. */
+export type ConditionShown = { name: string; text: string; line: number }[] | true | null;
+export type VerifyAnswer = VerifyRunning | VerifyEnd;
+export type VerdictName = "holds" | "violated" | "unknown";
+export type RunRequest = StartRequest | AttachRequest;
+export type RunState = "building" | "running" | "paused" | "ended" | "failed";
+export type RunKind = "simulate" | "run" | "attach";
+/** t, x, y, heading: nanoseconds of the run's clock; metres and radians in the floor picture. */
+export type PathRow = [number, number, number, number];
+/** A run pauses when a token comes to the place, the transition has fired, or its condition comes to hold. */
+export type Breakpoint = { place: number } | { transition: number } | { condition: number };
+/** Nanoseconds of the run's clock, and the transition. */
+export type FiringRow = [number, number];
+/** Nanoseconds of the run's clock, and the value. */
+export type Sample = [number, unknown];
+export type VerifyEvent = VerifyStarted | VerifyProgress | VerifyEnd;
 
-export interface Diagnostic {
-  severity: "error" | "warning" | "hint" | "note";
-  code: string;
-  message: string;
-  hint: string;
-  line: number;
-  column: number;
-  end_line: number;
-  end_column: number;
+/**
+ * What the server of `tessera studio` and its page say to each other (docs/studio.md).
+ * studio/web/scripts/protocol.mjs makes the types of the page from it; the tests of the server validate every
+ * answer and event.
+ */
+export interface StudioProtocol {
+  requests: Requests;
+  events: Events;
 }
-export interface Analysis {
-  diagnostics: Diagnostic[];
-  net: NetJson | null;
-  /** Names the net: runs and recordings say which they are of. */
-  net_hash?: string | null;
+/**
+ * What the page asks: by method and path, with JOB, RUN and NAME for one of them. A refusal (status 400 and
+ * above) is a Refusal.
+ */
+export interface Requests {
+  "GET /api/project": { status: 200; answer: Project };
+  "GET /api/spec": { status: 200; answer: SpecAnswer };
+  /** 409: Conflict. */
+  "PUT /api/spec": {
+    body: {
+      text: string;
+      /** Of the text that was changed. */
+      revision: string;
+    };
+    status: 200;
+    answer: Saved;
+  };
+  /** Saves nothing. */
+  "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
+  "POST /api/verify": {
+    body: VerifyRequest;
+    status: 202;
+    answer: {
+      /** Names the job. */
+      job: string;
+    };
+  };
+  "GET /api/verify/JOB": { status: 200; answer: VerifyAnswer };
+  "DELETE /api/verify/JOB": { status: 200; answer: Nothing };
+  "GET /api/controllers": {
+    status: 200;
+    /** Sockets on which a controller listens. */
+    answer: string[];
+  };
+  "POST /api/runs": {
+    body: RunRequest;
+    status: 202;
+    answer: {
+      /** Names the run. */
+      run: string;
+    };
+  };
+  "GET /api/runs": { status: 200; answer: RunListed[] };
+  "GET /api/runs/RUN": { status: 200; answer: RunInfo };
+  "POST /api/runs/RUN/control": { body: ControlRequest; status: 200; answer: Nothing };
+  "GET /api/recordings": {
+    status: 200;
+    /** The newest first. */
+    answer: RecordingInfo[];
+  };
+  "GET /api/recordings/NAME": {
+    query?: {
+      /** Nanoseconds of the run's clock. */
+      from?: string;
+      /** Nanoseconds of the run's clock. */
+      to?: string;
+    };
+    status: 200;
+    answer: Recording;
+  };
+  "GET /api/tracks/NAME": {
+    status: 200;
+    /** The PNG of a floor. */
+    answer: string;
+  };
+  "GET /api/events": {
+    query: { token: string };
+    status: 200;
+    /** Server-sent events: Events. */
+    answer: string;
+  };
 }
 export interface Project {
+  /** The system; the folder's name while the text has errors. */
   name: string;
   folder: string;
   file: string;
   version: string;
+  /** Another one after each start of the server. */
+  server_start: string;
+  examples_hint: string;
   worlds: { name: string; tracks: string[] }[];
-  simulation?: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
+  /** Null: the specification names no world. */
+  simulation: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
 }
 export interface SpecAnswer {
   text: string;
   revision: string;
+  /** Why the file cannot be read. */
+  error: string | null;
   analysis: Analysis;
+}
+export interface Analysis {
+  diagnostics: Diagnostic[];
+  structure: StructureShown | null;
+  /** Names the net: runs and recordings say which they are of. */
+  net_hash: string | null;
+  net: NetJson | null;
+}
+export interface Diagnostic {
+  severity: "error" | "warning" | "hint";
+  code: string;
+  message: string;
+  hint: string;
+  /** From 1. */
+  line: number;
+  /** In UTF-16 units, from 1. */
+  column: number;
+  end_line: number;
+  end_column: number;
+}
+/** What is known of a text, even with errors. */
+export interface StructureShown {
+  system: string;
+  agents: AgentShown[];
+  channels: ChannelShown[];
+}
+export interface AgentShown {
+  path: string;
+  name: string;
+  template: string | null;
+  line: number;
+  subsystems: (SubsystemShown | DeviceShown)[];
+}
+export interface SubsystemShown {
+  path: string;
+  name: string;
+  kind: "control" | "receptor" | "effector";
+  line: number;
+  /** Hz. */
+  rate: number | null;
+  start: string | null;
+  behaviours: BehaviourShown[];
+  inputs: BufferShown[];
+  outputs: BufferShown[];
+  memory: BufferShown[];
+}
+export interface BehaviourShown {
+  path: string;
+  name: string;
+  line: number;
+  terminal: ConditionShown;
+  error: ConditionShown;
+  next: {
+    to: string;
+    when: string | null;
+    line: number;
+    /** It is in the text. */
+    given: boolean;
+  }[];
+  sends: string[] | null;
+  receives: string[] | null;
+  transfer: "parallel" | "sequential";
+}
+export interface BufferShown {
+  path: string;
+  name: string;
+  type: string;
+  line: number;
+}
+/** A real receptor or effector. */
+export interface DeviceShown {
+  path: string;
+  name: string;
+  kind: "real_receptor" | "real_effector";
+  line: number;
+  /** Hz. */
+  rate: number | null;
+  start: string | null;
+  behaviours: BehaviourShown[];
+  inputs: BufferShown[];
+  outputs: BufferShown[];
+  /** The path of its virtual one. */
+  of: string;
+  type: string;
+  driver: string | null;
+}
+export interface ChannelShown {
+  id: number;
+  from: string;
+  to: string;
+  send: "blocking" | "non_blocking";
+  receive: "blocking" | "non_blocking";
+  model: string | null;
+  line: number;
+  /** Seconds. */
+  send_timeout: number | null;
+  /** Seconds. */
+  receive_timeout: number | null;
+}
+export interface Saved {
+  revision: string;
+  analysis: Analysis;
+}
+export interface VerifyRequest {
+  text: string;
+  /** Absent: all. */
+  properties?: string[];
+  /** 60s, 500ms or 2min; absent: 60s. */
+  timeout?: string;
+}
+export interface VerifyRunning {
+  /** Names the job. */
+  job: string;
+  state: "running";
+  result: null;
+}
+export interface VerifyEnd {
+  /** Names the job. */
+  job: string;
+  state: "done" | "stopped";
+  result: VerifyReport | VerifyProblem;
+}
+/** The output of `tessera verify --json`, with `steps` and `narrative`. */
+export interface VerifyReport {
+  net_hash: string;
+  verification_hash: string;
+  properties: Verdict[];
 }
 export interface Verdict {
   name: string;
-  verdict: "holds" | "violated" | "unknown";
-  asks?: string;
-  method?: string;
-  meaning?: string;
-  explanation?: string;
-  why?: string;
-  warning?: boolean;
-  states?: number;
-  seconds?: number;
-  trace?: { transition: string; line?: number }[] | null;
-  steps?: number[] | null;
-  waits?: string[];
-  narrative?: string;
+  asks: string;
+  verdict: VerdictName;
+  method: string;
+  why: string;
+  meaning: string;
+  explanation: string;
+  seconds: number;
+  /** Markings that were visited. */
+  states: number;
+  warning: boolean;
+  /** Who waits for what at the end of the run. */
+  waits: string[];
+  behaviours: { path: string; line: number }[];
+  /** The run that shows the verdict. */
+  trace: TracedFiring[] | null;
+  /** Transitions of the run; one beyond the net's says that no initial condition holds. */
+  steps: number[] | null;
+  /** The run in words. */
+  narrative: string | null;
 }
-export interface VerifyResult {
-  net_hash?: string;
-  properties?: Verdict[];
-  error?: string;
+export interface TracedFiring {
+  transition: string;
+  takes: string[];
+  gives: string[];
+  subsystem?: string;
+  page?: string;
+  line?: number;
 }
-export type VerifyState = "running" | "done" | "stopped" | "failed";
-export interface VerifyEvent {
-  job: string;
-  state: VerifyState;
-  property?: string;
-  states?: number;
-  rate?: number;
-  result?: VerifyResult;
-  error?: string;
+/** The verification itself failed. */
+export interface VerifyProblem {
+  error: string;
 }
-export type RunState = "building" | "running" | "paused" | "ended" | "failed";
-/** What a controller says at its end. */
-export interface Outcome {
-  simulated_s: number;
-  wall_s: number;
-  real_time_factor: number;
-  firings: number;
-  lost_events: number;
-  warnings: string[];
-  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+export interface Nothing {}
+export interface StartRequest {
+  kind: "simulate" | "run";
+  world?: string;
+  track?: string;
+  /** A duration: 60s. */
+  for?: string;
+  seed?: number;
+  /** Simulated seconds a second; 0: as fast as possible. */
+  speed?: number;
+  paused?: boolean;
+}
+export interface AttachRequest {
+  kind: "attach";
+  /** Of the controller to watch: one of `/api/controllers`. */
+  socket: string;
+}
+export interface RunListed {
+  /** Names the run. */
+  run: string;
+  state: RunState;
+  kind: RunKind;
+  /** Why it is in this state; may be empty. */
+  why: string;
+  net_hash: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
 }
 export interface RunInfo {
+  /** Names the run. */
   run: string;
-  kind?: RunRequest["kind"];
-  /** The floor picture, when it is another than that of the specification. */
-  track?: string | null;
   state: RunState;
-  why?: string;
-  outcome?: Outcome | null;
-  marking?: number[];
-  net_hash?: string;
-  t?: number;
-  /** All of them; the events tell what changed since. */
-  values?: Record<string, unknown>;
-  path?: PathRow[];
-}
-/** Nanoseconds of the run's clock; metres and radians in the floor picture. */
-export type PathRow = [t: number, x: number, y: number, heading: number];
-export type FiringRow = [time_ns: number, transition: number];
-export interface FiringsEvent {
-  run: string;
+  kind: RunKind;
+  /** Why it is in this state; may be empty. */
+  why: string;
+  net_hash: string;
+  /** Nanoseconds of the run's clock. */
   t: number;
-  dropped: number;
-  firings: FiringRow[];
-  /** Places that hold a token after the batch. */
-  marking?: number[];
+  /** Places that hold a token. */
+  marking: number[];
+  values: Values;
+  pose: Pose | null;
+  /** At most 5000 rows. */
+  path: PathRow[];
+  subsystems: SubsystemsSeen | null;
+  /** By property; null: somebody else made the controller, or it is not made yet. */
+  verdicts: { [k: string]: VerdictName } | null;
+  outcome: Outcome | null;
+  /** The floor picture that the run was started with; null: that of the specification. */
+  track: string | null;
 }
-export interface ValuesEvent {
-  run: string;
-  t: number;
-  /** Of the buffers that changed since the last event. */
-  values: Record<string, unknown>;
+/** Values of buffers by path. */
+export interface Values {
+  /** A number, bool, text, list or object. */
+  [k: string]: unknown;
 }
-/** What a controller says of itself; all there is of one whose recording cannot be read from here. */
-export interface SubsystemsEvent {
-  run: string;
-  t: number;
-  subsystems: { path: string; behaviour: string; firings: number }[];
-}
-export interface PoseEvent {
-  run: string;
+/** Metres and radians in the floor picture. */
+export interface Pose {
+  /** Nanoseconds of the run's clock. */
   t: number;
   x: number;
   y: number;
   heading: number;
 }
-export interface RecordingInfo {
+export interface SubsystemsSeen {
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  subsystems: Subsystem[];
+  channels: Channel[];
+}
+/** What a subsystem does now, and did so far. */
+export interface Subsystem {
+  path: string;
+  /** The one that runs, or ran last; null: no transition function was called yet. */
+  behaviour: string | null;
+  /** A transition function is being executed. */
+  calling: boolean;
+  ended: boolean;
+  iterations: number;
+  firings: number;
+  overruns: number;
+  errors: number;
+  /** 0: it has none. */
+  period_s: number;
+  /** When the last transition function was called; negative: not yet. */
+  called_at_s: number;
+  /** What the last call took. */
+  call_s: number;
+  longest_call_s: number;
+}
+export interface Channel {
   name: string;
-  bytes: number;
-  modified: number | string;
-  system?: string;
-  duration?: number;
+  /** Its places that hold a token; none: one side writes or reads its memory. */
+  marked: string[];
 }
-export interface Recording {
-  net_hash?: string;
-  subsystems?: string[];
-  firings: FiringRow[];
-  values?: Record<string, [number, unknown][]>;
-  /** Its end is missing: the controller was killed, or is still running. */
-  cut?: boolean;
-  /** Firings that are not in this part, but after it. */
-  dropped?: number;
-  /** Of all firings of the recording: times of the first and the last one, and their number. */
-  first?: number | null;
-  last?: number | null;
-  total?: number;
-  /** Places that hold a token before the first firing, when that is not the run's first; none: it is not known which. */
-  marking?: number[] | null;
-  path?: PathRow[];
-  /** The floor picture, when it is another than that of the specification. */
-  track?: string | null;
-}
-export interface RunRequest {
-  kind: "simulate" | "run" | "attach";
-  /** Of the controller to watch, when one is attached to. */
-  socket?: string;
-  world?: string;
+/** What a controller says at its end: its summary.json. */
+export interface Outcome {
+  simulated_s: number;
+  wall_s: number;
+  real_time_factor: number;
+  firings: number;
+  /** Why. */
+  ended: string;
+  failed: boolean;
+  signal: number;
+  recording: string;
+  /** Missing from the recording. */
+  lost_events: number;
+  lines_not_printed: number;
+  warnings: string[];
+  world_s?: number;
   track?: string;
-  for?: string;
-  seed?: number;
-  speed?: number;
-  paused?: boolean;
+  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
 }
 export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";
+  /** Of `speed`. */
   value?: number;
+  /** Of `step_iteration`: its path; absent: any. */
   subsystem?: string;
+  /** Instead of those before. */
   breakpoints?: Breakpoint[];
 }
-/** A run pauses when a token comes to the place, the transition has fired, or its condition comes to hold. */
-export type Breakpoint = { place: number } | { transition: number } | { condition: number };
+export interface RecordingInfo {
+  name: string;
+  bytes: number;
+  /** Milliseconds since 1970. */
+  modified: number;
+  system: string;
+  net_hash: string;
+  clock: string;
+  /** Seconds. */
+  duration: number;
+}
+export interface Recording {
+  net_hash: string;
+  system: string;
+  subsystems: string[];
+  /** Places that hold a token before the first firing; null: those of the net; none: nobody knows. */
+  marking: number[] | null;
+  firings: FiringRow[];
+  /** Firings that are not in this part, but after it. */
+  dropped: number;
+  /** By path of the scalar. */
+  values: { [k: string]: Sample[] };
+  path: PathRow[];
+  /** The floor picture; null: none, or nobody knows. */
+  track: string | null;
+  /** Its end is missing: the controller was killed, or still runs. */
+  cut: boolean;
+  /** Something of it is not in this answer. */
+  truncated: boolean;
+  /** Time of the first firing of the whole recording. */
+  first: number | null;
+  last: number | null;
+  /** Firings of the whole recording. */
+  total: number;
+}
+/** What the server tells, by the name of the event. */
+export interface Events {
+  hello: Hello;
+  spec: SpecEvent;
+  verify: VerifyEvent;
+  build: LineEvent;
+  log: LineEvent;
+  run: RunEvent;
+  firings: FiringsEvent;
+  subsystems: SubsystemsEvent;
+  values: ValuesEvent;
+  pose: PoseEvent;
+}
+export interface Hello {
+  /** Another one: the server was restarted. */
+  server_start: string;
+}
+/** The file changed on disk. */
+export interface SpecEvent {
+  revision: string;
+}
+export interface VerifyStarted {
+  /** Names the job. */
+  job: string;
+  state: "running";
+}
+export interface VerifyProgress {
+  /** Names the job. */
+  job: string;
+  state: "running";
+  property: string;
+  /** Markings visited so far. */
+  states: number;
+  /** Markings a second. */
+  rate: number;
+}
+/** Output of the build, or of the controller. */
+export interface LineEvent {
+  /** Names the run. */
+  run: string;
+  line: string;
+}
+export interface RunEvent {
+  /** Names the run. */
+  run: string;
+  state: RunState;
+  why: string;
+  outcome: Outcome | null;
+  /** Places that hold a token. */
+  marking: number[];
+}
+export interface FiringsEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  /** So many fired before those that are told. */
+  dropped: number;
+  firings: FiringRow[];
+  /** Places that hold a token after the batch. */
+  marking?: number[];
+}
+/** What a controller says of itself. */
+export interface SubsystemsEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  subsystems: Subsystem[];
+  channels: Channel[];
+}
+/** Of the buffers that changed since the last such event. */
+export interface ValuesEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  values: Values;
+}
+export interface PoseEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  x: number;
+  y: number;
+  heading: number;
+}
+/** The answer of any request that is refused: status 400 and above. */
+export interface Refusal {
+  error: string;
+  /** What could be done; may be empty. */
+  hint: string;
+}
+/** 409 of `PUT /api/spec`: the file was changed by somebody else. */
+export interface Conflict {
+  /** The file on disk. */
+  text: string;
+  revision: string;
+  error: string;
+  hint: string;
+}

@@ -55,10 +55,10 @@ export class Replay {
     private readonly source: Source = () => Promise.resolve(null),
     private readonly onPart: () => void = () => undefined,
   ) {
-    this.first = recording.first ?? recording.firings[0]?.[0] ?? 0;
-    this.last = recording.last ?? recording.firings.at(-1)?.[0] ?? this.first;
-    this.cut = recording.cut ?? false;
-    this.path = recording.path ?? [];
+    this.first = recording.first ?? 0;
+    this.last = recording.last ?? this.first;
+    this.cut = recording.cut;
+    this.path = recording.path;
     this.take(recording, this.first);
     this.store = new Store<ReplayState>({ time: this.first, playing: false, speed: 1, loading: false });
     this.seek(this.first);
@@ -119,9 +119,9 @@ export class Replay {
     const track = new Track(this.net, true);
     if (recording.marking) track.timeline.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
     for (const [time, transition] of recording.firings) track.timeline.add(time, transition);
-    track.firings = recording.total ?? recording.firings.length;
+    track.firings = recording.total;
     track.known = this.end;
-    for (const [path, samples] of Object.entries(recording.values ?? {}))
+    for (const [path, samples] of Object.entries(recording.values))
       for (const [time, value] of samples) track.series.add(time, path, value);
     track.pathUpTo(this.path);
     return track;

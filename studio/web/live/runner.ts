@@ -10,7 +10,9 @@ import type {
   FiringsEvent,
   Outcome,
   PoseEvent,
+  RunEvent,
   RunInfo,
+  RunKind,
   RunRequest,
   RunState,
   SubsystemsEvent,
@@ -22,7 +24,7 @@ import { Track } from "./track";
 
 /** The next run as its form has it. */
 export interface Wishes {
-  kind: RunRequest["kind"];
+  kind: RunKind;
   /** Empty: that of the specification. */
   track: string;
   time: string;
@@ -33,7 +35,7 @@ export interface Wishes {
 export interface RunnerState {
   run: string | null;
   state: RunState | "idle";
-  kind: RunRequest["kind"];
+  kind: RunKind;
   why: string;
   outcome: Outcome | null;
   build: readonly string[];
@@ -83,13 +85,12 @@ export class Runner {
     private readonly draft: Draft,
     connection: Connection,
   ) {
-    for (const name of ["build", "log"] as const)
-      connection.on<{ run: string; line: string }>(name, (event) => this.mine(event) && this.said(event.line));
-    connection.on<RunInfo>("run", (event) => this.mine(event) && this.told(event));
-    connection.on<FiringsEvent>("firings", (event) => this.mine(event) && this.fired(event));
-    connection.on<ValuesEvent>("values", (event) => this.mine(event) && this.valued(event));
-    connection.on<PoseEvent>("pose", (event) => this.mine(event) && this.posed(event));
-    connection.on<SubsystemsEvent>("subsystems", (event) => this.mine(event) && this.reported(event));
+    for (const name of ["build", "log"] as const) connection.on(name, (event) => this.mine(event) && this.said(event.line));
+    connection.on("run", (event) => this.mine(event) && this.told(event));
+    connection.on("firings", (event) => this.mine(event) && this.fired(event));
+    connection.on("values", (event) => this.mine(event) && this.valued(event));
+    connection.on("pose", (event) => this.mine(event) && this.posed(event));
+    connection.on("subsystems", (event) => this.mine(event) && this.reported(event));
     connection.on("hello", () => void this.attach());
   }
 
@@ -107,9 +108,9 @@ export class Runner {
       breakpoints: this.store.get().breakpoints,
       state: "building",
       kind: request.kind,
-      speed: request.speed ?? 1,
+      speed: request.kind === "attach" ? 1 : (request.speed ?? 1),
     });
-    this.watch(net, request.track);
+    this.watch(net, request.kind === "attach" ? null : request.track);
     try {
       const { run } = await this.api.start(request);
       this.store.set({ run });
@@ -129,15 +130,16 @@ export class Runner {
         if (this.active) this.store.set({ state: "ended", why: "the server was restarted" });
         return;
       }
+      const info = await this.api.run(going.run);
       if (going.run !== this.store.get().run && net) {
-        if (!net.isNamed(going.net_hash)) {
+        if (!net.isNamed(info.net_hash)) {
           this.store.set({ problem: "A run of another version of the specification goes on; this drawing cannot show it." });
           return;
         }
-        this.store.set({ ...idle, run: going.run, state: going.state, kind: going.kind ?? "simulate" });
-        this.watch(net, going.track);
+        this.store.set({ ...idle, run: info.run, state: info.state, kind: info.kind });
+        this.watch(net, info.track);
       }
-      this.told({ ...(await this.api.run(going.run)), run: going.run });
+      this.told(info);
     } catch (error) {
       this.store.set({ problem: message(error) });
     }
@@ -156,19 +158,17 @@ export class Runner {
     this.store.set({ shown: shown && this.track !== null });
   }
 
-  private told(info: Partial<RunInfo>): void {
-    if (!info.state) return;
-    this.store.set({
-      state: info.state,
-      why: info.why ?? "",
-      outcome: info.outcome ?? null,
-    });
-    if (info.marking && this.track) this.stage.setMarked(info.marking);
-    if (info.values) this.valued({ t: info.t ?? 0, values: info.values });
-    if (info.path) this.track?.pathUpTo(info.path);
-    else if (info.state === "ended" || info.state === "paused") void this.seePath();
+  /** By an event, or by all that is known of the run. */
+  private told(info: RunEvent | RunInfo): void {
+    const { state, why, outcome, marking } = info;
+    this.store.set({ state, why, outcome });
+    if (this.track) this.stage.setMarked(marking);
+    if ("values" in info) {
+      this.valued(info);
+      this.track?.pathUpTo(info.path);
+    } else if (state === "ended" || state === "paused") void this.seePath();
     const { breakpoints } = this.store.get();
-    if (info.state === "running" && breakpoints.length > 0)
+    if (state === "running" && breakpoints.length > 0)
       void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
   }
 
@@ -178,13 +178,13 @@ export class Runner {
     const { run } = this.store.get();
     if (!track || run === null || track.path.length === 0) return;
     try {
-      track.pathUpTo((await this.api.run(run)).path ?? []);
+      track.pathUpTo((await this.api.run(run)).path);
     } catch {
       // It stays as it was seen.
     }
   }
 
-  private fired({ t, firings, dropped, marking }: Omit<FiringsEvent, "run">): void {
+  private fired({ t, firings, dropped, marking }: FiringsEvent): void {
     const { track, stage } = this;
     if (!track) return;
     track.reached(t);
@@ -201,7 +201,7 @@ export class Runner {
     track.timeline.tell(t, runningBehaviours(track.net, stage.marking));
   }
 
-  private valued({ t, values }: Omit<ValuesEvent, "run">): void {
+  private valued({ t, values }: ValuesEvent | RunInfo): void {
     const { track } = this;
     track?.reached(t);
     // What was asked for may be older than what was told since.
@@ -220,7 +220,7 @@ export class Runner {
 
   private reported({ t, subsystems }: SubsystemsEvent): void {
     this.track?.reached(t);
-    const behaviours = new Map(subsystems.map(({ path, behaviour }) => [path, behaviour]));
+    const behaviours = new Map(subsystems.flatMap(({ path, behaviour }) => (behaviour === null ? [] : [[path, behaviour]])));
     const known = this.store.get().behaviours;
     if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
       this.store.set({ behaviours });

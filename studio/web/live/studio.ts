@@ -78,11 +78,11 @@ export class Studio {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
-    this.connection.on<{ revision: string }>("spec", (event) => {
+    this.connection.on("spec", (event) => {
       void this.draft.changedOnDisk(event.revision);
       void this.describeProject();
     });
-    this.connection.on<{ server_start: string | number }>("hello", (event) => void this.greeted(String(event.server_start)));
+    this.connection.on("hello", (event) => void this.greeted(event.server_start));
   }
 
   async open(): Promise<void> {

@@ -2,7 +2,7 @@ import type { NetModel } from "../model/net";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
-import type { Verdict, VerifyEvent } from "./protocol";
+import type { Verdict, VerifyAnswer, VerifyEvent } from "./protocol";
 import { Store } from "./store";
 
 export interface VerifierState {
@@ -36,7 +36,7 @@ export class Verifier {
     private readonly draft: Draft,
     connection: Connection,
   ) {
-    connection.on<VerifyEvent>("verify", (event) => this.told(event));
+    connection.on("verify", (event) => this.told(event));
     // A stream that broke may have swallowed the end of a job.
     connection.on("hello", () => void this.ask());
   }
@@ -60,50 +60,34 @@ export class Verifier {
   private async ask(): Promise<void> {
     if (this.job === null || this.store.get().state !== "running") return;
     try {
-      this.told({ ...(await this.api.verifyState(this.job)), job: this.job });
+      this.told(await this.api.verifyState(this.job));
     } catch (error) {
       this.store.set({ state: "failed", problem: message(error) });
     }
   }
 
-  private told(event: VerifyEvent): void {
+  private told(event: VerifyEvent | VerifyAnswer): void {
     if (event.job !== this.job || this.store.get().state !== "running") return;
-    const { property, states, rate } = this.store.get();
-    this.store.set({
-      state: event.state,
-      property: event.property ?? property,
-      states: event.states ?? states,
-      rate: event.rate ?? rate,
-      verdicts: event.result?.properties ?? [],
-      problem: event.error ?? event.result?.error ?? "",
-    });
-    if (event.state === "done" && !event.result) void this.fetchResult();
-  }
-
-  private async fetchResult(): Promise<void> {
-    try {
-      const { result } = await this.api.verifyState(this.job!);
-      if (result) this.store.set({ verdicts: result.properties ?? [], problem: result.error ?? "" });
-    } catch (error) {
-      this.store.set({ state: "failed", problem: message(error) });
+    if (event.state === "running") {
+      if ("property" in event) this.store.set({ property: event.property, states: event.states, rate: event.rate });
+      return;
     }
+    const { state, result } = event;
+    if ("error" in result) this.store.set({ state, problem: result.error });
+    else this.store.set({ state, verdicts: result.properties });
   }
 }
 
 /** The subsystems that wait for ever in some violation, by path: what the drawing marks. */
 export function stuck(verdicts: readonly Verdict[]): string[] {
-  const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits ?? []);
+  const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits);
   return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];
 }
 
-/** The firings of a violation as transitions of the net; null when there is none, or it is not of this net. */
-export function stepsOf(verdict: Verdict, net: NetModel): number[] | null {
-  if (verdict.steps && verdict.steps.length > 0) {
-    // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
-    const end = verdict.steps.findIndex((step) => step >= net.transitions.length);
-    return end < 0 ? verdict.steps : verdict.steps.slice(0, end);
-  }
-  if (!verdict.trace || verdict.trace.length === 0) return null;
-  const steps = verdict.trace.map((step) => net.transitionByName.get(step.transition) ?? -1);
-  return steps.includes(-1) ? null : steps;
+/** The firings of a violation as transitions of the net; null when there is none. */
+export function stepsOf({ steps }: Verdict, net: NetModel): number[] | null {
+  if (!steps || steps.length === 0) return null;
+  // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
+  const end = steps.findIndex((step) => step >= net.transitions.length);
+  return end < 0 ? steps : steps.slice(0, end);
 }

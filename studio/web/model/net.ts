@@ -1,77 +1,9 @@
 /** The hierarchical net as `tessera show --json` writes it, and an index over it. No React here. */
 
-export type Layer = "system" | "agent" | "subsystem" | "behaviour" | "communication";
+import type { FlatPlace, FlatTransition, NetJson, Page, PageNode, Span } from "./net_json";
 
-export interface Span {
-  line: number;
-  column: number;
-  length: number;
-}
-export interface Operation {
-  kind: "transition_function" | "next_iteration" | "write" | "read";
-  subject: number | null;
-}
-export interface Condition {
-  kind: "go_on" | "terminal" | "error" | "next" | "elapsed";
-  truth: "free" | "always" | "never";
-  subject: number | null;
-  text: string;
-}
-export interface PageNode {
-  name: string;
-  page: number | null;
-  fusion: number | null;
-  tokens: number;
-  operation: Operation | null;
-}
-export interface PageTransition {
-  name: string;
-  inputs: number[];
-  outputs: number[];
-  condition: Condition | null;
-  span: Span;
-}
-export interface Page {
-  path: string;
-  name: string;
-  layer: Layer;
-  parent: number | null;
-  subsystem: number | null;
-  input: number;
-  output: number;
-  span: Span;
-  nodes: PageNode[];
-  transitions: PageTransition[];
-}
-export interface FlatArc {
-  place: number;
-  weight: number;
-}
-export interface FlatPlace {
-  name: string;
-  tokens: number;
-  operation: Operation | null;
-  layer: Layer;
-  page: number | null;
-  subsystem: number | null;
-  channel: number | null;
-  span: Span;
-}
-export interface FlatTransition {
-  name: string;
-  inputs: FlatArc[];
-  outputs: FlatArc[];
-  condition: Condition | null;
-  layer: Layer;
-  page: number | null;
-  subsystem: number | null;
-  span: Span;
-}
-export interface NetJson {
-  pages: Page[];
-  fusions: { name: string; tokens: number; channel: number | null; span: Span }[];
-  flat: { places: FlatPlace[]; transitions: FlatTransition[] };
-}
+export type { Condition, FlatArc, FlatPlace, FlatTransition, Layer, NetJson, Operation, Page, PageNode, Span } from "./net_json";
+export type { PageTransition } from "./net_json";
 
 /** One thing that can be looked for, selected and flown to. */
 export interface Element {

@@ -41,9 +41,6 @@ export function RecordingsPanel() {
 
 function factsOf({ bytes, modified, duration }: RecordingInfo): string {
   const size = bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
-  const date = new Date(typeof modified === "number" && modified < 1e11 ? modified * 1000 : modified);
-  const when = Number.isNaN(date.getTime()) ? "" : date.toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short" });
-  const seconds =
-    duration === undefined || duration === null ? "" : `${(duration > 1e7 ? duration / 1e9 : duration).toFixed(1)} s`;
-  return [seconds, size, when].filter(Boolean).join(" · ");
+  const when = new Date(modified).toLocaleString("en-GB", { dateStyle: "medium", timeStyle: "short" });
+  return [`${duration.toFixed(1)} s`, size, when].join(" · ");
 }

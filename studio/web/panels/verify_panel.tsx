@@ -72,7 +72,7 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
   const steps = net && stepsOf(verdict, net);
   const show = () => {
     if (!net || !steps) return;
-    studio.play.trace(net, steps, verdict.name, verdict.waits ?? []);
+    studio.play.trace(net, steps, verdict.name, verdict.waits);
     studio.view.set({ view: "net", panel: "play" });
   };
   const onlyWarns = verdict.verdict === "violated" && verdict.warning;
@@ -88,7 +88,7 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
       </summary>
       <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
       {verdict.why && <p>{sentence(verdict.why)}</p>}
-      {(verdict.waits ?? []).map((wait) => (
+      {verdict.waits.map((wait) => (
         <p key={wait}>{sentence(wait)}</p>
       ))}
       <p>

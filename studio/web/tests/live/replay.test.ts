@@ -1,6 +1,7 @@
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import { Replay } from "../../live/replay";
 import { lineFollower } from "../model/line_follower";
+import { recordingOf } from "./recording";
 
 const net = lineFollower();
 const named = (name: string) => net.transitionByName.get(name)!;
@@ -10,17 +11,21 @@ beforeAll(() => vi.stubGlobal("requestAnimationFrame", () => 1));
 
 describe("Replay", () => {
   it("shows what was driven up to its moment, also after a jump back", () => {
-    const replay = new Replay("x", net, {
-      firings: [
-        [10, named("t_in")],
-        [40, named("robot.t_in")],
-      ],
-      path: [
-        [0, 0, 0, 0],
-        [20, 1, 0, 0],
-        [40, 2, 0, 0],
-      ],
-    });
+    const replay = new Replay(
+      "x",
+      net,
+      recordingOf({
+        firings: [
+          [10, named("t_in")],
+          [40, named("robot.t_in")],
+        ],
+        path: [
+          [0, 0, 0, 0],
+          [20, 1, 0, 0],
+          [40, 2, 0, 0],
+        ],
+      }),
+    );
     expect(replay.track.driven).toBe(1);
     replay.seek(40);
     expect(replay.track.driven).toBe(3);
@@ -31,7 +36,7 @@ describe("Replay", () => {
   });
   it("begins with the marking that a later segment begins with", () => {
     const marking = [net.placeByName.get("robot.in")!];
-    const replay = new Replay("x", net, { firings: [[50, named("robot.t_in")]], marking });
+    const replay = new Replay("x", net, recordingOf({ firings: [[50, named("robot.t_in")]], marking }));
     expect(held(replay)).not.toContain("robot.in");
     expect(held(replay)).toContain("robot.control.in");
   });
@@ -40,7 +45,7 @@ describe("Replay", () => {
       [50, named("robot.t_in")],
       [60, named("robot.control.t_in")],
     ];
-    const replay = new Replay("x", net, { firings, marking: [] });
+    const replay = new Replay("x", net, recordingOf({ firings, marking: [] }));
     expect(held(replay)).toContain("robot.control.in");
     replay.seek(60);
     expect(held(replay)).toContain("robot.control.init.in");
@@ -61,10 +66,16 @@ describe("Replay", () => {
       const marking =
         from > 40 ? [net.placeByName.get("robot.control.in")!] : from > 10 ? [net.placeByName.get("robot.in")!] : null;
       const dropped = all.filter(([time]) => time >= from).length - firings.length;
-      return Promise.resolve({ ...ends, firings, marking, dropped });
+      return Promise.resolve(recordingOf({ ...ends, firings, marking, dropped }));
     };
     let parts = 0;
-    const replay = new Replay("x", net, { ...ends, firings: all.slice(0, 2), dropped: 2 }, source, () => (parts += 1));
+    const replay = new Replay(
+      "x",
+      net,
+      recordingOf({ ...ends, firings: all.slice(0, 2), dropped: 2 }),
+      source,
+      () => (parts += 1),
+    );
     const loaded = async () => {
       while (replay.store.get().loading) await Promise.resolve();
     };
@@ -82,13 +93,17 @@ describe("Replay", () => {
     expect(held(replay)).toContain("robot.in");
   });
   it("steps over what fired at the same moment", () => {
-    const replay = new Replay("x", net, {
-      firings: [
-        [10, named("t_in")],
-        [40, named("robot.t_in")],
-        [40, named("robot.control.t_in")],
-      ],
-    });
+    const replay = new Replay(
+      "x",
+      net,
+      recordingOf({
+        firings: [
+          [10, named("t_in")],
+          [40, named("robot.t_in")],
+          [40, named("robot.control.t_in")],
+        ],
+      }),
+    );
     replay.step(1);
     expect(replay.track.now).toBe(40);
     replay.step(-1);

@@ -2,6 +2,7 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Api } from "../../live/api";
 import type { Connection } from "../../live/connection";
 import type { Draft } from "../../live/draft";
+import type { RunInfo } from "../../live/protocol";
 import { Runner } from "../../live/runner";
 import { lineFollower } from "../model/line_follower";
 
@@ -17,15 +18,24 @@ beforeEach(() => {
 async function watching() {
   const heard = new Map<string, (data: object) => void>();
   const connection = { on: (name: string, handler: (data: object) => void) => void heard.set(name, handler) };
-  const info = {
+  const info: RunInfo = {
     run: "1",
     state: "running",
+    kind: "simulate",
+    why: "",
+    net_hash: "",
     t: 5,
+    marking: [],
     values: { "robot.control.motion": { linear: 1, angular: 2 } },
+    pose: null,
     path: [
       [0, 0, 0, 0],
       [4, 1, 0, 0],
     ],
+    subsystems: null,
+    verdicts: null,
+    outcome: null,
+    track: null,
   };
   const api = { start: async () => ({ run: "1" }), run: async () => info, floor: async () => null };
   const draft = { store: { get: () => ({ net }) } };

@@ -8,6 +8,7 @@ import { Stage } from "../../live/stage";
 import { Store } from "../../live/store";
 import { Track } from "../../live/track";
 import { lineFollower } from "../model/line_follower";
+import { recordingOf } from "./recording";
 
 const net = lineFollower();
 const named = (name: string) => net.transitionByName.get(name)!;
@@ -59,7 +60,7 @@ function studio() {
   const ids = () => scene.store.get().panes.map(({ id }) => id);
   return { desk, live, runner, scene, ids, open };
 }
-const replayOf = (follow: number) => new Replay("x", net, { firings: run(follow) });
+const replayOf = (follow: number) => new Replay("x", net, recordingOf({ firings: run(follow) }));
 
 describe("Scene", () => {
   it("shows the run left and a recording right, never more than two, and a game alone", () => {
@@ -123,7 +124,7 @@ describe("Scene", () => {
   it("compares a long recording only where its part is here, and nothing while a part is on its way", () => {
     const { scene, open } = studio();
     const ends = { first: 0, last: 9 * second, total: 4 };
-    const long = new Replay("long", net, { ...ends, firings: run(3).slice(0, 3), dropped: 1 });
+    const long = new Replay("long", net, recordingOf({ ...ends, firings: run(3).slice(0, 3), dropped: 1 }));
     const right = replayOf(4);
     open(long, right);
     right.seek(2 * second);

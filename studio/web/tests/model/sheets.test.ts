@@ -28,10 +28,13 @@ function manyAgents(count: number): NetJson {
     ],
   });
   const names = Array.from({ length: count }, (_, at) => `robot[${at}]`);
+  const nothing = { places: 0, transitions: 0, pages: 0 };
+  const layers = { system: nothing, agent: nothing, subsystem: nothing, behaviour: nothing, communication: nothing };
   return {
     pages: [page("", null, names), ...names.map((name) => page(name, 0, []))],
     fusions: [],
     flat: { places: [], transitions: [] },
+    counts: { flat: { places: 0, fused: 0, transitions: 0, arcs: 0 }, layers },
   };
 }
 

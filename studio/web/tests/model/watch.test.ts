@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import type { Verdict } from "../../live/protocol";
 import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
@@ -128,15 +129,32 @@ describe("flagsOf", () => {
   });
 });
 
+const verdictOf = (known: Partial<Verdict>): Verdict => ({
+  name: "x",
+  asks: "",
+  verdict: "violated",
+  method: "search",
+  why: "",
+  meaning: "",
+  explanation: "",
+  seconds: 0,
+  states: 0,
+  warning: false,
+  waits: [],
+  behaviours: [],
+  trace: null,
+  steps: null,
+  narrative: null,
+  ...known,
+});
+
 describe("stepsOf", () => {
   it("leaves out the step that stands for no net's transition", () => {
-    const verdict = { name: "x", verdict: "violated" as const, steps: [0, 2, net.transitions.length] };
-    expect(stepsOf(verdict, net)).toEqual([0, 2]);
+    expect(stepsOf(verdictOf({ steps: [0, 2, net.transitions.length] }), net)).toEqual([0, 2]);
   });
-  it("goes by names where there are no numbers, and not at all for another net", () => {
-    expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "t_in" }] }, net)).toEqual([named("t_in")]);
-    expect(stepsOf({ name: "x", verdict: "violated", trace: [{ transition: "other" }] }, net)).toBeNull();
-    expect(stepsOf({ name: "x", verdict: "violated", trace: null }, net)).toBeNull();
+  it("has none of a verdict without a run", () => {
+    expect(stepsOf(verdictOf({}), net)).toBeNull();
+    expect(stepsOf(verdictOf({ steps: [] }), net)).toBeNull();
   });
 });
 
@@ -144,9 +162,9 @@ describe("stuck", () => {
   it("names who waits in a violation, once", () => {
     const waits = ["a.control waits for the acknowledgement of x from b", "b waits for y"];
     const verdicts = [
-      { name: "p", verdict: "violated" as const, waits },
-      { name: "q", verdict: "violated" as const, waits: waits.slice(0, 1) },
-      { name: "r", verdict: "holds" as const, waits: ["c waits for z"] },
+      verdictOf({ waits }),
+      verdictOf({ waits: waits.slice(0, 1) }),
+      verdictOf({ verdict: "holds", waits: ["c waits for z"] }),
     ];
     expect(stuck(verdicts)).toEqual(["a.control", "b"]);
   });

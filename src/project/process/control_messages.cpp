@@ -1,0 +1,164 @@
+#include "project/process/control_messages.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tessera::project {
+
+namespace {
+
+using nlohmann::json;
+
+/// Throws json::exception if the member is of another type.
+template <class Value>
+void read_member(const json& object, const char* name, Value& value) {
+  if (const auto found = object.find(name); found != object.end()) found->get_to(value);
+}
+
+/// As above; null is as good as missing.
+template <class Value>
+void read_member(const json& object, const char* name, std::optional<Value>& value) {
+  const auto found = object.find(name);
+  if (found != object.end() && !found->is_null()) value = found->template get<Value>();
+}
+
+Snapshot::Subsystem read_subsystem(const json& object) {
+  Snapshot::Subsystem one;
+  read_member(object, "path", one.path);
+  read_member(object, "behaviour", one.behaviour);
+  read_member(object, "calling", one.calling);
+  read_member(object, "ended", one.ended);
+  read_member(object, "iterations", one.iterations);
+  read_member(object, "firings", one.firings);
+  read_member(object, "overruns", one.overruns);
+  read_member(object, "errors", one.errors);
+  read_member(object, "period_s", one.period_s);
+  read_member(object, "called_at_s", one.called_at_s);
+  read_member(object, "call_s", one.call_s);
+  read_member(object, "longest_call_s", one.longest_call_s);
+  return one;
+}
+
+Snapshot::Channel read_channel(const json& object) {
+  Snapshot::Channel one;
+  read_member(object, "name", one.name);
+  read_member(object, "marked", one.marked);
+  return one;
+}
+
+Snapshot::Control read_control(const json& object) {
+  Snapshot::Control control;
+  read_member(object, "paused", control.paused);
+  read_member(object, "pauses", control.pauses);
+  read_member(object, "speed", control.speed);
+  read_member(object, "broke_at", control.broke_at);
+  return control;
+}
+
+/// Throws json::exception if it is none.
+const json& an_object(const json& value) {
+  static_cast<void>(value.get_ref<const json::object_t&>());
+  return value;
+}
+
+Snapshot read_snapshot(const json& object) {
+  Snapshot snapshot;
+  read_member(object, "system", snapshot.system);
+  read_member(object, "net_hash", snapshot.net_hash);
+  read_member(object, "pid", snapshot.process);
+  read_member(object, "time_s", snapshot.time_s);
+  read_member(object, "recording", snapshot.recording);
+  read_member(object, "emergency", snapshot.emergency);
+  for (const json& one : object.value("subsystems", json::array()))
+    snapshot.subsystems.push_back(read_subsystem(an_object(one)));
+  for (const json& one : object.value("channels", json::array()))
+    snapshot.channels.push_back(read_channel(an_object(one)));
+  if (object.contains("paused")) snapshot.control = read_control(object);
+  return snapshot;
+}
+
+PieceHead read_piece_head(const json& object) {
+  PieceHead head;
+  read_member(object, "recording_bytes", head.bytes);
+  read_member(object, "begins", head.begins);
+  read_member(object, "more", head.more);
+  return head;
+}
+
+CommandAnswer read_answer(const json& object) {
+  CommandAnswer answer;
+  read_member(object, "answer", answer.id);
+  read_member(object, "error", answer.error);
+  return answer;
+}
+
+// ------------------------------------------------------------------------------------------------ commands
+
+json json_of(const command::Recording&) { return {{"command", "recording"}}; }
+json json_of(const command::Own&) { return {{"command", "own"}}; }
+json json_of(const command::Set& set) {
+  return {{"command", "set"}, {"path", set.path}, {"value", set.value}};
+}
+json json_of(const command::EmergencyStop& stop) {
+  json object{{"command", "emergency_stop"}};
+  if (!stop.why.empty()) object["why"] = stop.why;
+  return object;
+}
+json json_of(const command::Reset&) { return {{"command", "reset"}}; }
+json json_of(const command::Pause&) { return {{"command", "pause"}}; }
+json json_of(const command::Resume&) { return {{"command", "resume"}}; }
+json json_of(const command::StepFiring&) { return {{"command", "step_firing"}}; }
+json json_of(const command::StepIteration& step) {
+  return {{"command", "step_iteration"}, {"subsystem", step.subsystem}};
+}
+json json_of(const command::Speed& speed) { return {{"command", "speed"}, {"value", speed.value}}; }
+json json_of(const command::Breakpoints& breakpoints) {
+  return {{"command", "breakpoints"},
+          {"places", breakpoints.places},
+          {"transitions", breakpoints.transitions},
+          {"conditions", breakpoints.conditions}};
+}
+
+}  // namespace
+
+std::optional<ControlLine> read_control_line(std::string_view line) try {
+  const json object = json::parse(line);
+  if (!object.is_object()) return std::nullopt;
+  if (object.contains("recording_bytes")) return read_piece_head(object);
+  if (object.contains("ended")) return ControllerHasEnded{};
+  if (object.contains("answer")) return read_answer(object);
+  return read_snapshot(object);
+} catch (const json::exception&) {
+  return std::nullopt;
+}
+
+json json_of(const std::vector<Snapshot::Subsystem>& subsystems) {
+  json list = json::array();
+  for (const Snapshot::Subsystem& one : subsystems)
+    list.push_back({{"path", one.path},
+                    {"behaviour", one.behaviour ? json(*one.behaviour) : json(nullptr)},
+                    {"calling", one.calling},
+                    {"ended", one.ended},
+                    {"iterations", one.iterations},
+                    {"firings", one.firings},
+                    {"overruns", one.overruns},
+                    {"errors", one.errors},
+                    {"period_s", one.period_s},
+                    {"called_at_s", one.called_at_s},
+                    {"call_s", one.call_s},
+                    {"longest_call_s", one.longest_call_s}});
+  return list;
+}
+
+json json_of(const std::vector<Snapshot::Channel>& channels) {
+  json list = json::array();
+  for (const Snapshot::Channel& one : channels) list.push_back({{"name", one.name}, {"marked", one.marked}});
+  return list;
+}
+
+std::string line_of(const ControlCommand& command, std::optional<std::int64_t> id) {
+  json object = std::visit([](const auto& one) { return json_of(one); }, command);
+  if (id) object["id"] = *id;
+  return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera::project

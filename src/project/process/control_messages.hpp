@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// The messages of the control socket of a running controller (tessera/monitor.hpp), as its clients see them.
+/// share/tessera/control_socket.schema.json defines them.
+namespace tessera::project {
+
+/// What a controller does now.
+struct Snapshot {
+  struct Subsystem {
+    std::string path;
+    std::optional<std::string> behaviour;  ///< nullopt: no transition function was called yet
+    bool calling = false, ended = false;
+    std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
+    double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
+  };
+  struct Channel {
+    std::string name;
+    std::vector<std::string> marked;
+  };
+  /// Of a run that was started with `--controlled`.
+  struct Control {
+    bool paused = false;
+    std::uint64_t pauses = 0;
+    double speed = 0;
+    std::string broke_at;
+  };
+  std::string system, net_hash;
+  std::int64_t process = -1;
+  double time_s = 0;
+  std::optional<std::string> recording, emergency;
+  std::vector<Subsystem> subsystems;
+  std::vector<Channel> channels;
+  std::optional<Control> control;
+};
+
+/// What came of a command.
+struct CommandAnswer {
+  std::int64_t id = 0;
+  std::string error;  ///< empty: done
+};
+
+/// Precedes bytes of the recording.
+struct PieceHead {
+  std::size_t bytes = 0;
+  bool begins = false, more = false;
+};
+
+struct ControllerHasEnded {};
+
+using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, ControllerHasEnded>;
+
+/// A line without its end. Members that are missing keep their defaults, and unknown ones are passed over:
+/// the controller may be of another version. nullopt: it is none.
+[[nodiscard]] std::optional<ControlLine> read_control_line(std::string_view line);
+
+[[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Subsystem>& subsystems);
+[[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Channel>& channels);
+
+/// What a client may ask for.
+namespace command {
+struct Recording {};
+struct Own {};
+struct Set {
+  std::string path, value;
+};
+struct EmergencyStop {
+  std::string why;  ///< empty: the controller's own words
+};
+struct Reset {};
+struct Pause {};
+struct Resume {};
+struct StepFiring {};
+struct StepIteration {
+  std::string subsystem;  ///< empty: any
+};
+struct Speed {
+  double value = 1;
+};
+/// By name.
+struct Breakpoints {
+  std::vector<std::string> places, transitions, conditions;
+};
+}  // namespace command
+
+using ControlCommand = std::variant<command::Recording, command::Own, command::Set, command::EmergencyStop,
+                                    command::Reset, command::Pause, command::Resume, command::StepFiring,
+                                    command::StepIteration, command::Speed, command::Breakpoints>;
+
+/// With its end. Text that is no UTF-8 is replaced: it names nothing, and the controller says so.
+/// id: of the answer; nullopt: none is waited for.
+[[nodiscard]] std::string line_of(const ControlCommand& command, std::optional<std::int64_t> id = {});
+
+}  // namespace tessera::project

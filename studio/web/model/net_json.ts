@@ -1,0 +1,112 @@
+// Made by scripts/protocol.mjs of share/tessera/net.schema.json: change that, and run `npm run protocol`.
+
+export type Layer = "system" | "agent" | "subsystem" | "behaviour" | "communication";
+
+/**
+ * A hierarchical net and the flat net made of it, as `tessera show --json` writes them and the studio shows
+ * them. Numbers are indices of the lists: `page` of `pages`, `place` of `flat.places`, and so on; null: none.
+ */
+export interface NetJson {
+  /** The first is the system. */
+  pages: Page[];
+  /** Sets of nodes that are one place. */
+  fusions: Fusion[];
+  flat: { places: FlatPlace[]; transitions: FlatTransition[] };
+  counts: Counts;
+}
+export interface Page {
+  path: string;
+  name: string;
+  layer: Layer;
+  parent: number | null;
+  subsystem: number | null;
+  /** The node that takes the token. */
+  input: number;
+  /** The node that gives it back. */
+  output: number;
+  span: Span;
+  nodes: PageNode[];
+  transitions: PageTransition[];
+}
+/** Where an element comes from. */
+export interface Span {
+  /** Of the specification, from 1; 0: none. */
+  line: number;
+  column: number;
+  length: number;
+}
+/** A place, or the page behind a node. */
+export interface PageNode {
+  name: string;
+  page: number | null;
+  fusion: number | null;
+  tokens: number;
+  operation: Operation | null;
+}
+/** What happens when a token comes to a place. */
+export interface Operation {
+  kind: "transition_function" | "next_iteration" | "write" | "read";
+  subject: number | null;
+}
+export interface PageTransition {
+  name: string;
+  /** Nodes of the page. */
+  inputs: number[];
+  outputs: number[];
+  condition: Condition | null;
+  span: Span;
+}
+/** What a transition waits for. */
+export interface Condition {
+  kind: "go_on" | "terminal" | "error" | "next" | "elapsed";
+  truth: "free" | "always" | "never";
+  /** The truth where transition functions may fail. */
+  truth_with_failures: "free" | "always" | "never";
+  subject: number | null;
+  text: string;
+}
+export interface Fusion {
+  name: string;
+  tokens: number;
+  channel: number | null;
+  span: Span;
+}
+export interface FlatPlace {
+  name: string;
+  tokens: number;
+  operation: Operation | null;
+  layer: Layer;
+  page: number | null;
+  subsystem: number | null;
+  channel: number | null;
+  span: Span;
+}
+export interface FlatTransition {
+  name: string;
+  inputs: FlatArc[];
+  outputs: FlatArc[];
+  condition: Condition | null;
+  layer: Layer;
+  page: number | null;
+  subsystem: number | null;
+  span: Span;
+}
+export interface FlatArc {
+  place: number;
+  weight: number;
+}
+export interface Counts {
+  flat: {
+    places: number;
+    /** Places that stand for a fusion set. */
+    fused: number;
+    transitions: number;
+    arcs: number;
+  };
+  layers: { system: LayerCounts; agent: LayerCounts; subsystem: LayerCounts; behaviour: LayerCounts; communication: LayerCounts };
+}
+export interface LayerCounts {
+  places: number;
+  transitions: number;
+  pages: number;
+}

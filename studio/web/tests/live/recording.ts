@@ -1,0 +1,22 @@
+import type { Recording } from "../../live/protocol";
+
+/** The answer of the server that has these members, and else only what follows from its firings. */
+export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings">): Recording {
+  const { firings } = known;
+  return {
+    net_hash: "",
+    system: "line_follower",
+    subsystems: [],
+    marking: null,
+    dropped: 0,
+    values: {},
+    path: [],
+    track: null,
+    cut: false,
+    truncated: false,
+    first: firings[0]?.[0] ?? null,
+    last: firings.at(-1)?.[0] ?? null,
+    total: firings.length,
+    ...known,
+  };
+}

@@ -52,7 +52,7 @@ TEST(Timeline, BrokenReferencesAreIgnored) {
   Constructed run({"a.b"});
   run.fire(0, 0, "t_in").fire(1, 0, "go.t1");
   run.recording.entries.push_back({{.time_ns = 5, .subject = 99, .origin = 1}, {}});
-  run.recording.transitions.push_back({"t_in", system_instance});
+  run.recording.transitions.push_back({"t_in", tessera::system_instance});
   run.recording.entries.push_back({{.time_ns = 5, .subject = 2, .origin = 1}, {}});
   EXPECT_EQ(timeline_of(run.recording).lanes[0].iterations, 1U);
 }

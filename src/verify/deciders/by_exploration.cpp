@@ -116,21 +116,16 @@ Finding goes_on(const Case& given, const Question& question, const Reducing& how
                 const explore::Limits& limits) {
   Finding finding = always_possible(given, given.probed.subsystems, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
-    finding.why = subsystem_names(given.abstract)[finding.subjects.front()] + " can get stuck for ever";
+    finding.why =
+        given.abstract.parts().subsystems[finding.subjects.front()].path + " can get stuck for ever";
   return finding;
-}
-
-std::string channel_name(const net::Net& net, std::uint32_t channel) {
-  for (const net::Place& place : net.places())
-    if (place.channel == channel) return place.name.substr(0, place.name.rfind('.'));
-  return {};
 }
 
 Finding channels_flow(const Case& given, const Question& question, const Reducing& how,
                       const explore::Limits& limits) {
   Finding finding = always_possible(given, given.probed.channels, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
-    finding.why = channel_name(given.abstract, finding.subjects.front()) + " can run dry for ever";
+    finding.why = given.abstract.parts().channels[finding.subjects.front()] + " can run dry for ever";
   return finding;
 }
 
@@ -180,7 +175,7 @@ Finding exclusive_channels(const Case& given, const Question& question, const Re
   Finding finding = none_reached(given, question, markings, how, limits);
   if (finding.kind != Finding::Kind::violated) return finding;
   const PlaceId place{finding.subjects.front()};
-  finding.why = "the memory of " + channel_name(given.abstract, given.abstract[place].operation.subject) +
+  finding.why = "the memory of " + given.abstract.parts().channels[given.abstract[place].operation.subject] +
                 " is used twice at once";
   return finding;
 }

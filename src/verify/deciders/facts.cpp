@@ -84,12 +84,12 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
 
 net::PlaceId final_place(const net::Net& net) {
   for (std::uint32_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].layer == net::Layer::system && net.places()[place].name == "out") return {place};
+    if (net.places()[place].is(net::Layer::system, net::PlaceRole::output)) return {place};
   return {};
 }
 
 std::string behaviour_of(const net::Net& net, net::PlaceId place) {
-  return net[place].name.substr(0, net[place].name.rfind('.'));
+  return net.parts().behaviour_path(net[place].subsystem, net[place].operation.subject);
 }
 
 }  // namespace tessera::verify

@@ -29,24 +29,6 @@ struct Parts {
   std::vector<std::vector<TransitionId>> transitions;
 };
 
-/// Names of the form behaviour.snd.block.element belong to a block; shorter ones to none.
-struct BlockName {
-  std::string_view block;
-  bool sends = false;
-
-  explicit BlockName(std::string_view local) {
-    const std::size_t page = local.find('.') + 1;
-    const std::size_t begin = local.find('.', page) + 1;
-    const std::size_t end = local.rfind('.');
-    if (page == 0 || begin == 0 || end < begin) return;
-    block = local.substr(begin, end - begin);
-    sends = local.substr(page).starts_with("snd.");
-  }
-};
-
-std::string_view first_part(std::string_view name) { return name.substr(0, name.find('.')); }
-std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
-
 /// Extracts the net of one instance.
 class Extraction {
  public:
@@ -61,7 +43,7 @@ class Extraction {
   LocalNet result() {
     find_ports();
     for (const PlaceId id : places_)
-      local_.places.push_back({std::string(local(net_[id].name)), operation(id)});
+      local_.places.push_back({std::string(local(net_[id].name)), net_[id].behaviour, operation(id)});
     for (const TransitionId id : transitions_) add_transition(id);
     return std::move(local_);
   }
@@ -72,11 +54,12 @@ class Extraction {
   /// A block touches the fused places of its channel. An input and an output of one name get told apart.
   void find_ports() {
     for (const TransitionId id : transitions_) {
-      const BlockName name(local(net_[id].name));
-      const spec::Index channel = channel_of(id);
-      if (channel == spec::none || name.block.empty()) continue;
-      const std::string_view buffer = name.block.substr(0, name.block.find('#'));
-      const LocalNet::Port port{std::string(name.block), std::string(buffer), name.sends, channel};
+      if (net_[id].block == net::no_index) continue;
+      const net::Parts::Block& block = net_.parts().blocks[net_[id].block];
+      const spec::Channel& channel = model_.channels[block.channel];
+      const std::string& buffer = block.sends ? subsystem_.outputs[channel.from.buffer].name
+                                              : subsystem_.inputs[channel.to.buffer].name;
+      const LocalNet::Port port{block.name, buffer, block.sends, block.channel};
       if (std::ranges::find(local_.ports, port) == local_.ports.end()) local_.ports.push_back(port);
     }
     for (LocalNet::Port& port : local_.ports)
@@ -129,8 +112,8 @@ class Extraction {
 
   void add_transition(TransitionId id) {
     const net::Transition& transition = net_[id];
-    LocalNet::Transition row{std::string(local(transition.name)), {}, {}, {}};
-    const bool sends = BlockName(row.name).sends;
+    LocalNet::Transition row{std::string(local(transition.name)), transition.behaviour};
+    const bool sends = transition.block != net::no_index && net_.parts().blocks[transition.block].sends;
     row.guard = guard(id, sends);
     for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
     for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
@@ -141,7 +124,8 @@ class Extraction {
   [[nodiscard]] std::string arc_end(PlaceId id, bool sends) const {
     const net::Place& place = net_[id];
     if (!place.fused()) return std::string(local(place.name));
-    return fmt::format("{}/{}", port(place.channel, sends), last_part(place.name));
+    const std::size_t state = net_.parts().channels[place.channel].size() + 1;
+    return fmt::format("{}/{}", port(place.channel, sends), std::string_view(place.name).substr(state));
   }
 
   [[nodiscard]] std::string guard(TransitionId id, bool sends) const {
@@ -175,8 +159,8 @@ class Extraction {
       // Places of one instance keep the order of the flat net, so their ids are sorted.
       const auto found = std::ranges::lower_bound(places_, arc.place);
       LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
-      place.does =
-          fmt::format("tessera::{}({})", decides ? "decides" : "routes", quoted(first_part(place.name)));
+      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes",
+                               quoted(subsystem_.behaviours[place.behaviour].name));
     }
   }
 

@@ -20,12 +20,14 @@ struct LocalNet {
   };
   struct Place {
     std::string name;
-    std::string does;  ///< C++: "tessera::calls(\"follow\")"; empty: nothing
+    std::uint32_t behaviour = net::no_index;  ///< that it belongs to; none: the subsystem itself
+    std::string does{};                   ///< C++: "tessera::calls(\"follow\")"; empty: nothing
   };
   struct Transition {
     std::string name;
-    std::vector<std::string> inputs, outputs;
-    std::string guard;  ///< C++: "tessera::if_next(1)"; empty: none
+    std::uint32_t behaviour = net::no_index;
+    std::vector<std::string> inputs{}, outputs{};
+    std::string guard{};  ///< C++: "tessera::if_next(1)"; empty: none
   };
   std::vector<Port> ports;
   std::vector<Place> places;

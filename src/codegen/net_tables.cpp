@@ -13,7 +13,7 @@ namespace {
 
 /// One row of a table, cell by cell; empty cells at the end are left out.
 struct Row {
-  std::string group;  ///< the behaviour it belongs to; empty: the subsystem itself
+  std::uint32_t behaviour = net::no_index;  ///< that it belongs to; none: the subsystem itself
   std::vector<std::string> cells;
 };
 
@@ -23,20 +23,15 @@ std::string list(const std::vector<std::string>& names) {
   return '{' + out + '}';
 }
 
-std::string group_of(const std::string& name) {
-  const std::size_t dot = name.find('.');
-  return dot == std::string::npos ? "" : name.substr(0, dot);
-}
-
-Row row(const LocalNet::Place& place) { return {group_of(place.name), {quoted(place.name), place.does}}; }
+Row row(const LocalNet::Place& place) { return {place.behaviour, {quoted(place.name), place.does}}; }
 
 Row row(const LocalNet::Transition& transition) {
-  return {group_of(transition.name),
+  return {transition.behaviour,
           {quoted(transition.name), list(transition.inputs), list(transition.outputs), transition.guard}};
 }
 
 Row row(const LocalNet::Port& port) {
-  return {"",
+  return {net::no_index,
           {quoted(port.name), port.sends ? "tessera::Side::send" : "tessera::Side::receive",
            quoted(port.buffer)}};
 }
@@ -47,10 +42,7 @@ std::vector<Row> grouped(const std::vector<Element>& elements, const spec::Subsy
   std::vector<std::vector<Row>> groups(1 + subsystem.behaviours.size());
   for (const Element& element : elements) {
     Row made = row(element);
-    const auto behaviour = std::ranges::find(subsystem.behaviours, made.group, &spec::Behaviour::name);
-    const bool own = behaviour != subsystem.behaviours.end();
-    groups[own ? static_cast<std::size_t>(behaviour - subsystem.behaviours.begin()) + 1 : 0].push_back(
-        std::move(made));
+    groups[made.behaviour == net::no_index ? 0 : made.behaviour + 1].push_back(std::move(made));
   }
   std::vector<Row> rows;
   for (std::vector<Row>& group : groups) std::ranges::move(group, std::back_inserter(rows));
@@ -114,12 +106,13 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
   if (rows.empty()) return {};
   std::string out = fmt::format("{}[] = {{\n", head);
   for (std::size_t begin = 0; begin < rows.size();) {
-    const std::string& group = rows[begin].group;
+    const std::uint32_t number = rows[begin].behaviour;
     std::size_t end = begin;
-    while (end < rows.size() && rows[end].group == group) ++end;
-    const auto behaviour = std::ranges::find(subsystem.behaviours, group, &spec::Behaviour::name);
-    if (behaviour != subsystem.behaviours.end())
-      out += fmt::format("    // {}, {}\n", group, project.at(behaviour->span));
+    while (end < rows.size() && rows[end].behaviour == number) ++end;
+    if (number != net::no_index) {
+      const spec::Behaviour& behaviour = subsystem.behaviours[number];
+      out += fmt::format("    // {}, {}\n", behaviour.name, project.at(behaviour.span));
+    }
     out += group_lines(rows.subspan(begin, end - begin));
     begin = end;
   }
@@ -130,7 +123,7 @@ std::string behaviours_table(const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
     rows.push_back(
-        {"", {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+        {net::no_index, {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);

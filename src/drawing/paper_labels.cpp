@@ -61,7 +61,7 @@ class PaperLabels : public Labels {
     const net::FusionSet& set = net_.fusions[id.value];
     Label label = buffer(set.channel, true);
     label.add(" \u2192 ").add(buffer(set.channel, false));
-    return label.add(" " + set.name.substr(set.name.rfind('.') + 1));
+    return label.add(" " + set.name.substr(net_.parts.channels[set.channel].size() + 1));
   }
 
   [[nodiscard]] std::vector<Label> operation(net::PageId id, const net::Operation& operation) const override {

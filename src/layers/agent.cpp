@@ -1,4 +1,5 @@
 #include "layers/sheet.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 
@@ -7,13 +8,14 @@ net::PageId draw_agent(Draft& draft, net::PageId parent, spec::Index index) {
   const spec::Agent& agent = draft.model.agents[index];
   const auto count = static_cast<spec::Index>(draft.model.definition_of(agent).subsystems.size());
   Sheet sheet(draft, parent, net::Layer::agent, agent.path, net::no_subsystem, agent.span);
-  const std::uint32_t in = sheet.place("in");
+  sheet.drawn().agent = index;
+  const std::uint32_t in = sheet.input();
   std::vector<std::uint32_t> subsystems;
   for (spec::Index subsystem = 0; subsystem < count; ++subsystem)
     subsystems.push_back(sheet.page(draw_subsystem(draft, sheet.id(), agent.first_instance + subsystem)));
-  const std::uint32_t out = sheet.place("out");
-  sheet.transition("t_in", {in}, subsystems);
-  sheet.transition("t_out", subsystems, {out});
+  const std::uint32_t out = sheet.output();
+  sheet.transition(words::start, {in}, subsystems).role = net::TransitionRole::start;
+  sheet.transition(words::end, subsystems, {out}).role = net::TransitionRole::end;
   return sheet.finish(in, out);
 }
 

@@ -1,6 +1,7 @@
 #include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
 #include "spec/model/endings.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -73,24 +74,25 @@ Ending ending(const spec::Behaviour& behaviour) {
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index) {
   const spec::Behaviour& behaviour = draft.model.subsystem(instance).behaviours[index];
   Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, instance, behaviour.span);
-  const std::uint32_t in = sheet.place("in", {net::Operation::Kind::transition_function, index});
+  sheet.drawn().behaviour = index;
+  const std::uint32_t in = sheet.input({net::Operation::Kind::transition_function, index});
   const std::uint32_t snd =
-      sheet.page(draw_communication(draft, sheet.id(), instance, behaviour, Direction::send));
-  const std::uint32_t step = sheet.place("2", {net::Operation::Kind::next_iteration, UINT32_MAX});
+      sheet.page(draw_communication(draft, sheet.id(), instance, index, Direction::send));
+  const std::uint32_t step = sheet.place(words::step, {net::Operation::Kind::next_iteration, UINT32_MAX});
   const std::uint32_t rcv =
-      sheet.page(draw_communication(draft, sheet.id(), instance, behaviour, Direction::receive));
-  const std::uint32_t out = sheet.place("out");
+      sheet.page(draw_communication(draft, sheet.id(), instance, index, Direction::receive));
+  const std::uint32_t out = sheet.output();
 
   auto [go_on, terminal, error] = ending(behaviour);
   const auto where = [&](const spec::Condition& given) {
     return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
   };
-  sheet.transition("t1", {in}, {snd});
-  sheet.transition("t2", {snd}, {step});
-  sheet.transition("t3", {step}, {rcv});
-  sheet.transition("t4", {rcv}, {in}, std::move(go_on));
-  sheet.transition("t5", {rcv}, {out}, std::move(terminal), where(behaviour.terminal));
-  sheet.transition("t6", {rcv}, {out}, std::move(error), where(behaviour.error));
+  sheet.transition(words::begin_sending, {in}, {snd});
+  sheet.transition(words::end_sending, {snd}, {step});
+  sheet.transition(words::begin_receiving, {step}, {rcv});
+  sheet.transition(words::go_on, {rcv}, {in}, std::move(go_on));
+  sheet.transition(words::terminal, {rcv}, {out}, std::move(terminal)).span = where(behaviour.terminal);
+  sheet.transition(words::error, {rcv}, {out}, std::move(error)).span = where(behaviour.error);
   return sheet.finish(in, out);
 }
 

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "tessera/net_words.hpp"
+
 namespace tessera::layers {
 namespace {
 
@@ -16,8 +18,8 @@ using spec::ModelSide;
 class SidePen {
  public:
   SidePen(const CommunicationModel& around, ModelSide& side) : around_(around), side_(side) {
-    place("in");
-    place("out");
+    place(words::input);
+    place(words::output);
   }
 
   void place(std::string_view name, std::uint32_t slot = ModelSide::no_slot) {
@@ -52,47 +54,50 @@ class SidePen {
 /// Both sides non-blocking.
 CommunicationModel exchange() {
   CommunicationModel model;
-  model.shared = {{"channel", 1, {}}};
+  model.shared = {{std::string(words::lock), 1, {}}};
   for (ModelSide* side : {&model.send, &model.receive}) {
     SidePen pen(model, *side);
-    pen.place("2", 0);
-    pen.transition("t1", {"in", "channel"}, {"2"});
-    pen.transition("t2", {"2"}, {"out", "channel"});
+    pen.place(words::transfer, 0);
+    pen.transition(words::begin_transfer, {words::input, words::lock}, {words::transfer});
+    pen.transition(words::end_transfer, {words::transfer}, {words::output, words::lock});
   }
   return model;
 }
 
 void draw_send(CommunicationModel& model, bool blocks, bool timeout) {
   SidePen pen(model, model.send);
-  pen.place("2", 0);
-  if (blocks) pen.place("wait");
-  pen.transition("t1", {"in", "empty"}, {"2"});
-  if (!blocks) pen.transition("t1o", {"in", "full"}, {"2"});  // overwrites
-  if (!blocks) return pen.transition("t2", {"2"}, {"out", "full"});
-  pen.transition("t2", {"2"}, {"wait", "full"});
-  pen.transition("t3", {"wait", "ack"}, {"out"});
-  if (timeout) pen.transition("timeout", {"wait", "full"}, {"out", "empty"}, true);
+  pen.place(words::transfer, 0);
+  if (blocks) pen.place(words::waiting);
+  pen.transition(words::begin_transfer, {words::input, words::empty}, {words::transfer});
+  if (!blocks)
+    pen.transition(words::overwrite, {words::input, words::full}, {words::transfer});  // overwrites
+  if (!blocks) return pen.transition(words::end_transfer, {words::transfer}, {words::output, words::full});
+  pen.transition(words::end_transfer, {words::transfer}, {words::waiting, words::full});
+  pen.transition(words::take_acknowledgement, {words::waiting, words::acknowledged}, {words::output});
+  if (timeout)
+    pen.transition(words::timeout, {words::waiting, words::full}, {words::output, words::empty}, true);
 }
 
 void draw_receive(CommunicationModel& model, bool sender_blocks, bool blocks, bool timeout) {
   SidePen pen(model, model.receive);
-  pen.place("2", 0);
-  pen.transition("t1", {"in", "full"}, {"2"});
+  pen.place(words::transfer, 0);
+  pen.transition(words::begin_transfer, {words::input, words::full}, {words::transfer});
   if (sender_blocks)
-    pen.transition("t2", {"2"}, {"out", "empty", "ack"});
+    pen.transition(words::end_transfer, {words::transfer},
+                   {words::output, words::empty, words::acknowledged});
   else
-    pen.transition("t2", {"2"}, {"out", "empty"});
+    pen.transition(words::end_transfer, {words::transfer}, {words::output, words::empty});
   if (!blocks)
-    pen.transition("skip", {"in", "empty"}, {"out", "empty"});
+    pen.transition(words::skip, {words::input, words::empty}, {words::output, words::empty});
   else if (timeout)
-    pen.transition("timeout", {"in", "empty"}, {"out", "empty"}, true);
+    pen.transition(words::timeout, {words::input, words::empty}, {words::output, words::empty}, true);
 }
 
 CommunicationModel hand_over(Mode send, Mode receive, bool send_timeout, bool receive_timeout) {
   const bool sender_blocks = send == Mode::blocking;
   CommunicationModel model;
-  model.shared = {{"empty", 1, {}}, {"full", 0, {}}};
-  if (sender_blocks) model.shared.push_back({"ack", 0, {}});
+  model.shared = {{std::string(words::empty), 1, {}}, {std::string(words::full), 0, {}}};
+  if (sender_blocks) model.shared.push_back({std::string(words::acknowledged), 0, {}});
   draw_send(model, sender_blocks, send_timeout);
   draw_receive(model, sender_blocks, receive == Mode::blocking, receive_timeout);
   return model;
@@ -117,6 +122,29 @@ const CommunicationModel& model_of(const spec::Model& model, const spec::Channel
   return built_in[static_cast<std::size_t>(channel.send) | static_cast<std::size_t>(channel.receive) << 1U |
                   static_cast<std::size_t>(channel.send_timeout.has_value()) << 2U |
                   static_cast<std::size_t>(channel.receive_timeout.has_value()) << 3U];
+}
+
+net::PlaceRole role_of(const spec::SharedPlace& place) {
+  struct Known {
+    std::string_view name;
+    std::uint32_t tokens;
+    net::PlaceRole role;
+  };
+  constexpr std::array<Known, 4> known{{{words::lock, 1, net::PlaceRole::lock},
+                                        {words::empty, 1, net::PlaceRole::empty},
+                                        {words::full, 0, net::PlaceRole::full},
+                                        {words::acknowledged, 0, net::PlaceRole::acknowledged}}};
+  const auto found = std::ranges::find(known, place.name, &Known::name);
+  return found != known.end() && found->tokens == place.tokens ? found->role : net::PlaceRole::none;
+}
+
+net::PlaceRole role_of(const ModelSide::Place& place) {
+  return place.name == words::waiting ? net::PlaceRole::waiting : net::PlaceRole::none;
+}
+
+net::TransitionRole role_of(const ModelSide::Transition& transition) {
+  if (transition.name == words::overwrite) return net::TransitionRole::overwrite;
+  return transition.name == words::skip ? net::TransitionRole::skip : net::TransitionRole::none;
 }
 
 }  // namespace tessera::layers

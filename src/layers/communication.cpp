@@ -2,6 +2,7 @@
 
 #include "layers/built_in.hpp"
 #include "layers/sheet.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 struct Block {
   spec::Index channel = 0;
   std::string name;
+  std::uint32_t index = net::no_index;  ///< into net::Parts::blocks
 };
 
 /// Blocks are named after their buffers; those of an output that feeds several channels are numbered.
@@ -30,6 +32,15 @@ std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::I
   return blocks;
 }
 
+/// Numbers the blocks of a page.
+void enlist(std::vector<Block>& blocks, net::Parts& parts, spec::Index instance, spec::Index behaviour,
+            Direction direction) {
+  for (Block& block : blocks) {
+    block.index = static_cast<std::uint32_t>(parts.blocks.size());
+    parts.blocks.push_back({instance, behaviour, block.channel, direction == Direction::send, block.name});
+  }
+}
+
 std::string in_words(spec::Duration duration) {
   constexpr std::array<std::pair<std::int64_t, const char*>, 3> units{
       {{1'000'000'000, " s"}, {1'000'000, " ms"}, {1'000, " us"}}};
@@ -45,25 +56,31 @@ class BlockPen {
       : draft_(draft), sheet_(sheet), direction_(direction) {}
 
   /// Draws the side of the channel's model between the given input place and the output place it returns.
-  std::uint32_t draw(const Block& block, std::uint32_t in, std::string out_name) {
+  std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name,
+                     net::PlaceRole out_role) {
+    sheet_.in_block(block.index);
     const spec::Channel& channel = draft_.model.channels[block.channel];
     const spec::CommunicationModel& model = model_of(draft_.model, channel);
     const spec::ModelSide& side = direction_ == Direction::send ? model.send : model.receive;
     const auto local = [&](const std::string& part) { return block.name + "." + part; };
     std::vector<std::uint32_t> nodes(side.places.size()), shared;
     for (std::size_t place = ModelSide::out + 1; place < side.places.size(); ++place)
-      nodes[place] = sheet_.place(local(side.places[place].name), operation(side.places[place], block));
+      nodes[place] = sheet_.place(local(side.places[place].name), operation(side.places[place], block),
+                                  role_of(side.places[place]));
     nodes[ModelSide::in] = in;
-    nodes[ModelSide::out] = sheet_.place(std::move(out_name));
+    nodes[ModelSide::out] = sheet_.place(out_name, {}, out_role);
     for (std::size_t place = 0; place < model.shared.size(); ++place)
       shared.push_back(sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel][place]));
     for (const ModelSide::Transition& transition : side.transitions) {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
       for (const std::uint32_t place : transition.gives) to.push_back(shared[place]);
-      sheet_.transition(local(transition.name), std::move(from), std::move(to),
-                        transition.elapsed ? elapsed(channel, block) : net::Condition{});
+      sheet_
+          .transition(local(transition.name), std::move(from), std::move(to),
+                      transition.elapsed ? elapsed(channel, block) : net::Condition{})
+          .role = role_of(transition);
     }
+    sheet_.in_block(net::no_index);
     return nodes[ModelSide::out];
   }
 
@@ -89,30 +106,35 @@ class BlockPen {
 
 /// The output place of a block is the input place of the next.
 net::PageId draw_chain(Sheet& sheet, BlockPen& pen, const std::vector<Block>& blocks) {
-  const std::uint32_t in = sheet.place("in");
+  const std::uint32_t in = sheet.input();
   std::uint32_t at = in;
-  for (const Block& block : blocks)
-    at = pen.draw(block, at, &block == &blocks.back() ? "out" : block.name + ".out");
+  for (const Block& block : blocks) {
+    const bool last = &block == &blocks.back();
+    at =
+        pen.draw(block, at, last ? std::string(words::output) : block.name + "." + std::string(words::output),
+                 last ? net::PlaceRole::output : net::PlaceRole::none);
+  }
   return sheet.finish(in, at);
 }
 
 net::PageId draw_side_by_side(Sheet& sheet, BlockPen& pen, const std::vector<Block>& blocks) {
-  const std::uint32_t in = sheet.place("in");
+  const std::uint32_t in = sheet.input();
   std::vector<std::uint32_t> starts, ends;
   for (const Block& block : blocks) {
-    starts.push_back(sheet.place(block.name + ".in"));
-    ends.push_back(pen.draw(block, starts.back(), block.name + ".out"));
+    starts.push_back(sheet.place(block.name + "." + std::string(words::input)));
+    ends.push_back(
+        pen.draw(block, starts.back(), block.name + "." + std::string(words::output), net::PlaceRole::none));
   }
-  const std::uint32_t out = sheet.place("out");
-  sheet.transition("fork", {in}, starts);
-  sheet.transition("join", ends, {out});
+  const std::uint32_t out = sheet.output();
+  sheet.transition(words::fork, {in}, starts);
+  sheet.transition(words::join, ends, {out});
   return sheet.finish(in, out);
 }
 
 net::PageId draw_nothing(Sheet& sheet) {
-  const std::uint32_t in = sheet.place("in");
-  const std::uint32_t out = sheet.place("out");
-  sheet.transition("t1", {in}, {out});
+  const std::uint32_t in = sheet.input();
+  const std::uint32_t out = sheet.output();
+  sheet.transition(words::pass, {in}, {out});
   return sheet.finish(in, out);
 }
 
@@ -120,14 +142,18 @@ net::PageId draw_nothing(Sheet& sheet) {
 
 /// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per channel it
 /// uses.
-net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance,
-                               const spec::Behaviour& behaviour, Direction direction) {
+net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index,
+                               Direction direction) {
   const bool sends = direction == Direction::send;
-  Sheet sheet(draft, parent, net::Layer::communication, sends ? "snd" : "rcv", instance, behaviour.span);
   const spec::Subsystem& subsystem = draft.model.subsystem(instance);
-  const std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(instance, behaviour, direction),
-                                              sends ? subsystem.outputs : subsystem.inputs, direction);
+  const spec::Behaviour& behaviour = subsystem.behaviours[index];
+  Sheet sheet(draft, parent, net::Layer::communication,
+              std::string(sends ? words::send_page : words::receive_page), instance, behaviour.span);
+  sheet.drawn().behaviour = index;
+  std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(instance, behaviour, direction),
+                                        sends ? subsystem.outputs : subsystem.inputs, direction);
   if (blocks.empty()) return draw_nothing(sheet);
+  enlist(blocks, draft.net.parts, instance, index, direction);
   BlockPen pen(draft, sheet, direction);
   if (behaviour.transfer == spec::Transfer::parallel && blocks.size() > 1)
     return draw_side_by_side(sheet, pen, blocks);

@@ -211,27 +211,16 @@ class Channels {
     ++channel.shared;
   }
 
-  /// The blocks of a page are told apart by their names; each touches its channel's memory.
   void gather(net::PageId id) {
-    const net::Page& page = pages_.pages[id.value];
-    std::unordered_map<std::string_view, std::uint32_t> channel_of;
-    for (const net::PageTransition& transition : page.transitions)
-      for (const auto* ends : {&transition.inputs, &transition.outputs})
-        for (const std::uint32_t end : *ends)
-          if (const net::FusionId set = page.nodes[end].fusion; set.valid())
-            channel_of[block_of(transition.name)] = pages_.fusions[set.value].channel;
+    const std::vector<net::Node>& nodes = pages_.pages[id.value].nodes;
     const auto places = places_.of(id);
-    for (std::uint32_t node = 0; node < page.nodes.size(); ++node) {
-      if (page.nodes[node].fusion.valid()) continue;
-      const std::string_view name = page.nodes[node].name;
-      if (const auto channel = channel_of.find(block_of(name)); channel != channel_of.end())
-        gather_own(at(channel->second), page.name == "snd", name.substr(name.rfind('.') + 1), places[node]);
+    for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+      if (nodes[node].fusion.valid() || nodes[node].block == net::no_index) continue;
+      if (nodes[node].role == net::PlaceRole::output) continue;  // of the page as well
+      const net::Parts::Block& block = pages_.parts.blocks[nodes[node].block];
+      const std::string_view own = std::string_view(nodes[node].name).substr(block.name.size() + 1);
+      gather_own(at(block.channel), block.sends, own, places[node]);
     }
-  }
-
-  static std::string_view block_of(std::string_view name) {
-    const std::size_t dot = name.rfind('.');
-    return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
   }
 
   static void gather_own(Gathered& channel, bool sends, std::string_view name, PlaceId place) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -11,7 +14,7 @@ using net::PageId;
 using net::PlaceId;
 using Found = std::optional<net::Statement>;
 
-constexpr std::array<const char*, 4> states{"full", "empty", "ack", "channel"};
+constexpr std::array<std::string_view, 4> states{words::full, words::empty, words::acknowledged, words::lock};
 
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
@@ -142,8 +145,9 @@ Found NetPaths::state(const std::string& channel, const spec::PathPart& part, Di
   const auto place = places_.find(channel + "." + part.name);
   if (place != places_.end()) return marked(place->second);
   std::string others;
-  for (const char* other : states)
-    if (places_.contains(channel + "." + other)) others += (others.empty() ? "" : ", ") + std::string(other);
+  for (const std::string_view other : states)
+    if (places_.contains(channel + "." + std::string(other)))
+      others += (others.empty() ? "" : ", ") + std::string(other);
   out.error("E101", part.span, "channel " + quoted(channel) + " has no state " + quoted(part.name),
             others.empty() ? "no behaviour uses it" : "it has " + others);
   return std::nullopt;

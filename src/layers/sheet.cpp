@@ -3,19 +3,29 @@
 #include <utility>
 
 #include "layers/built_in.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 
 Draft::Draft(const spec::Model& specification)
     : model(specification), wiring(specification), memory(specification.channels.size()) {
+  for (const spec::Agent& agent : model.agents) net.parts.agents.push_back(agent.path);
+  for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
+    net::Parts::Subsystem& part =
+        net.parts.subsystems.emplace_back(model.instance_path(instance), model.instances[instance].agent);
+    for (const spec::Behaviour& behaviour : model.subsystem(instance).behaviours)
+      part.behaviours.push_back(behaviour.name);
+  }
+  for (const spec::Channel& channel : model.channels)
+    net.parts.channels.push_back(model.channel_name(channel));
   const std::vector<bool> used = wiring.used_channels();
   for (spec::Index index = 0; index < model.channels.size(); ++index) {
     if (!used[index]) continue;
     const spec::Channel& channel = model.channels[index];
-    const std::string name = model.channel_name(channel);
+    const std::string& name = net.parts.channels[index];
     for (const spec::SharedPlace& place : model_of(model, channel).shared) {
       memory[index].push_back({static_cast<std::uint32_t>(net.fusions.size())});
-      net.fusions.push_back({name + "." + place.name, place.tokens, index, channel.span});
+      net.fusions.push_back({name + "." + place.name, place.tokens, index, channel.span, role_of(place)});
     }
   }
 }
@@ -28,14 +38,22 @@ Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string nam
   page_.layer = layer;
   page_.parent = parent;
   page_.subsystem = subsystem;
+  if (subsystem != net::no_subsystem) page_.agent = draft.model.instances[subsystem].agent;
   page_.span = span;
 }
 
-std::uint32_t Sheet::place(std::string name, net::Operation operation, std::uint32_t tokens) {
-  page_.nodes.push_back(
-      {.name = std::move(name), .page = {}, .fusion = {}, .tokens = tokens, .operation = operation});
+std::uint32_t Sheet::place(std::string_view name, net::Operation operation, net::PlaceRole role) {
+  page_.nodes.push_back({.name = std::string(name), .operation = operation, .role = role, .block = block_});
   return static_cast<std::uint32_t>(page_.nodes.size() - 1);
 }
+
+std::uint32_t Sheet::input(net::Operation operation, std::uint32_t tokens) {
+  const std::uint32_t node = place(words::input, operation, net::PlaceRole::input);
+  page_.nodes[node].tokens = tokens;
+  return node;
+}
+
+std::uint32_t Sheet::output() { return place(words::output, {}, net::PlaceRole::output); }
 
 std::uint32_t Sheet::page(net::PageId page) {
   const std::uint32_t node = place(draft_.net.pages[page.value].name);
@@ -43,21 +61,21 @@ std::uint32_t Sheet::page(net::PageId page) {
   return node;
 }
 
-std::uint32_t Sheet::fused(std::string name, net::FusionId set) {
-  const std::uint32_t node = place(std::move(name), {}, draft_.net.fusions[set.value].tokens);
+std::uint32_t Sheet::fused(std::string_view name, net::FusionId set) {
+  const std::uint32_t node = place(name, {}, draft_.net.fusions[set.value].role);
+  page_.nodes[node].tokens = draft_.net.fusions[set.value].tokens;
   page_.nodes[node].fusion = set;
   return node;
 }
 
-void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs,
-                       std::vector<std::uint32_t> outputs, net::Condition condition) {
-  transition(std::move(name), std::move(inputs), std::move(outputs), std::move(condition), page_.span);
-}
-
-void Sheet::transition(std::string name, std::vector<std::uint32_t> inputs,
-                       std::vector<std::uint32_t> outputs, net::Condition condition, net::Span span) {
-  page_.transitions.push_back(
-      {std::move(name), std::move(inputs), std::move(outputs), std::move(condition), span});
+net::PageTransition& Sheet::transition(std::string_view name, std::vector<std::uint32_t> inputs,
+                                       std::vector<std::uint32_t> outputs, net::Condition condition) {
+  return page_.transitions.emplace_back(net::PageTransition{.name = std::string(name),
+                                                            .inputs = std::move(inputs),
+                                                            .outputs = std::move(outputs),
+                                                            .condition = std::move(condition),
+                                                            .span = page_.span,
+                                                            .block = block_});
 }
 
 net::PageId Sheet::finish(std::uint32_t input, std::uint32_t output) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "layers/wiring.hpp"
@@ -28,16 +29,22 @@ class Sheet {
         net::Span span);
 
   /// Each returns the index of the new node.
-  std::uint32_t place(std::string name, net::Operation operation = {}, std::uint32_t tokens = 0);
+  std::uint32_t place(std::string_view name, net::Operation operation = {},
+                      net::PlaceRole role = net::PlaceRole::none);
+  std::uint32_t input(net::Operation operation = {}, std::uint32_t tokens = 0);
+  std::uint32_t output();
   std::uint32_t page(net::PageId page);
-  std::uint32_t fused(std::string name, net::FusionId set);
+  std::uint32_t fused(std::string_view name, net::FusionId set);
 
-  void transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
-                  net::Condition condition = {});
-  void transition(std::string name, std::vector<std::uint32_t> inputs, std::vector<std::uint32_t> outputs,
-                  net::Condition condition, net::Span span);
+  /// The new transition, so that more can be said of it; valid until the next one.
+  net::PageTransition& transition(std::string_view name, std::vector<std::uint32_t> inputs,
+                                  std::vector<std::uint32_t> outputs, net::Condition condition = {});
+
+  /// What is drawn from here on belongs to the block (index into net::Parts::blocks) or, net::no_index, to none.
+  void in_block(std::uint32_t block) { block_ = block; }
 
   [[nodiscard]] net::PageId id() const { return id_; }
+  [[nodiscard]] net::Page& drawn() { return page_; }
   /// Puts the page into the net. The sheet is spent.
   net::PageId finish(std::uint32_t input, std::uint32_t output);
 
@@ -45,6 +52,7 @@ class Sheet {
   Draft& draft_;
   net::PageId id_;
   net::Page page_;
+  std::uint32_t block_ = net::no_index;
 };
 
 /// One function per layer of the paper: draws the page and all pages below it.
@@ -52,7 +60,7 @@ net::PageId draw_system(Draft& draft);
 net::PageId draw_agent(Draft& draft, net::PageId parent, spec::Index agent);
 net::PageId draw_subsystem(Draft& draft, net::PageId parent, spec::Index instance);
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index behaviour);
-net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance,
-                               const spec::Behaviour& behaviour, Direction direction);
+net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance, spec::Index behaviour,
+                               Direction direction);
 
 }  // namespace tessera::layers

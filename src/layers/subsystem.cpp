@@ -4,6 +4,7 @@
 #include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
 #include "spec/model/endings.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -77,21 +78,21 @@ std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
 net::PageId draw_subsystem(Draft& draft, net::PageId parent, spec::Index instance) {
   const spec::Subsystem& subsystem = draft.model.subsystem(instance);
   Sheet sheet(draft, parent, net::Layer::subsystem, subsystem.name, instance, subsystem.span);
-  const std::uint32_t in = sheet.place("in");
+  const std::uint32_t in = sheet.input();
   std::vector<std::uint32_t> behaviours;
   for (spec::Index behaviour = 0; behaviour < subsystem.behaviours.size(); ++behaviour)
     behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), instance, behaviour)));
-  const std::uint32_t out = sheet.place("out");
+  const std::uint32_t out = sheet.output();
 
-  sheet.transition("t_in", {in}, {behaviours[subsystem.start]});
+  sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = net::TransitionRole::start;
   for (spec::Index index = 0; index < subsystem.behaviours.size(); ++index) {
     const spec::Behaviour& behaviour = subsystem.behaviours[index];
     const std::vector<Condition> conditions = initial_conditions(behaviour);
     for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
       const spec::Next& next = behaviour.next[entry];
-      sheet.transition("t_" + behaviour.name + "_" + std::to_string(entry + 1), {behaviours[index]},
-                       {next.behaviour == spec::none ? out : behaviours[next.behaviour]}, conditions[entry],
-                       next.span);
+      const std::string name = std::string(words::leave) + behaviour.name + "_" + std::to_string(entry + 1);
+      const std::uint32_t to = next.behaviour == spec::none ? out : behaviours[next.behaviour];
+      sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]).span = next.span;
     }
   }
   return sheet.finish(in, out);

@@ -1,4 +1,5 @@
 #include "layers/sheet.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 
@@ -6,13 +7,13 @@ namespace tessera::layers {
 /// `t_in` would fire for ever.
 net::PageId draw_system(Draft& draft) {
   Sheet sheet(draft, {}, net::Layer::system, "", net::no_subsystem, {});
-  const std::uint32_t in = sheet.place("in", {}, 1);
+  const std::uint32_t in = sheet.input({}, 1);
   std::vector<std::uint32_t> agents;
   for (spec::Index agent = 0; agent < draft.model.agents.size(); ++agent)
     agents.push_back(sheet.page(draw_agent(draft, sheet.id(), agent)));
-  const std::uint32_t out = sheet.place("out");
-  sheet.transition("t_in", {in}, agents);
-  sheet.transition("t_out", agents, {out});
+  const std::uint32_t out = sheet.output();
+  sheet.transition(words::start, {in}, agents).role = net::TransitionRole::start;
+  sheet.transition(words::end, agents, {out}).role = net::TransitionRole::end;
   return sheet.finish(in, out);
 }
 

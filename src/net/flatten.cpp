@@ -1,5 +1,6 @@
 #include "net/flatten.hpp"
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -84,6 +85,7 @@ class Flattening {
   explicit Flattening(const HierarchicalNet& net) : net_(net) {}
 
   Net result() {
+    flat_ = Net(std::make_shared<const Parts>(net_.parts));
     first_node_.reserve(net_.pages.size());
     std::uint32_t nodes = 0;
     for (const Page& page : net_.pages) {
@@ -113,7 +115,11 @@ class Flattening {
                                                                 .page = id,
                                                                 .subsystem = page.subsystem,
                                                                 .channel = UINT32_MAX,
-                                                                .span = page.span});
+                                                                .span = page.span,
+                                                                .role = drawn.role,
+                                                                .agent = page.agent,
+                                                                .behaviour = page.behaviour,
+                                                                .block = drawn.block});
     }
   }
 
@@ -138,7 +144,8 @@ class Flattening {
                                             .page = {},
                                             .subsystem = no_subsystem,
                                             .channel = fusion.channel,
-                                            .span = fusion.span});
+                                            .span = fusion.span,
+                                            .role = fusion.role});
       for (const std::uint32_t member : members[set]) place_of_[member] = place;
     }
   }
@@ -153,7 +160,11 @@ class Flattening {
                            .layer = page.layer,
                            .page = id,
                            .subsystem = page.subsystem,
-                           .span = drawn.span},
+                           .span = drawn.span,
+                           .role = drawn.role,
+                           .agent = page.agent,
+                           .behaviour = page.behaviour,
+                           .block = drawn.block},
                 inputs_, outputs_);
     }
   }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
@@ -83,6 +85,59 @@ struct Condition {
 };
 
 inline constexpr std::uint32_t no_subsystem = UINT32_MAX;
+inline constexpr std::uint32_t no_index = UINT32_MAX;  ///< no behaviour, no block
+
+// ------------------------------------------------------------------------------------------ roles
+
+/// What a place is in the five layers. Programs ask for the role; the name is for people.
+enum class PlaceRole : std::uint8_t {
+  none,          ///< nothing that anybody asks for, or of a net that no specification made
+  input,         ///< of its page
+  output,        ///< of its page
+  waiting,       ///< of a block: until the value is acknowledged
+  no_successor,  ///< a behaviour was left and no initial condition held (verify/communication/abstraction.hpp)
+  // The memory of a channel, of the form that the built-in models have:
+  lock,         ///< both sides are non-blocking: nobody uses the memory
+  empty,        ///< no value
+  full,         ///< a value that nobody has read
+  acknowledged  ///< a value was read, and the sender does not know it yet
+};
+
+/// What a transition is in the five layers, beside its condition.
+enum class TransitionRole : std::uint8_t {
+  none,
+  start,        ///< enters the page: starts its agents, its subsystems, or its first behaviour
+  end,          ///< leaves the page
+  overwrite,    ///< of a block: sends in place of a value that nobody has read
+  skip,         ///< of a block: there is nothing to read
+  no_successor  ///< a behaviour is left and no initial condition holds
+};
+
+/// What the numbers of a net's elements mean: the agents, subsystems, channels and blocks it was made of.
+/// Empty for a net that no specification made.
+struct Parts {
+  struct Subsystem {
+    std::string path;         ///< "robot.control"
+    std::uint32_t agent = 0;  ///< into agents
+    std::vector<std::string> behaviours{};
+  };
+  /// One side of one channel in one behaviour.
+  struct Block {
+    std::uint32_t subsystem = 0, behaviour = 0, channel = 0;
+    bool sends = false;
+    std::string name{};  ///< of its buffer; numbered if the buffer has several channels: "motion", "motion#2"
+  };
+  std::vector<std::string> agents{};  ///< paths
+  std::vector<Subsystem> subsystems{};
+  std::vector<std::string> channels{};  ///< "robot.control.motion->robot.motor.velocity"
+  std::vector<Block> blocks{};
+
+  /// "robot.control.follow"
+  [[nodiscard]] std::string behaviour_path(std::uint32_t subsystem, std::uint32_t behaviour) const {
+    const Subsystem& owner = subsystems[subsystem];
+    return owner.path + '.' + owner.behaviours[behaviour];
+  }
+};
 
 // ---------------------------------------------------------------------------------------------- hierarchical
 
@@ -93,6 +148,8 @@ struct Node {
   FusionId fusion{};         ///< valid: member of that fusion set
   std::uint32_t tokens = 0;  ///< initial marking
   Operation operation{};
+  PlaceRole role = PlaceRole::none;  ///< of a fused place: as its fusion set
+  std::uint32_t block = no_index;        ///< into Parts::blocks
 };
 
 struct PageTransition {
@@ -101,6 +158,8 @@ struct PageTransition {
   std::vector<std::uint32_t> outputs{};
   Condition condition{};
   Span span{};  ///< of the specification
+  TransitionRole role = TransitionRole::none;
+  std::uint32_t block = no_index;  ///< into Parts::blocks
 };
 
 /// One net of the hierarchy: what one sheet of the drawing shows.
@@ -109,6 +168,8 @@ struct Page {
   Layer layer = Layer::system;
   PageId parent{};                         ///< invalid for the root
   std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
+  std::uint32_t agent = no_index;              ///< of the layers below the system
+  std::uint32_t behaviour = no_index;          ///< of the subsystem, from the behaviour layer down
   std::uint32_t input = 0, output = 0;     ///< indices into nodes
   std::vector<Node> nodes{};
   std::vector<PageTransition> transitions{};
@@ -121,12 +182,14 @@ struct FusionSet {
   std::uint32_t tokens = 0;
   std::uint32_t channel = UINT32_MAX;  ///< of the model
   Span span{};
+  PlaceRole role = PlaceRole::none;
 };
 
 /// Pages in an order in which parents come before children; pages[0] is the multi-agent system.
 struct HierarchicalNet {
   std::vector<Page> pages;
   std::vector<FusionSet> fusions;
+  Parts parts;
 
   /// "robot.control.follow.snd"; "" for the root.
   [[nodiscard]] std::string path(PageId page) const;
@@ -145,7 +208,14 @@ struct Place {
   std::uint32_t subsystem = no_subsystem;
   std::uint32_t channel = UINT32_MAX;  ///< of a fused place
   Span span{};
+  PlaceRole role = PlaceRole::none;
+  std::uint32_t agent = no_index;      ///< of the layers below the system
+  std::uint32_t behaviour = no_index;  ///< of the subsystem, from the behaviour layer down
+  std::uint32_t block = no_index;      ///< into Parts::blocks
 
+  [[nodiscard]] bool is(Layer of_layer, PlaceRole of_role) const {
+    return layer == of_layer && role == of_role;
+  }
   [[nodiscard]] bool fused() const { return channel != UINT32_MAX; }
 };
 
@@ -156,6 +226,10 @@ struct Transition {
   PageId page{};
   std::uint32_t subsystem = no_subsystem;
   Span span{};
+  TransitionRole role = TransitionRole::none;
+  std::uint32_t agent = no_index;      ///< of the layers below the system
+  std::uint32_t behaviour = no_index;  ///< of the subsystem, from the behaviour layer down
+  std::uint32_t block = no_index;      ///< into Parts::blocks
 };
 
 /// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have
@@ -172,6 +246,13 @@ struct Arc {
 /// Threads: const members from any thread.
 class Net {
  public:
+  Net() = default;
+  explicit Net(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+  /// What the numbers of its elements mean; nets made from one another share it.
+  [[nodiscard]] const Parts& parts() const { return *parts_; }
+  [[nodiscard]] const std::shared_ptr<const Parts>& shared_parts() const { return parts_; }
+
   PlaceId add(Place place);
   /// inputs and outputs: at most one arc per place each.
   TransitionId add(Transition transition, std::span<const Arc> inputs, std::span<const Arc> outputs);
@@ -185,6 +266,7 @@ class Net {
   [[nodiscard]] std::size_t arc_count() const { return arcs_.size(); }
 
  private:
+  std::shared_ptr<const Parts> parts_ = std::make_shared<const Parts>();
   std::vector<Place> places_;
   std::vector<Transition> transitions_;
   std::vector<Arc> arcs_;              // inputs then outputs of each transition

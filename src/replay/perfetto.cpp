@@ -8,6 +8,7 @@
 
 #include "replay/timeline.hpp"
 #include "replay/values.hpp"
+#include "tessera/named_transition.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -87,16 +88,13 @@ class Writing {
     for (const auto& [event, text] : recording_.entries) {
       if (event.kind() != Event::Kind::firing || event.instance() >= begun.size()) continue;
       const std::string& path = recording_.instances[event.instance()];
-      std::string_view local = recording_.transitions[event.subject].name;
-      if (!local.starts_with(path) || local.size() <= path.size()) continue;
-      local.remove_prefix(path.size() + 1);
-      const std::size_t dot = local.find('.');
-      if (dot == std::string_view::npos || dot + 3 != local.size()) continue;
+      const NamedTransition transition = named_transition(recording_.transitions[event.subject].name, path);
       const double at_us = static_cast<double>(event.time_ns) * 1e-3;
-      if (local.back() == '1') begun[event.instance()] = at_us;
-      if (local.back() < '4') continue;
-      slice(local.back() == '6' ? "iteration (error)" : "iteration", "iteration", rows_.at(path),
-            begun[event.instance()], at_us);
+      if (transition.kind == NamedTransition::Kind::begin_iteration) begun[event.instance()] = at_us;
+      if (!transition.ends_iteration()) continue;
+      const bool failed = transition.kind == NamedTransition::Kind::error;
+      slice(failed ? "iteration (error)" : "iteration", "iteration", rows_.at(path), begun[event.instance()],
+            at_us);
     }
   }
 

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tessera/named_transition.hpp"
+
 namespace tessera::replay {
 namespace {
 
@@ -44,34 +46,19 @@ Distribution distribution_of(std::vector<double> values) {
   return result;
 }
 
-/// "follow.t1" -> "t1"; empty unless the transition is of a behaviour itself, not of its communication.
-std::string_view behaviour_transition(std::string_view local) {
-  const std::size_t dot = local.find('.');
-  if (dot == std::string_view::npos || local.find('.', dot + 1) != std::string_view::npos) return {};
-  return local.substr(dot + 1);
-}
-
-/// "follow.snd.motion.t1" -> "t1"; empty for all others.
-std::string_view communication_transition(std::string_view local) {
-  const std::size_t first = local.find('.');
-  if (first == std::string_view::npos) return {};
-  const std::string_view rest = local.substr(first + 1);
-  if (!rest.starts_with("snd.") && !rest.starts_with("rcv.")) return {};
-  return rest.substr(rest.rfind('.') + 1);
-}
-
 class Counting {
  public:
   explicit Counting(std::string path) { statistics_.path = std::move(path); }
 
-  void fire(std::string_view local, std::int64_t at_ns) {
+  void fire(std::string_view name, std::int64_t at_ns) {
     ++statistics_.firings;
-    if (const std::string_view name = behaviour_transition(local); !name.empty()) of_behaviour(name, at_ns);
-    if (const std::string_view name = communication_transition(local); !name.empty()) {
-      if (last_) waits_[std::string(local)].push_back(seconds(at_ns - *last_));
-      statistics_.timeouts += static_cast<std::uint64_t>(name == "timeout");
-      statistics_.skips += static_cast<std::uint64_t>(name == "skip");
-      statistics_.overwrites += static_cast<std::uint64_t>(name == "t1o");
+    const NamedTransition transition = named_transition(name, statistics_.path);
+    of_iteration(transition, at_ns);
+    if (transition.kind == NamedTransition::Kind::communication) {
+      if (last_) waits_[std::string(local_name(name, statistics_.path))].push_back(seconds(at_ns - *last_));
+      statistics_.timeouts += static_cast<std::uint64_t>(transition.timeout);
+      statistics_.skips += static_cast<std::uint64_t>(transition.skip);
+      statistics_.overwrites += static_cast<std::uint64_t>(transition.overwrite);
     }
     last_ = at_ns;
   }
@@ -91,19 +78,19 @@ class Counting {
   }
 
  private:
-  void of_behaviour(std::string_view name, std::int64_t at_ns) {
-    if (name == "t1") {
+  void of_iteration(const NamedTransition& transition, std::int64_t at_ns) {
+    if (transition.kind == NamedTransition::Kind::begin_iteration) {
       ++statistics_.iterations;
       if (called_) calls_.push_back(seconds(at_ns - *std::exchange(called_, std::nullopt)));
       if (begun_) periods_.push_back(seconds(at_ns - *begun_));
       begun_ = at_ns;
       open_ = true;
     }
-    if (open_ && (name == "t4" || name == "t5" || name == "t6")) {
+    if (open_ && transition.ends_iteration()) {
       iterations_.push_back(seconds(at_ns - *begun_));
       open_ = false;
     }
-    statistics_.errors += static_cast<std::uint64_t>(name == "t6");
+    statistics_.errors += static_cast<std::uint64_t>(transition.kind == NamedTransition::Kind::error);
   }
 
   SubsystemStatistics statistics_;
@@ -124,10 +111,7 @@ std::vector<SubsystemStatistics> statistics_of(const Recording& recording) {
     if (event.kind() == Event::Kind::call) counting[event.instance()].call(event.time_ns);
     if (event.kind() == Event::Kind::fault) counting[event.instance()].fault();
     if (event.kind() != Event::Kind::firing) continue;
-    std::string_view name = recording.transitions[event.subject].name;
-    const std::string& path = recording.instances[event.instance()];
-    if (name.starts_with(path) && name.size() > path.size()) name.remove_prefix(path.size() + 1);
-    counting[event.instance()].fire(name, event.time_ns);
+    counting[event.instance()].fire(recording.transitions[event.subject].name, event.time_ns);
   }
   std::vector<SubsystemStatistics> all;
   all.reserve(counting.size());

@@ -1,41 +1,40 @@
 #include "replay/timeline.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 
+#include "tessera/named_transition.hpp"
+
 namespace tessera::replay {
 namespace {
-
-/// "t_follow_1" -> "follow".
-std::optional<std::string> left_behaviour(std::string_view transition) {
-  if (!transition.starts_with("t_")) return std::nullopt;
-  const auto last = transition.rfind('_');
-  if (last < 3 || last + 1 == transition.size()) return std::nullopt;
-  const std::string_view number = transition.substr(last + 1);
-  if (!std::ranges::all_of(number, [](unsigned char c) { return std::isdigit(c) != 0; })) return std::nullopt;
-  return std::string(transition.substr(2, last - 2));
-}
 
 /// Builds the lane of one subsystem from its firings.
 class LaneBuilder {
  public:
   explicit LaneBuilder(std::string path) { lane_.path = std::move(path); }
 
-  void fire(std::string_view transition, double at_s) {
-    if (transition == "t_in") {
-      begin(at_s);
-    } else if (const auto left = left_behaviour(transition)) {
-      running_ = behaviour(*left);
-      end(at_s);
-      begin(at_s);
-    } else if (transition.ends_with(".t1") && transition.find('.') == transition.size() - 3) {
-      running_ = behaviour(transition.substr(0, transition.size() - 3));
-      if (!since_s_) since_s_ = at_s;
-      ++lane_.iterations;
-    } else if (transition.ends_with(".t6") && transition.find('.') == transition.size() - 3) {
-      lane_.errors_s.push_back(at_s);
+  void fire(std::string_view name, double at_s) {
+    const NamedTransition transition = named_transition(name, lane_.path);
+    switch (transition.kind) {
+      case NamedTransition::Kind::start:
+        begin(at_s);
+        break;
+      case NamedTransition::Kind::leave:
+        running_ = behaviour(transition.behaviour);
+        end(at_s);
+        begin(at_s);
+        break;
+      case NamedTransition::Kind::begin_iteration:
+        running_ = behaviour(transition.behaviour);
+        if (!since_s_) since_s_ = at_s;
+        ++lane_.iterations;
+        break;
+      case NamedTransition::Kind::error:
+        lane_.errors_s.push_back(at_s);
+        break;
+      default:
+        break;
     }
   }
 
@@ -77,11 +76,7 @@ Timeline timeline_of(const Recording& recording) {
     if (event.kind() != Event::Kind::firing || event.subject >= recording.transitions.size()) continue;
     const auto& transition = recording.transitions[event.subject];
     if (transition.instance >= builders.size()) continue;
-    std::string_view name = transition.name;
-    const std::string& path = recording.instances[transition.instance];
-    if (name.starts_with(path) && name.size() > path.size() && name[path.size()] == '.')
-      name.remove_prefix(path.size() + 1);
-    builders[transition.instance].fire(name, at_s);
+    builders[transition.instance].fire(transition.name, at_s);
   }
   for (LaneBuilder& builder : builders) timeline.lanes.push_back(builder.finish(timeline.end_s));
   return timeline;

@@ -112,7 +112,7 @@ class RunEnd {
     for (const std::uint32_t transition : can_fire_)
       if (const std::uint32_t subsystem = net.transitions()[transition].subsystem;
           subsystem != net::no_subsystem)
-        moving_.insert(subsystem_names(net)[subsystem]);
+        moving_.insert(net.parts().subsystems[subsystem].path);
   }
 
   void expect_true(const std::string& wait) const {
@@ -157,10 +157,9 @@ class RunEnd {
  private:
   [[nodiscard]] bool gives(const std::string& who, const std::string& place) const {
     const auto there = [&](const net::Arc& arc) { return net_[arc.place].name == place; };
-    const std::vector<std::string> names = subsystem_names(net_);
     return std::ranges::any_of(can_fire_, [&](std::uint32_t transition) {
       const std::uint32_t subsystem = net_.transitions()[transition].subsystem;
-      return subsystem != net::no_subsystem && names[subsystem] == who &&
+      return subsystem != net::no_subsystem && net_.parts().subsystems[subsystem].path == who &&
              std::ranges::any_of(net_.postset({transition}), there) &&
              std::ranges::none_of(net_.preset({transition}), there);
     });

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tessera/device.hpp"
+#include "tessera/net_words.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
@@ -122,9 +123,9 @@ struct FusedPlace {
   std::string_view name;
   std::uint32_t tokens;
 };
-inline constexpr FusedPlace asynchronous[] = {{"channel", 1}};
-inline constexpr FusedPlace buffered[] = {{"empty", 1}, {"full", 0}};
-inline constexpr FusedPlace acknowledged[] = {{"empty", 1}, {"full", 0}, {"ack", 0}};
+inline constexpr FusedPlace asynchronous[] = {{words::lock, 1}};
+inline constexpr FusedPlace buffered[] = {{words::empty, 1}, {words::full, 0}};
+inline constexpr FusedPlace acknowledged[] = {{words::empty, 1}, {words::full, 0}, {words::acknowledged, 0}};
 
 struct End {
   std::uint32_t instance;  ///< into System::instances

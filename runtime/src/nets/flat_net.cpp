@@ -5,6 +5,8 @@
 #include <unordered_map>
 
 #include "tessera/net_hash.hpp"
+#include "tessera/net_words.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera {
 namespace {
@@ -49,18 +51,20 @@ class Rebuilding {
     return static_cast<std::uint32_t>(net_.places.size() - 1);
   }
 
-  /// Layers 1 and 2: `in` (one token in that of the system), `out`, t_in, t_out.
+  /// Layers 1 and 2: an input (one token in that of the system) and an output, a start and an end.
   void add_upper_places() {
-    net_.transitions.push_back({"t_in", system_instance, {add_place("in", 1)}, {}, ""});
-    net_.transitions.push_back({"t_out", system_instance, {}, {add_place("out")}, ""});
+    net_.transitions.push_back(
+        {std::string(words::start), system_instance, {add_place(std::string(words::input), 1)}, {}, ""});
+    net_.transitions.push_back(
+        {std::string(words::end), system_instance, {}, {add_place(std::string(words::output))}, ""});
     for (const AgentSpan& agent : agents_) {
       const std::string prefix = std::string(agent.name) + '.';
-      const std::uint32_t in = add_place(prefix + "in");
-      const std::uint32_t out = add_place(prefix + "out");
+      const std::uint32_t in = add_place(prefix + std::string(words::input));
+      const std::uint32_t out = add_place(prefix + std::string(words::output));
       net_.transitions[0].outputs.push_back(in);
       net_.transitions[1].inputs.push_back(out);
-      net_.transitions.push_back({prefix + "t_in", system_instance, {in}, {}, ""});
-      net_.transitions.push_back({prefix + "t_out", system_instance, {}, {out}, ""});
+      net_.transitions.push_back({prefix + std::string(words::start), system_instance, {in}, {}, ""});
+      net_.transitions.push_back({prefix + std::string(words::end), system_instance, {}, {out}, ""});
     }
   }
 
@@ -79,8 +83,8 @@ class Rebuilding {
     std::unordered_map<std::string_view, std::uint32_t> places;
     for (const Place& place : instance.net->places)
       places.emplace(place.name, add_place(prefix + std::string(place.name)));
-    in_.push_back(places.contains("in") ? places.at("in") : 0);
-    out_.push_back(places.contains("out") ? places.at("out") : 0);
+    in_.push_back(places.contains(words::input) ? places.at(words::input) : 0);
+    out_.push_back(places.contains(words::output) ? places.at(words::output) : 0);
 
     net_.first_of_instance.push_back(static_cast<std::uint32_t>(net_.transitions.size()));
     for (const Transition& transition : instance.net->transitions) {

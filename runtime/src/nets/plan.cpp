@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "nets/shared_channel.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera {
 namespace {
@@ -41,8 +42,8 @@ class Compilation {
     check_ports();
     for (const Place& place : net_.places) add(place);
     for (const Transition& transition : net_.transitions) add(transition);
-    plan_.in = resolve(places_, "in", "place");
-    plan_.out = resolve(places_, "out", "place");
+    plan_.in = resolve(places_, words::input, "place");
+    plan_.out = resolve(places_, words::output, "place");
     if (!error_.empty()) return std::nullopt;
     index_leaving();
     return std::move(plan_);

@@ -7,12 +7,18 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "recorder/recorder.hpp"
+#include "tessera/net_words.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera {
 namespace {
 
-constexpr std::string_view none_suffix = ".out none";
+/// "robot.control.follow.out none"
+[[nodiscard]] bool says_that_none_holds(std::string_view name) {
+  if (!name.ends_with(words::no_successor)) return false;
+  name.remove_suffix(words::no_successor.size());
+  return name.ends_with(words::output);
+}
 
 /// "robot.control.follow.out none": the instance it is of; nullopt: of none.
 [[nodiscard]] std::optional<std::uint32_t> owner_of(const System& system, std::string_view name) {
@@ -45,7 +51,7 @@ class Reading {
 
  private:
   [[nodiscard]] bool add(const std::string& name, Scenario& scenario) const {
-    if (name.ends_with(none_suffix)) {
+    if (says_that_none_holds(name)) {
       const std::optional<std::uint32_t> owner = owner_of(system_, name);
       if (owner) scenario.steps.push_back({*owner, Scenario::none_holds, name});
       return owner.has_value();

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
+
+#include "tessera/net_words.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -43,11 +46,15 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   const net::Place from = net[exit];
   net::Place lost = from;
   lost.name = from.name + ".none";
+  lost.role = net::PlaceRole::no_successor;
   lost.tokens = 0;
   lost.operation = {};
   const PlaceId to = net.add(std::move(lost));
   net::Transition none;
-  none.name = from.name + " none";
+  none.name = from.name + std::string(words::no_successor);
+  none.role = net::TransitionRole::no_successor;
+  none.agent = from.agent;
+  none.behaviour = from.behaviour;
   none.condition = {Condition::Kind::next, Condition::Truth::free, UINT32_MAX, "none holds"};
   none.condition.follows = none_follows;
   none.layer = net::Layer::subsystem;
@@ -58,7 +65,7 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
 }
 
 net::Net copied(const net::Net& net, Assume assume) {
-  net::Net copy;
+  net::Net copy(net.shared_parts());
   for (const net::Place& place : net.places()) copy.add(place);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
@@ -84,7 +91,7 @@ std::vector<bool> last_transitions(const net::Net& net) {
     if (net[id].subsystem == net::no_subsystem || !possible(net, id)) continue;
     last[index] = std::ranges::any_of(net.postset(id), [&](const Arc& arc) {
       const net::Place& place = net[arc.place];
-      return place.layer == net::Layer::subsystem && !left[arc.place.value] && place.name.ends_with(".out");
+      return place.is(net::Layer::subsystem, net::PlaceRole::output) && !left[arc.place.value];
     });
   }
   return last;
@@ -104,7 +111,7 @@ net::Net abstract_net(const net::Net& net, Assume assume) {
 }
 
 net::Net possible_part(const net::Net& net, std::vector<TransitionId>* fires) {
-  net::Net part;
+  net::Net part(net.shared_parts());
   for (const net::Place& place : net.places()) part.add(place);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
@@ -127,7 +134,7 @@ ProbedNet probed_net(const net::Net& abstract) {
     more[index] = entry->second;
   }
   // The places that the arcs above speak of have to be there first.
-  net::Net places;
+  net::Net places(abstract.shared_parts());
   for (const net::Place& place : abstract.places()) places.add(place);
   std::map<PlaceId, std::uint32_t> in_order;
   for (const auto& [subsystem, place] : ended) in_order.emplace(place, subsystem);

@@ -1,7 +1,6 @@
 #include "verify/communication/blocks.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
 namespace tessera::verify {
@@ -12,11 +11,18 @@ using net::PlaceId;
 
 /// Which part of its channel's memory a fused place is; 0: none that we know.
 std::uint8_t memory_of(const net::Place& place) {
-  if (place.name.ends_with(".channel")) return place.tokens == 1 ? free_to_use : 0;
-  if (place.name.ends_with(".empty")) return place.tokens == 1 ? empty : 0;
-  if (place.name.ends_with(".full")) return place.tokens == 0 ? full : 0;
-  if (place.name.ends_with(".ack")) return place.tokens == 0 ? acknowledged : 0;
-  return 0;
+  switch (place.role) {
+    case net::PlaceRole::lock:
+      return free_to_use;
+    case net::PlaceRole::empty:
+      return empty;
+    case net::PlaceRole::full:
+      return full;
+    case net::PlaceRole::acknowledged:
+      return acknowledged;
+    default:
+      return 0;
+  }
 }
 
 /// What a step does, apart from where its token comes from.
@@ -110,22 +116,17 @@ class Match {
   std::uint32_t channel_ = 0;
 };
 
-std::string_view block_of(const Steps& steps, const Step& step) {
-  const std::string_view name = steps.net()[step.id].name;
-  return name.substr(0, name.rfind('.'));
-}
-
 /// Follows the transitions of one block from `in` to the only place that none of them leaves.
 std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
   const auto starts = steps.from(in);
   if (starts.empty() || starts.front().channel == UINT32_MAX) return std::nullopt;
   Block block{.communication = {.channel = starts.front().channel, .own_model = true}, .out = {}};
-  const std::string_view name = block_of(steps, starts.front());
+  const std::uint32_t number = steps.net()[starts.front().id].block;
   std::vector<PlaceId> reached{in};
   for (std::size_t at = 0; at < reached.size(); ++at) {
     bool left = false;
     for (const Step& step : steps.from(reached[at])) {
-      if (block_of(steps, step) != name) continue;
+      if (steps.net()[step.id].block != number) continue;
       const bool foreign = step.channel != UINT32_MAX && step.channel != block.communication.channel;
       if (foreign || !step.from.valid() || !step.to.valid()) return std::nullopt;
       left = true;

@@ -13,9 +13,6 @@ using net::Condition;
 using net::Operation;
 using net::PlaceId;
 
-/// A path without its last part.
-std::string parent(const std::string& path) { return path.substr(0, path.rfind('.')); }
-
 /// Follows the token of one subsystem through its pages.
 class SubsystemReader {
  public:
@@ -24,12 +21,13 @@ class SubsystemReader {
   /// entry: the place at which the upper layers start the subsystem.
   std::optional<SubsystemFlow> read(PlaceId entry) {
     flow_.id = net_[entry].subsystem;
-    flow_.name = parent(net_[entry].name);
+    flow_.name = net_.parts().subsystems[flow_.id].path;
     const std::optional<PlaceId> start = silent_step(entry);
     if (!start || !behaviour_at(*start)) return fail("does not start with a behaviour", entry);
     for (std::size_t index = 0; index < entries_.size(); ++index) {
       flow_.behaviours.emplace_back();
-      flow_.behaviours[index].name = parent(net_[entries_[index]].name);
+      flow_.behaviours[index].name =
+          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].operation.subject);
       if (!read_behaviour(static_cast<std::uint32_t>(index))) return std::nullopt;
     }
     return std::move(flow_);
@@ -227,12 +225,9 @@ class Start {
 class Channels {
  public:
   explicit Channels(const net::Net& net, std::uint32_t count)
-      : numbers_(count, UINT32_MAX), names_(count), exchanges_(count, false) {
-    for (const net::Place& place : net.places()) {
-      if (!place.fused()) continue;
-      if (names_[place.channel].empty()) names_[place.channel] = parent(place.name);
-      if (place.name.ends_with(".channel")) exchanges_[place.channel] = true;
-    }
+      : names_(net.parts().channels), numbers_(count, UINT32_MAX), exchanges_(count, false) {
+    for (const net::Place& place : net.places())
+      if (place.role == net::PlaceRole::lock) exchanges_[place.channel] = true;
   }
 
   /// Renumbers the communication; false if another subsystem or another mode holds the same end.
@@ -264,8 +259,8 @@ class Channels {
   std::vector<ChannelFlow> all;
 
  private:
-  std::vector<std::uint32_t> numbers_;  // per channel of the net
-  std::vector<std::string> names_;
+  const std::vector<std::string>& names_;  // per channel of the net
+  std::vector<std::uint32_t> numbers_;
   std::vector<bool> exchanges_;
 };
 

@@ -21,7 +21,7 @@ namespace tessera::verify {
                                const std::vector<net::TransitionId>& transitions);
 
 /// The run, gone on with until those that the stuck transitions wait for wait too, and so on: then it shows
-/// the circle, or who has ended. As it is if some of them would run for ever.
+/// the cycle, or who has ended. As it is if some of them would run for ever.
 [[nodiscard]] std::vector<net::TransitionId> until_all_concerned_wait(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 

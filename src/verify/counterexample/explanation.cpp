@@ -73,11 +73,10 @@ class Explainer {
   /// The transitions by which a subsystem ends.
   [[nodiscard]] std::vector<TransitionId> last_of(std::uint32_t subsystem) const {
     const Waits waits = here();
-    const std::string end = waits.name(subsystem) + ".out";
     std::vector<TransitionId> last;
     for (const TransitionId id : waits.transitions(subsystem))
       for (const net::Arc& arc : net_.postset(id))
-        if (net_[arc.place].name == end) last.push_back(id);
+        if (net_[arc.place].is(net::Layer::subsystem, net::PlaceRole::output)) last.push_back(id);
     return last;
   }
 
@@ -170,7 +169,7 @@ class Explainer {
 
 net::Net starting_after(const net::Net& net, const Run& run) {
   const std::vector<std::uint32_t> tokens = tokens_after(net, run);
-  net::Net other;
+  net::Net other(net.shared_parts());
   for (std::uint32_t index = 0; index < tokens.size(); ++index) {
     net::Place place = net.places()[index];
     place.tokens = tokens[index];

@@ -4,8 +4,6 @@
 #include <span>
 #include <string_view>
 
-#include "verify/counterexample/waits.hpp"
-
 namespace tessera::verify {
 namespace {
 
@@ -22,35 +20,31 @@ struct Deed {
   std::string behaviour;  ///< in which it happens; empty: between behaviours
   std::string text;       ///< empty: belongs to the deed before
   std::string done;       ///< replaces text once a deed of the same block without text follows
-  std::string block;      ///< "snd.motion"
-  std::string transition;
+  std::uint32_t block = net::no_index;
+  std::string transition;   ///< as drawn
   bool then_waits = false;  ///< for an acknowledgement
 };
 
 bool touches_wait(const net::Net& net, std::span<const Arc> arcs) {
-  return std::ranges::any_of(arcs, [&](const Arc& arc) { return net[arc.place].name.ends_with(".wait"); });
+  return std::ranges::any_of(arcs,
+                             [&](const Arc& arc) { return net[arc.place].role == net::PlaceRole::waiting; });
 }
 
 class Teller {
  public:
-  explicit Teller(const net::Net& net) : net_(net), names_(subsystem_names(net)) {}
+  explicit Teller(const net::Net& net) : net_(net) {}
 
   [[nodiscard]] std::string subsystem(TransitionId id) const {
     const std::uint32_t index = net_[id].subsystem;
-    return index == net::no_subsystem ? std::string() : names_[index];
+    return index == net::no_subsystem ? std::string() : net_.parts().subsystems[index].path;
   }
 
   [[nodiscard]] Deed deed(TransitionId id) const {
-    const std::string owner = subsystem(id);
-    const std::string& name = net_[id].name;
-    const std::string local = owner.empty() ? name : name.substr(owner.size() + 1);
-    if (net_[id].layer == net::Layer::subsystem) return between(id, local);
+    if (net_[id].layer == net::Layer::subsystem) return between(id);
     Deed deed;
-    const std::size_t dot = local.find('.');
-    deed.behaviour = local.substr(0, dot);
-    deed.transition = leaf(local);
-    const std::size_t last = local.rfind('.');
-    if (last != dot) deed.block = local.substr(dot + 1, last - dot - 1);
+    deed.behaviour = behaviour_name(net_[id].subsystem, net_[id].behaviour);
+    deed.transition = leaf(net_[id].name);
+    deed.block = net_[id].block;
     if (net_[id].layer == net::Layer::behaviour)
       within(id, deed);
     else
@@ -59,20 +53,25 @@ class Teller {
   }
 
  private:
-  /// t_in and the initial conditions.
-  [[nodiscard]] Deed between(TransitionId id, const std::string& local) const {
+  [[nodiscard]] const std::string& behaviour_name(std::uint32_t subsystem, std::uint32_t behaviour) const {
+    return net_.parts().subsystems[subsystem].behaviours[behaviour];
+  }
+
+  /// The start of the subsystem and the initial conditions.
+  [[nodiscard]] Deed between(TransitionId id) const {
     Deed deed;
-    deed.transition = local;
-    const bool enters = local == "t_in";
-    const std::string to = net_.postset(id).empty() ? "" : net_[net_.postset(id).front().place].name;
-    if (to.ends_with(".none")) {
+    deed.transition = net_[id].name.substr(subsystem(id).size() + 1);
+    if (net_[id].role == net::TransitionRole::no_successor) {
       deed.text = "leaves a behaviour, and none of its initial conditions holds";
-    } else if (std::ranges::count(to, '.') == std::ranges::count(subsystem(id), '.') + 1) {
+      return deed;
+    }
+    const net::Place& to = net_[net_.postset(id).front().place];
+    if (to.is(net::Layer::subsystem, net::PlaceRole::output)) {
       deed.text = "ends";
     } else {
-      const std::string behaviour = to.substr(0, to.rfind('.'));
-      deed.behaviour = leaf(behaviour);
-      deed.text = (enters ? "starts in " : "goes on to ") + deed.behaviour;
+      deed.behaviour = behaviour_name(to.subsystem, to.behaviour);
+      deed.text =
+          (net_[id].role == net::TransitionRole::start ? "starts in " : "goes on to ") + deed.behaviour;
     }
     return deed;
   }
@@ -91,7 +90,8 @@ class Teller {
   }
 
   void communicate(TransitionId id, Deed& deed) const {
-    const std::string buffer(leaf(deed.block));
+    const std::string buffer = deed.block == net::no_index ? std::string() : net_.parts().blocks[deed.block].name;
+    const bool overwrites = net_[id].role == net::TransitionRole::overwrite;
     if (net_[id].condition.kind == Condition::Kind::elapsed) {
       deed.text = "waits for " + buffer + " until its timeout";
       return;
@@ -99,8 +99,8 @@ class Teller {
     for (const Arc& arc : net_.postset(id)) {
       const Operation::Kind operation = net_[arc.place].operation.kind;
       if (operation == Operation::Kind::write) {
-        deed.text = (deed.transition == "t1o" ? "overwrites " : "writes ") + buffer;
-        deed.done = (deed.transition == "t1o" ? "overwrites " : "sends ") + buffer;
+        deed.text = (overwrites ? "overwrites " : "writes ") + buffer;
+        deed.done = (overwrites ? "overwrites " : "sends ") + buffer;
       }
       if (operation == Operation::Kind::read) {
         deed.text = "reads " + buffer;
@@ -108,12 +108,11 @@ class Teller {
       }
     }
     if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
-    if (deed.transition == "skip") deed.text = "finds nothing new in " + buffer;
+    if (net_[id].role == net::TransitionRole::skip) deed.text = "finds nothing new in " + buffer;
     deed.then_waits = touches_wait(net_, net_.postset(id));
   }
 
   const net::Net& net_;
-  std::vector<std::string> names_;
 };
 
 /// The deeds of one act as a sentence.
@@ -156,7 +155,8 @@ class Sentence {
 
  private:
   struct Clause {
-    std::string behaviour, text, done, block;
+    std::string behaviour, text, done;
+    std::uint32_t block = net::no_index;
     std::vector<std::string> transitions;
   };
 
@@ -175,12 +175,11 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   std::string system;
   std::vector<std::string> starts, ends;
   for (const TransitionId id : run) {
-    const std::string& name = net[id].name;
-    const bool enters = leaf(name) == "t_in";
-    if (name.find('.') == std::string::npos)
+    const bool enters = net[id].role == net::TransitionRole::start;
+    if (net[id].agent == net::no_index)
       system += (system.empty() ? "the system " : " and ") + std::string(enters ? "starts" : "ends");
     else
-      (enters ? starts : ends).push_back(name.substr(0, name.rfind('.')));
+      (enters ? starts : ends).push_back(net.parts().agents[net[id].agent]);
   }
   std::string text = system;
   const auto tell = [&](const std::vector<std::string>& agents, const char* does) {

@@ -44,7 +44,7 @@ Run searched_again(const net::Net& net, const explore::Marking& end, const Run& 
   std::set<std::uint32_t> subsystems;
   for (const TransitionId id : run) subsystems.insert(net[id].subsystem);
   if (subsystems.size() > most_searched) return run;
-  net::Net used;
+  net::Net used(net.shared_parts());
   for (const net::Place& place : net.places()) used.add(place);
   const std::set<TransitionId> occurring(run.begin(), run.end());
   const Run back(occurring.begin(), occurring.end());
@@ -196,7 +196,9 @@ std::vector<std::vector<std::size_t>> followers(const net::Net& net, const Run& 
 Run grouped(const net::Net& net, const Run& run) {
   std::vector<std::size_t> waiting_for;
   const std::vector<std::vector<std::size_t>> after = followers(net, run, waiting_for);
-  const auto rank = [&](std::size_t at) { return net[run[at]].name.ends_with(" none") ? 1 : 0; };
+  const auto rank = [&](std::size_t at) {
+    return net[run[at]].role == net::TransitionRole::no_successor ? 1 : 0;
+  };
   std::map<std::uint32_t, std::set<std::pair<int, std::size_t>>> ready;  // by subsystem
   std::set<std::tuple<int, std::size_t, std::uint32_t>> order;
   const auto offer = [&](std::size_t at) {

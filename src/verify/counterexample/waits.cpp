@@ -8,14 +8,18 @@ namespace {
 
 using net::TransitionId;
 
-/// "full" of "a.control.y->b.control.x.full"
-std::string state_of(const std::string& place) { return place.substr(place.rfind('.') + 1); }
-std::string channel_of(const std::string& place) { return place.substr(0, place.rfind('.')); }
+/// What of a channel somebody waits for, or gives.
+enum class Good : std::uint8_t { memory, value, acknowledgement };
+
+Good good_of(const net::Place& place) {
+  if (place.role == net::PlaceRole::full) return Good::value;
+  return place.role == net::PlaceRole::acknowledged ? Good::acknowledgement : Good::memory;
+}
 
 }  // namespace
 
 Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
-    : net_(net), tokens_(std::move(tokens)), names_(subsystem_names(net)), transitions_(names_.size()) {
+    : net_(net), tokens_(std::move(tokens)), transitions_(net.parts().subsystems.size()) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::Transition& transition = net.transitions()[index];
     if (transition.subsystem < transitions_.size() &&
@@ -31,17 +35,16 @@ bool Waits::moves(std::uint32_t subsystem) const {
 }
 
 bool Waits::has_ended(std::uint32_t subsystem) const {
-  const std::string end = names_[subsystem] + ".out";
+  const std::uint32_t agent = net_.parts().subsystems[subsystem].agent;
   for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    if (tokens_[place] == 0) continue;
     const net::Place& given = net_.places()[place];
-    if (tokens_[place] > 0 && given.subsystem == subsystem && !given.fused() && given.name != end)
+    if (given.subsystem == subsystem && !given.fused() &&
+        !given.is(net::Layer::subsystem, net::PlaceRole::output))
       return false;
-  }
-  // It has not ended if it has never begun: its agent is still to start it.
-  const std::string agent = names_[subsystem].substr(0, names_[subsystem].rfind('.'));
-  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
-    const std::string& name = net_.places()[place].name;
-    if (tokens_[place] > 0 && (name == "in" || name == agent + ".in")) return false;
+    // It has not ended if it has never begun: its agent is still to start it.
+    if (given.is(net::Layer::system, net::PlaceRole::input)) return false;
+    if (given.is(net::Layer::agent, net::PlaceRole::input) && given.agent == agent) return false;
   }
   return true;
 }
@@ -63,21 +66,21 @@ std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
   }
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
-        net_.places()[place].name.ends_with(".none"))
-      texts.push_back(names_[subsystem] + " left a behaviour, and none of its initial conditions held");
+        net_.places()[place].role == net::PlaceRole::no_successor)
+      texts.push_back(name(subsystem) + " left a behaviour, and none of its initial conditions held");
   return texts;
 }
 
 std::string Waits::line(std::uint32_t subsystem, std::uint32_t missing) const {
-  const std::string& place = net_.places()[missing].name;
-  const std::string state = state_of(place);
+  const net::Place& place = net_.places()[missing];
+  const Good good = good_of(place);
   std::string what = " waits for the memory of ";
-  if (state == "full") what = " waits for a value of ";
-  if (state == "ack") what = " waits for the acknowledgement of ";
+  if (good == Good::value) what = " waits for a value of ";
+  if (good == Good::acknowledgement) what = " waits for the acknowledgement of ";
   std::string from;
   for (const std::uint32_t giver : givers(missing, subsystem))
-    from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : names_[giver]);
-  return names_[subsystem] + what + channel_of(place) + (from.empty() ? ", which nobody gives" : from);
+    from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : name(giver));
+  return name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from);
 }
 
 std::set<std::uint32_t> Waits::givers(std::uint32_t place, std::uint32_t waiting) const {
@@ -98,21 +101,19 @@ std::vector<TransitionId> Waits::giving(std::uint32_t subsystem, std::uint32_t p
 }
 
 bool Waits::is_own_memory(std::uint32_t subsystem, std::uint32_t place) const {
-  const std::string state = state_of(net_.places()[place].name);
-  return state != "full" && state != "ack" && givers(place, subsystem) == std::set{subsystem};
+  return good_of(net_.places()[place]) == Good::memory && givers(place, subsystem) == std::set{subsystem};
 }
 
 std::string Waits::takes_no_more(std::uint32_t reader, std::uint32_t place) const {
-  return names_[reader] + " goes on and receives " + channel_of(net_.places()[place].name) + " no more";
+  return name(reader) + " goes on and receives " + channel(net_.places()[place]) + " no more";
 }
 
 std::string Waits::gives_no_more(std::uint32_t giver, std::uint32_t place) const {
-  const std::string& name = net_.places()[place].name;
-  const std::string state = state_of(name);
+  const Good good = good_of(net_.places()[place]);
   std::string does = " goes on and gives the memory of ";
-  if (state == "full") does = " goes on and sends ";
-  if (state == "ack") does = " goes on and acknowledges ";
-  return names_[giver] + does + channel_of(name) + " no more";
+  if (good == Good::value) does = " goes on and sends ";
+  if (good == Good::acknowledgement) does = " goes on and acknowledges ";
+  return name(giver) + does + channel(net_.places()[place]) + " no more";
 }
 
 std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
@@ -139,16 +140,6 @@ std::vector<std::uint32_t> tokens_after(const net::Net& net, const std::vector<T
     for (const net::Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
   }
   return tokens;
-}
-
-std::vector<std::string> subsystem_names(const net::Net& net) {
-  std::vector<std::string> names;
-  for (const net::Place& place : net.places()) {
-    if (place.subsystem == net::no_subsystem || place.layer != net::Layer::subsystem) continue;
-    if (place.subsystem >= names.size()) names.resize(std::size_t{place.subsystem} + 1);
-    if (place.name.ends_with(".in")) names[place.subsystem] = place.name.substr(0, place.name.size() - 3);
-  }
-  return names;
 }
 
 }  // namespace tessera::verify

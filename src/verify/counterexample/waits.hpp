@@ -34,22 +34,26 @@ class Waits {
   /// What a giver does no more if it never gives the place: "a.control goes on and sends ... no more".
   [[nodiscard]] std::string gives_no_more(std::uint32_t giver, std::uint32_t place) const;
 
-  [[nodiscard]] const std::string& name(std::uint32_t subsystem) const { return names_[subsystem]; }
+  [[nodiscard]] const std::string& name(std::uint32_t subsystem) const {
+    return net_.parts().subsystems[subsystem].path;
+  }
   /// The transitions of a subsystem that are possible.
   [[nodiscard]] const std::vector<net::TransitionId>& transitions(std::uint32_t subsystem) const {
     return transitions_[subsystem];
   }
-  [[nodiscard]] std::size_t subsystems() const { return names_.size(); }
+  [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
   [[nodiscard]] bool has(const net::Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
   /// Is it a place of the memory of a channel into which nobody else can put a token?
   [[nodiscard]] bool is_own_memory(std::uint32_t subsystem, std::uint32_t place) const;
   [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
+  [[nodiscard]] const std::string& channel(const net::Place& place) const {
+    return net_.parts().channels[place.channel];
+  }
 
   const net::Net& net_;
   std::vector<std::uint32_t> tokens_;
-  std::vector<std::string> names_;
   std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
 };
 
@@ -60,8 +64,5 @@ class Waits {
 /// Tokens of every place after a run. Precondition: the run is one of the net.
 [[nodiscard]] std::vector<std::uint32_t> tokens_after(const net::Net& net,
                                                       const std::vector<net::TransitionId>& run);
-
-/// The path of each subsystem, by its number: "robot.control".
-[[nodiscard]] std::vector<std::string> subsystem_names(const net::Net& net);
 
 }  // namespace tessera::verify

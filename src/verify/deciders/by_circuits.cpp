@@ -15,11 +15,11 @@ Finding violated(std::string why, std::vector<std::uint32_t> subjects) {
 
 Finding holds() { return {.kind = Finding::Kind::holds}; }
 
-Finding open(const Case& given, std::vector<std::uint32_t> subjects) {
+Finding open(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
   return {.why = given.why_no_circuits(), .subjects = std::move(subjects)};
 }
 
-std::string stuck_in_words(const Case& given) {
+std::string stuck_in_words(const NetUnderAssumption& given) {
   for (const CircuitGroup& group : given.circuits->groups) {
     if (group.stuck.empty()) continue;
     const CommunicationStructure& structure = *given.communication.structure;
@@ -30,14 +30,14 @@ std::string stuck_in_words(const Case& given) {
   return {};
 }
 
-Finding deadlock_free(const Case& given) {
+Finding deadlock_free(const NetUnderAssumption& given) {
   if (given.circuits->deadlock_free == Answer::yes) return holds();
   if (given.circuits->deadlock_free == Answer::no) return violated(stuck_in_words(given), {});
   return open(given, {});
 }
 
 /// One subsystem that is stuck is enough for a run: the one that stuck_in_words names first.
-std::vector<std::uint32_t> first_stuck(const Case& given) {
+std::vector<std::uint32_t> first_stuck(const NetUnderAssumption& given) {
   for (const CircuitGroup& group : given.circuits->groups) {
     if (group.stuck.empty()) continue;
     std::uint32_t first = group.stuck.front();
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> first_stuck(const Case& given) {
   return {};
 }
 
-Finding goes_on(const Case& given, std::vector<std::uint32_t> subjects) {
+Finding goes_on(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
   if (given.circuits->goes_on == Answer::yes) return holds();
   if (given.circuits->goes_on == Answer::no) return violated(stuck_in_words(given), first_stuck(given));
   std::set<std::uint32_t> decided;
@@ -60,7 +60,7 @@ Finding goes_on(const Case& given, std::vector<std::uint32_t> subjects) {
   return open(given, std::move(subjects));
 }
 
-Finding channels_flow(const Case& given, std::vector<std::uint32_t> subjects) {
+Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
   const std::vector<ChannelFlow>& channels = given.communication.structure->channels;
   if (!given.circuits->dry.empty()) {  // the run has to be of the channel that is named
     const ChannelFlow& dry = channels[given.circuits->dry.front()];
@@ -74,7 +74,8 @@ Finding channels_flow(const Case& given, std::vector<std::uint32_t> subjects) {
 }
 
 /// Of places that start a behaviour, those of behaviours that follow none that can run.
-std::vector<std::uint32_t> never_following(const Case& given, const std::vector<std::uint32_t>& places) {
+std::vector<std::uint32_t> never_following(const NetUnderAssumption& given,
+                                           const std::vector<std::uint32_t>& places) {
   std::set<std::string> reached;
   for (const SubsystemFlow& subsystem : given.communication.structure->subsystems)
     for (const BehaviourFlow& behaviour : subsystem.behaviours) reached.insert(behaviour.name);
@@ -86,7 +87,7 @@ std::vector<std::uint32_t> never_following(const Case& given, const std::vector<
 
 /// A subsystem that always goes on comes to the end of every round, where everything that may follow can;
 /// and each starts with its first behaviour.
-std::set<std::string> certainly_reached(const Case& given) {
+std::set<std::string> certainly_reached(const NetUnderAssumption& given) {
   std::set<std::string> reached;
   for (const CircuitGroup& group : given.circuits->groups)
     for (const std::uint32_t subsystem : group.subsystems) {
@@ -98,7 +99,7 @@ std::set<std::string> certainly_reached(const Case& given) {
   return reached;
 }
 
-Finding live_behaviours(const Case& given, std::vector<std::uint32_t> places) {
+Finding live_behaviours(const NetUnderAssumption& given, std::vector<std::uint32_t> places) {
   constexpr const char* by_structure = "communication structure";
   Finding finding;
   if (std::vector<std::uint32_t> never = never_following(given, places); !never.empty()) {
@@ -117,7 +118,7 @@ Finding live_behaviours(const Case& given, std::vector<std::uint32_t> places) {
 }
 
 /// Behaviours that run, or lead to each other.
-std::optional<Finding> claims(const Case& given, const net::HierarchicalNet& pages,
+std::optional<Finding> claims(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
                               const Question& question) {
   Finding finding = open(given, {});
   for (const std::uint32_t number : question.subjects) {
@@ -148,7 +149,7 @@ class ByCircuits final : public Decider {
     if (question.kind == Kind::safe || question.kind == Kind::exclusive_channels ||
         question.kind == Kind::sound_pages)
       return std::nullopt;
-    const Case& given = facts.under(question.assume);
+    const NetUnderAssumption& given = facts.under(question.assume);
     if (!given.circuits) return open(given, question.subjects);
     switch (question.kind) {
       case Kind::deadlock_free:

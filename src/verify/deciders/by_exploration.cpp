@@ -30,7 +30,7 @@ Finding judged(const Found& found, Found::Kind good) {
 }
 
 /// Reductions do not keep safety, so the net itself is explored.
-Finding safe(const Case& given, const explore::Limits& limits) {
+Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
   std::vector<TransitionId> original;
   const net::Net possible = possible_part(given.abstract, &original);
   const explore::PtNet net(possible);
@@ -67,7 +67,7 @@ void explain(Finding& finding, const net::Net& net) {
   finding.waits = std::move(explanation.waits);
 }
 
-Finding deadlock_free(const Case& given, Facts& facts, const explore::Limits& limits) {
+Finding deadlock_free(const NetUnderAssumption& given, Facts& facts, const explore::Limits& limits) {
   const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(given.abstract);
   Finding finding = judged(find_dead(given.abstract, end, facts.reducing(), limits), Found::Kind::no);
   if (finding.kind != Finding::Kind::violated) return finding;
@@ -86,8 +86,8 @@ std::size_t worst_of(const std::vector<Found>& all) {
 }
 
 /// Sets of transitions one of which has to be possible again and again.
-Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& all, const Question& question,
-                        const Reducing& how, const explore::Limits& limits) {
+Finding always_possible(const NetUnderAssumption& given, const std::vector<ProbedNet::Set>& all,
+                        const Question& question, const Reducing& how, const explore::Limits& limits) {
   std::vector<const ProbedNet::Set*> sets;
   std::vector<std::vector<TransitionId>> transitions;
   for (const ProbedNet::Set& set : all) {
@@ -112,25 +112,20 @@ Finding always_possible(const Case& given, const std::vector<ProbedNet::Set>& al
   return finding;
 }
 
-Finding goes_on(const Case& given, const Question& question, const Reducing& how,
+Finding goes_on(const NetUnderAssumption& given, const Question& question, const Reducing& how,
                 const explore::Limits& limits) {
   Finding finding = always_possible(given, given.probed.subsystems, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
-    finding.why = subsystem_names(given.abstract)[finding.subjects.front()] + " can get stuck for ever";
+    finding.why =
+        given.abstract.parts().subsystems[finding.subjects.front()].path + " can get stuck for ever";
   return finding;
 }
 
-std::string channel_name(const net::Net& net, std::uint32_t channel) {
-  for (const net::Place& place : net.places())
-    if (place.channel == channel) return place.name.substr(0, place.name.rfind('.'));
-  return {};
-}
-
-Finding channels_flow(const Case& given, const Question& question, const Reducing& how,
+Finding channels_flow(const NetUnderAssumption& given, const Question& question, const Reducing& how,
                       const explore::Limits& limits) {
   Finding finding = always_possible(given, given.probed.channels, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
-    finding.why = channel_name(given.abstract, finding.subjects.front()) + " can run dry for ever";
+    finding.why = given.abstract.parts().channels[finding.subjects.front()] + " can run dry for ever";
   return finding;
 }
 
@@ -163,8 +158,8 @@ void name_subjects(Finding& finding, const Question& question) {
 }
 
 /// Markings none of which is to be reached, one for each subject of the question.
-Finding none_reached(const Case& given, const Question& question, const std::vector<Goal>& markings,
-                     const Reducing& how, const explore::Limits& limits) {
+Finding none_reached(const NetUnderAssumption& given, const Question& question,
+                     const std::vector<Goal>& markings, const Reducing& how, const explore::Limits& limits) {
   Finding finding = judged_together(
       ask(given.abstract, Ask::reachable, markings, Found::Kind::yes, how, limits), Found::Kind::yes);
   name_subjects(finding, question);
@@ -172,7 +167,7 @@ Finding none_reached(const Case& given, const Question& question, const std::vec
   return finding;
 }
 
-Finding exclusive_channels(const Case& given, const Question& question, const Reducing& how,
+Finding exclusive_channels(const NetUnderAssumption& given, const Question& question, const Reducing& how,
                            const explore::Limits& limits) {
   std::vector<Goal> markings;
   for (const SharedMemory& memory : shared_memories(given.abstract))
@@ -180,12 +175,12 @@ Finding exclusive_channels(const Case& given, const Question& question, const Re
   Finding finding = none_reached(given, question, markings, how, limits);
   if (finding.kind != Finding::Kind::violated) return finding;
   const PlaceId place{finding.subjects.front()};
-  finding.why = "the memory of " + channel_name(given.abstract, given.abstract[place].operation.subject) +
+  finding.why = "the memory of " + given.abstract.parts().channels[given.abstract[place].operation.subject] +
                 " is used twice at once";
   return finding;
 }
 
-Finding sound_pages(const Case& given, const Question& question, Facts& facts,
+Finding sound_pages(const NetUnderAssumption& given, const Question& question, Facts& facts,
                     const explore::Limits& limits) {
   const net::HierarchicalNet& pages = *facts.subject().pages;
   // Not those of the abstract net, which has places where a subsystem is lost and its page is not left.
@@ -199,7 +194,7 @@ Finding sound_pages(const Case& given, const Question& question, Facts& facts,
   return finding;
 }
 
-Finding live_behaviours(const Case& given, const Question& question, const Reducing& how,
+Finding live_behaviours(const NetUnderAssumption& given, const Question& question, const Reducing& how,
                         const explore::Limits& limits) {
   std::vector<Goal> goals;
   for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
@@ -217,7 +212,7 @@ Finding live_behaviours(const Case& given, const Question& question, const Reduc
   return finding;
 }
 
-Finding claims(const Case& given, const Question& question, const Reducing& how,
+Finding claims(const NetUnderAssumption& given, const Question& question, const Reducing& how,
                const explore::Limits& limits) {
   using Claims = net::Property::Kind;
   const Claims kind = question.property->kind;
@@ -249,7 +244,7 @@ class ByExploration final : public Decider {
 
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& limits) const override {
-    const Case& given = facts.under(question.assume);
+    const NetUnderAssumption& given = facts.under(question.assume);
     switch (question.kind) {
       case Question::Kind::safe:
         return safe(given, limits);

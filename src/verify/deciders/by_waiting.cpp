@@ -42,7 +42,7 @@ class ByWaiting final : public Decider {
     const bool asked = question.kind == Kind::deadlock_free || question.kind == Kind::goes_on ||
                        question.kind == Kind::channels_flow || question.kind == Kind::live_behaviours;
     if (!asked || !facts.under(question.assume).communication.structure) return std::nullopt;
-    const Case& given = facts.under(question.assume);
+    const NetUnderAssumption& given = facts.under(question.assume);
     const WaitingReport& report = facts.waiting(question.assume, limits);
     Finding finding = judge(question, given, report);
     finding.explanation = std::to_string(report.stops) + " places to wait at, " +
@@ -51,7 +51,8 @@ class ByWaiting final : public Decider {
   }
 
  private:
-  static Finding judge(const Question& question, const Case& given, const WaitingReport& report) {
+  static Finding judge(const Question& question, const NetUnderAssumption& given,
+                       const WaitingReport& report) {
     const CommunicationStructure& structure = *given.communication.structure;
     if (question.kind == Question::Kind::deadlock_free) {
       if (deadlock_free(structure, report.goes_on)) return {.kind = Finding::Kind::holds};

@@ -8,7 +8,7 @@
 
 namespace tessera::verify {
 
-Case::Case(const Subject& subject, Assume assume)
+NetUnderAssumption::NetUnderAssumption(const Subject& subject, Assume assume)
     : abstract(abstract_net(subject.net, assume)), probed(probed_net(abstract)) {
   if (subject.pages == nullptr) {
     communication.why_not = "the net is not made of the five layers";
@@ -18,7 +18,7 @@ Case::Case(const Subject& subject, Assume assume)
   if (communication.structure) circuits = judge_circuits(*communication.structure);
 }
 
-std::string Case::why_no_circuits() const {
+std::string NetUnderAssumption::why_no_circuits() const {
   if (!communication.structure) return communication.why_not;
   for (const CircuitGroup& group : circuits->groups)
     if (!group.applies()) return group.why_not;
@@ -42,8 +42,8 @@ const UnitInvariants& Facts::units() {
   return *units_;
 }
 
-const Case& Facts::under(Assume assume) {
-  std::optional<Case>& wanted = assume == Assume::conditions ? conditions_ : exceptions_;
+const NetUnderAssumption& Facts::under(Assume assume) {
+  std::optional<NetUnderAssumption>& wanted = assume == Assume::conditions ? conditions_ : exceptions_;
   if (!wanted) wanted.emplace(subject_, assume);
   return *wanted;
 }
@@ -51,7 +51,7 @@ const Case& Facts::under(Assume assume) {
 const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {
   WaitingReport& report = waiting_[assume];
   if (report.complete) return report;
-  const Case& given = under(assume);
+  const NetUnderAssumption& given = under(assume);
   std::vector<const CircuitGroup*> refused;
   for (const CircuitGroup& group : given.circuits->groups)
     if (!group.applies()) refused.push_back(&group);
@@ -84,12 +84,12 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
 
 net::PlaceId final_place(const net::Net& net) {
   for (std::uint32_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].layer == net::Layer::system && net.places()[place].name == "out") return {place};
+    if (net.places()[place].is(net::Layer::system, net::PlaceRole::output)) return {place};
   return {};
 }
 
 std::string behaviour_of(const net::Net& net, net::PlaceId place) {
-  return net[place].name.substr(0, net[place].name.rfind('.'));
+  return net.parts().behaviour_path(net[place].subsystem, net[place].operation.subject);
 }
 
 }  // namespace tessera::verify

@@ -19,13 +19,13 @@
 namespace tessera::verify {
 
 /// What is known about a net under one assumption.
-struct Case {
+struct NetUnderAssumption {
   net::Net abstract;
   ProbedNet probed;
   CommunicationResult communication;
   std::optional<CircuitReport> circuits;  ///< if there is a communication structure
 
-  Case(const Subject& subject, Assume assume);
+  NetUnderAssumption(const Subject& subject, Assume assume);
 
   /// Why the circuit criterion says nothing.
   [[nodiscard]] std::string why_no_circuits() const;
@@ -47,7 +47,7 @@ class Facts {
   [[nodiscard]] Reducing reducing() { return {safe(), rules_}; }
   /// Precondition: wrong_invariants() is empty.
   [[nodiscard]] const UnitInvariants& units();
-  [[nodiscard]] const Case& under(Assume assume);
+  [[nodiscard]] const NetUnderAssumption& under(Assume assume);
   /// Who goes on for ever, by circuits (docs/circuits.md) or else by circles of waiting (docs/waiting.md).
   /// Precondition: there is a communication structure.
   [[nodiscard]] const WaitingReport& waiting(Assume assume, const explore::Limits& limits);
@@ -60,7 +60,7 @@ class Facts {
   std::vector<std::string> wrong_;
   std::optional<bool> safe_;
   std::optional<UnitInvariants> units_;
-  std::optional<Case> conditions_, exceptions_;
+  std::optional<NetUnderAssumption> conditions_, exceptions_;
   std::map<Assume, WaitingReport> waiting_;
 };
 

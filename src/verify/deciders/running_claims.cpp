@@ -14,7 +14,7 @@ struct Known {
   bool goes_on = false;
 };
 
-Known known(const Case& given, std::uint32_t id) {
+Known known(const NetUnderAssumption& given, std::uint32_t id) {
   const std::vector<SubsystemFlow>& all = given.communication.structure->subsystems;
   const auto flow = std::ranges::find(all, id, &SubsystemFlow::id);
   if (flow == all.end()) return {};
@@ -41,8 +41,8 @@ RunningVerdict all_reach(const BehaviourGraph& graph, const BehaviourGraph::Node
   return {Answer::yes, {}};
 }
 
-RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
-                         const net::Claim& claim) {
+RunningVerdict judge_one(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
+                         net::Property::Kind kind, const net::Claim& claim) {
   const std::optional<Running> what = running(pages, claim.what);
   if (!what) return {};
   const Known subsystem = known(given, what->subsystem);
@@ -78,8 +78,8 @@ RunningVerdict judge_one(const Case& given, const net::HierarchicalNet& pages, n
 }
 
 /// One of several things of which each alone settles it; if all are known not to, it is the opposite.
-RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
-                        const net::Claim& claim, Answer settles) {
+RunningVerdict first_of(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
+                        net::Property::Kind kind, const net::Claim& claim, Answer settles) {
   RunningVerdict last;
   bool open = claim.what.parts.empty();
   for (const net::Statement& part : claim.what.parts) {
@@ -93,8 +93,8 @@ RunningVerdict first_of(const Case& given, const net::HierarchicalNet& pages, ne
 
 }  // namespace
 
-RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages, net::Property::Kind kind,
-                             const net::Claim& claim) {
+RunningVerdict judge_running(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
+                             net::Property::Kind kind, const net::Claim& claim) {
   RunningVerdict verdict = judge_one(given, pages, kind, claim);
   if (verdict.answer != Answer::unknown) return verdict;
   const bool either = claim.what.kind == net::Statement::Kind::any;

@@ -13,7 +13,7 @@ struct RunningVerdict {
   Answer answer = Answer::unknown;
   std::string why;  ///< of no
 };
-[[nodiscard]] RunningVerdict judge_running(const Case& given, const net::HierarchicalNet& pages,
+[[nodiscard]] RunningVerdict judge_running(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
                                            net::Property::Kind kind, const net::Claim& claim);
 
 }  // namespace tessera::verify

@@ -24,17 +24,17 @@ std::string unfit(const CommunicationStructure& structure, const CircuitGroup& g
   return {};
 }
 
-std::string suspicion(const CommunicationStructure& structure, const CircleSearch& search) {
+std::string suspicion(const CommunicationStructure& structure, const WaitingCycleSearch& search) {
   const Wait& wait = search.suspected().front();
   const std::string who = structure.subsystems[wait.subsystem].name;
   const std::string where = "'" + who + "' waits at " + structure.channels[wait.channel].name;
-  if (search.deserted() && wait.waiting_for == CircleSearch::nobody)
+  if (search.deserted() && wait.waiting_for == WaitingCycleSearch::nobody)
     return where + ", which nobody else uses";
   if (search.deserted())
     return where + " for " + structure.subsystems[wait.waiting_for].name + ", which need not come back to it";
-  CircuitGroup circle;
-  circle.circuit = search.suspected();
-  return "it is not excluded that " + in_words(structure, circle);
+  CircuitGroup cycle;
+  cycle.circuit = search.suspected();
+  return "it is not excluded that " + in_words(structure, cycle);
 }
 
 }  // namespace
@@ -59,19 +59,19 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
     }
   }
   explore::Watch watch(limits);
-  CircleSearch search(structure, judged, watch);
-  CircleSearch::End end = search.run();
-  while (end == CircleSearch::End::suspected) {
+  WaitingCycleSearch search(structure, judged, watch);
+  WaitingCycleSearch::End end = search.run();
+  while (end == WaitingCycleSearch::End::suspected) {
     refuse(suspicion(structure, search));
     const CircuitGroup* const group = group_of[search.suspected().front().subsystem];
     search.give_up_on(group->subsystems);
     for (const std::uint32_t subsystem : group->subsystems) group_of[subsystem] = nullptr;
     end = search.run();
   }
-  if (end == CircleSearch::End::gave_up) refuse(watch.why());
-  if (end == CircleSearch::End::excluded)
+  if (end == WaitingCycleSearch::End::gave_up) refuse(watch.why());
+  if (end == WaitingCycleSearch::End::excluded)
     for (const std::uint32_t subsystem : judged) report.goes_on[subsystem] = group_of[subsystem] != nullptr;
-  report.complete = end == CircleSearch::End::excluded;
+  report.complete = end == WaitingCycleSearch::End::excluded;
   report.stops = search.stops();
   report.traps = search.traps();
   return report;

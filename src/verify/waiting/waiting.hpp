@@ -20,7 +20,7 @@ struct WaitingReport {
 };
 
 /// Proves that subsystems go on, whatever behaviours they have and whatever channels these use: whoever is
-/// stuck for ever waits for somebody who is, and every circle of such waits is excluded by a channel that
+/// stuck for ever waits for somebody who is, and every cycle of such waits is excluded by a channel that
 /// cannot be empty and full at once or by a trap. A group is cleared as a whole; nothing is said of one that
 /// is not. Definitions, statement and proof: docs/waiting.md.
 ///

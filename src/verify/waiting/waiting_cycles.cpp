@@ -17,8 +17,8 @@ bool comes_back(const CommunicationStructure& structure, std::uint32_t subsystem
          always_uses_again(flow, channel, side);
 }
 
-CircleSearch::CircleSearch(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems,
-                           explore::Watch& watch)
+WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
+                                       std::span<const std::uint32_t> subsystems, explore::Watch& watch)
     : structure_(structure),
       skeleton_(structure, subsystems),
       net_(skeleton_.net()),
@@ -34,7 +34,7 @@ CircleSearch::CircleSearch(const CommunicationStructure& structure, std::span<co
   state_exclusions();
 }
 
-void CircleSearch::find_partners() {
+void WaitingCycleSearch::find_partners() {
   for (const Stop& stop : all()) {
     const ChannelFlow& channel = structure_.channels[stop.channel];
     const bool sends = stop.side == Side::send;
@@ -46,7 +46,7 @@ void CircleSearch::find_partners() {
 }
 
 /// Who is stuck is at a stop; whoever it waits for is stuck too, unless that one need not come back anyway.
-void CircleSearch::state_waits(std::span<const std::uint32_t> subsystems) {
+void WaitingCycleSearch::state_waits(std::span<const std::uint32_t> subsystems) {
   std::vector<int> somebody;
   for (const std::uint32_t subsystem : subsystems) {
     stuck_[subsystem] = clauses_.variable();
@@ -66,7 +66,7 @@ void CircleSearch::state_waits(std::span<const std::uint32_t> subsystems) {
 
 /// A subsystem is at one stop, or at several of one stage; and a channel is empty for a waiting receiver, but
 /// full for a waiting sender.
-void CircleSearch::state_exclusions() {
+void WaitingCycleSearch::state_exclusions() {
   std::map<std::uint32_t, Stops> senders, receivers;  // by channel
   for (std::uint32_t stop = 0; stop < all().size(); ++stop) {
     const Stop& one = all()[stop];
@@ -79,36 +79,36 @@ void CircleSearch::state_exclusions() {
       for (const std::uint32_t receiver : receivers[channel]) clauses_.add({-at_[sender], -at_[receiver]});
 }
 
-void CircleSearch::give_up_on(std::span<const std::uint32_t> subsystems) {
+void WaitingCycleSearch::give_up_on(std::span<const std::uint32_t> subsystems) {
   for (const std::uint32_t subsystem : subsystems) clauses_.add({-stuck_[subsystem]});
 }
 
-CircleSearch::End CircleSearch::run() {
+WaitingCycleSearch::End WaitingCycleSearch::run() {
   while (true) {
     suspected_.clear();
     const siphons::Clauses::Answer answer = clauses_.solve();
     if (answer == siphons::Clauses::Answer::contradiction) return End::excluded;
     if (answer == siphons::Clauses::Answer::gave_up) return End::gave_up;
     const Stops everything = all_occupied();
-    const std::vector<Stops> found = circles();
+    const std::vector<Stops> found = cycles();
     std::size_t refined = 0;
-    for (const Stops& circle : found)
-      if (refine(circle)) ++refined;
-    // A trap through more than one circle may be what excludes them.
+    for (const Stops& cycle : found)
+      if (refine(cycle)) ++refined;
+    // A trap through more than one cycle may be what excludes them.
     if (refined == 0 && !refine(everything)) return End::suspected;
   }
 }
 
-CircleSearch::Stops CircleSearch::all_occupied() const {
+WaitingCycleSearch::Stops WaitingCycleSearch::all_occupied() const {
   Stops stops;
   for (std::uint32_t stop = 0; stop < all().size(); ++stop)
     if (occupied(stop)) stops.push_back(stop);
   return stops;
 }
 
-/// Circles without common subsystems, found by going from each stop to one of whoever it waits for; and
+/// Cycles without common subsystems, found by going from each stop to one of whoever it waits for; and
 /// single stops that wait for a deserter.
-std::vector<CircleSearch::Stops> CircleSearch::circles() const {
+std::vector<WaitingCycleSearch::Stops> WaitingCycleSearch::cycles() const {
   std::vector<Stops> found;
   std::vector<std::uint32_t> passed(stops_of_.size(), nobody);  // per subsystem: where the walk began
   for (std::uint32_t start = 0; start < all().size(); ++start) {
@@ -135,7 +135,7 @@ std::vector<CircleSearch::Stops> CircleSearch::circles() const {
 }
 
 /// Places without a token while subsystems are stuck at these stops.
-PlaceSet CircleSearch::empty_at(const Stops& stops) const {
+PlaceSet WaitingCycleSearch::empty_at(const Stops& stops) const {
   PlaceSet empty(net_.places(), 0);
   for (const std::uint32_t stop : stops) {
     for (const std::uint32_t place : skeleton_.of_subsystem(all()[stop].subsystem)) empty[place] = 1;
@@ -150,7 +150,7 @@ PlaceSet CircleSearch::empty_at(const Stops& stops) const {
 
 /// Looks for a trap that cannot be empty, but would be at these stops, and states that. False: there is none,
 /// and the stops are suspected.
-bool CircleSearch::refine(const Stops& stops) {
+bool WaitingCycleSearch::refine(const Stops& stops) {
   const std::vector<std::uint32_t> places = siphons::small_marked_trap(net_, empty_at(stops));
   if (places.empty()) {
     suspect(stops);
@@ -171,7 +171,7 @@ bool CircleSearch::refine(const Stops& stops) {
 }
 
 /// "At this stop, or at another one of the subsystem at which the trap is as empty."
-int CircleSearch::leaving_empty(const PlaceSet& trap, std::uint32_t stop) {
+int WaitingCycleSearch::leaving_empty(const PlaceSet& trap, std::uint32_t stop) {
   const auto in_trap = [&](std::uint32_t place) { return trap[place] != 0; };
   const std::uint32_t awaited = skeleton_.awaited(all()[stop]);
   Stops as_empty;
@@ -190,7 +190,7 @@ int CircleSearch::leaving_empty(const PlaceSet& trap, std::uint32_t stop) {
 }
 
 /// Of several suspicions the one of fewest waits is kept.
-void CircleSearch::suspect(const Stops& stops) {
+void WaitingCycleSearch::suspect(const Stops& stops) {
   if (!suspected_.empty() && suspected_.size() <= stops.size()) return;
   suspected_.clear();
   for (const std::uint32_t stop : stops)

@@ -17,12 +17,12 @@ namespace tessera::verify {
 /// that need not come back (docs/waiting.md).
 ///
 /// Threads: one.
-class CircleSearch {
+class WaitingCycleSearch {
  public:
   static constexpr std::uint32_t nobody = UINT32_MAX;
 
-  CircleSearch(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems,
-               explore::Watch& watch);
+  WaitingCycleSearch(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems,
+                     explore::Watch& watch);
 
   enum class End : std::uint8_t {
     excluded,   ///< there is no such set
@@ -31,7 +31,7 @@ class CircleSearch {
   };
   /// May be called again after give_up_on.
   [[nodiscard]] End run();
-  /// Waits that neither a channel nor a trap excludes: a circle, or one wait for a deserter, or a mesh.
+  /// Waits that neither a channel nor a trap excludes: a cycle, or one wait for a deserter, or a mesh.
   [[nodiscard]] const std::vector<Wait>& suspected() const { return suspected_; }
   /// The first of the suspected waits is for somebody who need not come back.
   [[nodiscard]] bool deserted() const { return deserted_; }
@@ -52,7 +52,7 @@ class CircleSearch {
 
   [[nodiscard]] bool occupied(std::uint32_t stop) const { return clauses_.is_true(at_[stop]); }
   [[nodiscard]] Stops all_occupied() const;
-  [[nodiscard]] std::vector<Stops> circles() const;
+  [[nodiscard]] std::vector<Stops> cycles() const;
   [[nodiscard]] bool refine(const Stops& stops);
   [[nodiscard]] siphons::PlaceSet empty_at(const Stops& stops) const;
   [[nodiscard]] int leaving_empty(const siphons::PlaceSet& trap, std::uint32_t stop);

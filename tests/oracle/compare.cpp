@@ -10,6 +10,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t most_places = 300;
+
 class Comparer {
  public:
   Comparer(const Specification& specification, const Command& command, std::size_t limit)
@@ -22,7 +24,7 @@ class Comparer {
   Comparison run() {
     write_text(file_, to_yaml(specification_));
     const FlatNet normal = abstract_net(flat_, false);
-    if (static_cast<int>(normal.places.size()) + 20 > Marking::capacity) return too_large();
+    if (normal.places.size() > most_places) return too_large();
     const bool sound = std::all_of(specification_.models.begin(), specification_.models.end(), sound_model);
     std::optional<Judge> judge;
     if (sound) judge.emplace(normal, limit_);

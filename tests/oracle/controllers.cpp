@@ -39,26 +39,28 @@ std::vector<std::string> firings(const std::string& csv) {
 void play(const Specification& specification, const std::vector<std::string>& names, ControllerRun& run) {
   const FlatNet flat = flat_net(specification);
   const FlatNet net = abstract_net(flat, false);
-  const StateGraph player(net, 1);
+  const PetriNet player = petri_net(net);
   std::map<std::string, int> number;
   for (std::size_t t = 0; t < net.transitions.size(); ++t)
     number[net.transitions[t].name] = static_cast<int>(t);
   std::map<int, bool> by_error;
-  Marking marking = player.initial();
+  Marking marking = player.initial;
   for (const std::string& name : names) {
     const auto at = number.find(name);
-    const auto after = at == number.end() ? std::nullopt : player.fire(marking, at->second);
+    const auto after = at == number.end()
+                           ? std::nullopt
+                           : fired(player.transitions[static_cast<std::size_t>(at->second)], marking);
     if (!after) {
       run.disagreements.push_back({"controller", "firing " + std::to_string(run.firings + 1) + ", " + name +
                                                      ", is not one of the net that is judged"});
       return;
     }
-    const FlatTransition& fired = net.transitions[static_cast<std::size_t>(at->second)];
-    if (fired.role == Role::t5 || fired.role == Role::t6) by_error[fired.subsystem] = fired.role == Role::t6;
-    if (fired.role == Role::next) {
-      const Ways ways = ways_of(*net.behaviours[static_cast<std::size_t>(fired.behaviour)].of, false);
-      const Following& following = by_error[fired.subsystem] ? ways.after_error : ways.after_terminal;
-      if (!following.entries[static_cast<std::size_t>(fired.entry)])
+    const FlatTransition& by = net.transitions[static_cast<std::size_t>(at->second)];
+    if (by.role == Role::t5 || by.role == Role::t6) by_error[by.subsystem] = by.role == Role::t6;
+    if (by.role == Role::next) {
+      const Ways ways = ways_of(*net.behaviours[static_cast<std::size_t>(by.behaviour)].of, false);
+      const Following& following = by_error[by.subsystem] ? ways.after_error : ways.after_terminal;
+      if (!following.entries[static_cast<std::size_t>(by.entry)])
         run.disagreements.push_back({"controller", name + " cannot be taken there"});
     }
     marking = *after;

@@ -366,4 +366,23 @@ Fleet fleet_of(const Specification& specification, const std::string& agent) {
 
 FlatNet flat_net(const Specification& specification) { return Builder(specification).build(); }
 
+PetriNet petri_net(const FlatNet& net) {
+  const auto arcs = [](const std::vector<int>& places) {
+    std::vector<Arc> all;
+    for (const int place : places) all.push_back({static_cast<std::uint32_t>(place)});
+    return all;
+  };
+  PetriNet plain;
+  for (const FlatNet::PlaceInfo& place : net.places) plain.initial.push_back(place.marked ? 1 : 0);
+  for (const FlatTransition& transition : net.transitions)
+    plain.transitions.push_back({arcs(transition.pre), arcs(transition.post)});
+  return plain;
+}
+
+std::uint32_t tokens_in(const Marking& marking, const std::vector<int>& places) {
+  std::uint32_t tokens = 0;
+  for (const int place : places) tokens += marking[static_cast<std::size_t>(place)];
+  return tokens;
+}
+
 }  // namespace oracle

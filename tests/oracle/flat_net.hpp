@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle/nets/petri_net.hpp"
 #include "specification.hpp"
 
 namespace oracle {
@@ -81,5 +82,13 @@ struct Fleet {
 Fleet fleet_of(const Specification& specification, const std::string& agent);
 
 FlatNet flat_net(const Specification& specification);
+
+/// The same as a net without names: places and transitions keep their numbers.
+PetriNet petri_net(const FlatNet& net);
+/// How many tokens are in these places, each of which is named once.
+std::uint32_t tokens_in(const Marking& marking, const std::vector<int>& places);
+inline bool has_token(const Marking& marking, int place) {
+  return marking[static_cast<std::size_t>(place)] > 0;
+}
 
 }  // namespace oracle

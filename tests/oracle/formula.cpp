@@ -67,19 +67,17 @@ class Compiler {
   }
 
  private:
-  Marking lookup(const std::string& written) const {
+  std::vector<int> lookup(const std::string& written) const {
     const std::string path = replaced(written, " ", "");
-    Marking places;
-    bool found = false;
+    std::vector<int> places;
     for (std::size_t p = 0; p < net_.places.size(); ++p) {
       const auto& place = net_.places[p];
       if (place.name.ends_with(".none"))
         continue;  // it has left the behaviour, says docs/verification.md, and does nothing any more
       if (place.name != path && (place.fused || !place.name.starts_with(path + "."))) continue;
-      places.set(static_cast<int>(p));
-      found = true;
+      places.push_back(static_cast<int>(p));
     }
-    if (!found) throw std::logic_error("no place " + path);
+    if (places.empty()) throw std::logic_error("no place " + path);
     return places;
   }
 
@@ -99,7 +97,7 @@ bool Compiled::holds(const Marking& marking) const {
     case Formula::Kind::any_of:
       return std::any_of(parts.begin(), parts.end(), holds_here);
     default:
-      return marking.meets(places);
+      return tokens_in(marking, places) > 0;
   }
 }
 

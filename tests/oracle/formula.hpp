@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "state_graph.hpp"
+#include "flat_net.hpp"
 
 namespace oracle {
 
 /// A formula whose paths are sets of places: true of a marking that has a token in one of them.
 struct Compiled {
   Formula::Kind kind = Formula::Kind::path;
-  Marking places;
+  std::vector<int> places;
   std::vector<Compiled> parts;
   bool holds(const Marking& marking) const;
 };

@@ -8,29 +8,22 @@
 namespace oracle {
 namespace {
 
-bool some(const StateGraph::Set& set) {
-  return std::any_of(set.begin(), set.end(), [](char in) { return in != 0; });
+bool contains(const std::vector<int>& places, int place) {
+  return std::find(places.begin(), places.end(), place) != places.end();
 }
 
-Marking marking_of(const std::vector<int>& places) {
-  Marking marking;
-  for (const int place : places) marking.set(place);
-  return marking;
-}
-
-/// Two tokens, or more, in these places?
-bool several(const Marking& marking, const Marking& places) {
-  int tokens = 0;
-  for (std::size_t w = 0; w < Marking::words; ++w)
-    tokens += __builtin_popcountll(marking.bits[w] & places.bits[w]);
-  return tokens > 1;
+/// Are two tokens, or more, in these places at some time? A place may be named twice.
+bool ever_several(const ReachabilityGraph& graph, std::vector<int> places) {
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return some(graph.where([&](const Marking& marking) { return tokens_in(marking, places) > 1; }));
 }
 
 }  // namespace
 
 bool Judge::has_ended(const Marking& marking, int subsystem) const {
   const auto& of = net_.subsystems[static_cast<std::size_t>(subsystem)];
-  return marking.has(of.out) || marking.has(of.agent_out) || marking.has(net_.system_out);
+  return has_token(marking, of.out) || has_token(marking, of.agent_out) || final(marking);
 }
 
 bool Judge::exclusive_channels() const {
@@ -39,44 +32,45 @@ bool Judge::exclusive_channels() const {
       std::vector<int> users = writing;
       if (const auto reading = channel.reading.find(slot); reading != channel.reading.end())
         users.insert(users.end(), reading->second.begin(), reading->second.end());
-      const Marking places = marking_of(users);
-      if (some(graph_.where([&](const Marking& marking) { return several(marking, places); }))) return false;
+      if (ever_several(graph_, users)) return false;
     }
   }
   return true;
 }
 
 bool Judge::deadlock_free() const {
-  for (int s = 0; s < static_cast<int>(graph_.size()); ++s)
+  for (std::size_t s = 0; s < graph_.size(); ++s)
     if (graph_.dead(s) && !final(graph_.marking(s))) return false;
   return true;
 }
 
 bool Judge::sound_pages() const {
   for (const auto& page : net_.pages) {
-    const Marking inside = marking_of(page.places);
     // When its `out` is marked it is empty otherwise.
-    if (some(graph_.where([&](const Marking& m) { return m.has(page.out) && several(m, inside); })))
+    if (some(graph_.where([&](const Marking& marking) {
+          return has_token(marking, page.out) && tokens_in(marking, page.places) > 1;
+        })))
       return false;
     // Nothing enters while something is inside.
     std::vector<char> entering(net_.transitions.size());
     for (std::size_t t = 0; t < net_.transitions.size(); ++t) {
-      const Marking pre = marking_of(net_.transitions[t].pre), post = marking_of(net_.transitions[t].post);
-      entering[t] = post.has(page.in) && !pre.meets(inside) ? 1 : 0;
+      const auto is_inside = [&](int place) { return contains(page.places, place); };
+      const std::vector<int>&pre = net_.transitions[t].pre, &post = net_.transitions[t].post;
+      entering[t] = contains(post, page.in) && std::none_of(pre.begin(), pre.end(), is_inside) ? 1 : 0;
     }
-    const StateGraph::Set entered = graph_.where_enabled(entering);
+    const ReachabilityGraph::States entered = graph_.where_enabled(entering);
     for (std::size_t s = 0; s < entered.size(); ++s)
-      if (entered[s] != 0 && graph_.marking(static_cast<int>(s)).meets(inside)) return false;
+      if (entered[s] != 0 && tokens_in(graph_.marking(s), page.places) > 0) return false;
   }
   return true;
 }
 
-StateGraph::Set Judge::stuck(int subsystem) const {
+ReachabilityGraph::States Judge::stuck(int subsystem) const {
   std::vector<char> own(net_.transitions.size());
   for (std::size_t t = 0; t < own.size(); ++t) own[t] = net_.transitions[t].subsystem == subsystem ? 1 : 0;
-  StateGraph::Set stuck = graph_.can_reach(graph_.where_enabled(own));
+  ReachabilityGraph::States stuck = graph_.can_reach(graph_.where_enabled(own));
   for (std::size_t s = 0; s < stuck.size(); ++s)
-    stuck[s] = stuck[s] == 0 && !has_ended(graph_.marking(static_cast<int>(s)), subsystem) ? 1 : 0;
+    stuck[s] = stuck[s] == 0 && !has_ended(graph_.marking(s), subsystem) ? 1 : 0;
   return stuck;
 }
 
@@ -86,16 +80,14 @@ bool Judge::goes_on() const {
   return true;
 }
 
-StateGraph::Set Judge::dry(int channel) const {
+ReachabilityGraph::States Judge::dry(int channel) const {
   const auto& of = net_.channels[static_cast<std::size_t>(channel)];
   std::vector<char> reads(net_.transitions.size());
   for (const int read : of.reads) reads[static_cast<std::size_t>(read)] = 1;
-  StateGraph::Set good = graph_.where_enabled(reads);
+  ReachabilityGraph::States good = graph_.where_enabled(reads);
   for (std::size_t s = 0; s < good.size(); ++s)
-    if (has_ended(graph_.marking(static_cast<int>(s)), of.receiver)) good[s] = 1;
-  StateGraph::Set dry = graph_.can_reach(good);
-  for (char& state : dry) state = state == 0 ? 1 : 0;
-  return dry;
+    if (has_ended(graph_.marking(s), of.receiver)) good[s] = 1;
+  return complement(graph_.can_reach(good));
 }
 
 bool Judge::channels_flow() const {
@@ -107,30 +99,19 @@ bool Judge::channels_flow() const {
 std::vector<std::string> Judge::dead_behaviours() const {
   std::vector<std::string> dead;
   for (const auto& behaviour : net_.behaviours)
-    if (!some(graph_.where([&](const Marking& marking) { return marking.has(behaviour.in); })))
+    if (!some(graph_.where([&](const Marking& marking) { return has_token(marking, behaviour.in); })))
       dead.push_back(behaviour.path);
   return dead;
 }
 
-StateGraph::Set Judge::bad(const CompiledProperty& property, Property::Kind kind) const {
+ReachabilityGraph::States Judge::bad(const CompiledProperty& property, Property::Kind kind) const {
   const auto first = graph_.where([&](const Marking& marking) { return property.first.holds(marking); });
-  StateGraph::Set bad = first;
-  if (kind == Property::Kind::always)
-    for (char& state : bad) state = state == 0 ? 1 : 0;
-  if (kind == Property::Kind::always_reachable) {
-    bad = graph_.can_reach(first);
-    for (char& state : bad) state = state == 0 ? 1 : 0;
-  }
-  if (kind == Property::Kind::leads_to) {
-    // F, then past no G to where G can never become true.
-    const auto second = graph_.where([&](const Marking& marking) { return property.second.holds(marking); });
-    StateGraph::Set never = graph_.can_reach(second), not_second = second;
-    for (char& state : never) state = state == 0 ? 1 : 0;
-    for (char& state : not_second) state = state == 0 ? 1 : 0;
-    const auto lost = graph_.can_reach(never, not_second);
-    for (std::size_t s = 0; s < bad.size(); ++s) bad[s] = first[s] != 0 && lost[s] != 0 ? 1 : 0;
-  }
-  return bad;
+  if (kind == Property::Kind::always) return complement(first);
+  if (kind == Property::Kind::always_reachable) return complement(graph_.can_reach(first));
+  if (kind != Property::Kind::leads_to) return first;
+  // F, then past no G to where G can never become true.
+  return graph_.losing(first,
+                       graph_.where([&](const Marking& marking) { return property.second.holds(marking); }));
 }
 
 bool Judge::holds(const Specification& specification, const Property& property) const {
@@ -174,10 +155,9 @@ bool sound_model(const Model& model) {
                           : 0);
     }
   }
-  const StateGraph graph(net, 100000);
+  const ReachabilityGraph graph(petri_net(net), 100000);
   const auto always_again = [&](const std::vector<char>& transitions) {
-    const auto can = graph.can_reach(graph.where_enabled(transitions));
-    return std::all_of(can.begin(), can.end(), [](char in) { return in != 0; });
+    return every(graph.can_reach(graph.where_enabled(transitions)));
   };
   if (!graph.complete() || !graph.safe() || !always_again(reads)) return false;
   for (const int side : {0, 1}) {
@@ -185,10 +165,8 @@ bool sound_model(const Model& model) {
     for (const auto& transition : net.transitions) own.push_back(transition.subsystem == side ? 1 : 0);
     if (!always_again(own)) return false;
   }
-  for (const auto& [slot, places] : users) {
-    const Marking marking = marking_of(places);
-    if (some(graph.where([&](const Marking& m) { return several(m, marking); }))) return false;
-  }
+  for (const auto& [slot, places] : users)
+    if (ever_several(graph, places)) return false;
   return true;
 }
 

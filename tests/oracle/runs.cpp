@@ -44,11 +44,11 @@ class Checker {
   }
 
   bool play() {
-    path_.push_back(judge_.graph().initial());
+    path_.push_back(judge_.graph().marking(0));
     for (const json& step : verdict_.at("trace")) {
       const std::string name = step.at("transition");
       const int t = transition_named(name);
-      const auto after = t < 0 ? std::nullopt : judge_.graph().fire(end(), t);
+      const auto after = t < 0 ? std::nullopt : judge_.fire(t, end());
       if (!after) {
         complain("illegal: firing " + std::to_string(path_.size()) + ", " + name +
                  (t < 0 ? ", is not in the net" : ", is not enabled"));
@@ -57,7 +57,7 @@ class Checker {
       follow_conditions(net_.transitions[static_cast<std::size_t>(t)]);
       path_.push_back(*after);
     }
-    end_state_ = judge_.graph().find(end());
+    end_state_ = judge_.graph().find(end()).value();
     return true;
   }
 
@@ -77,7 +77,7 @@ class Checker {
     for (const CompiledProperty& one : compile(shown_.specification, net_, *shown_.property)) {
       if (shown_.property->kind == Property::Kind::leads_to
               ? lost(one)
-              : judge_.bad(one, shown_.property->kind)[static_cast<std::size_t>(end_state_)] != 0)
+              : judge_.bad(one, shown_.property->kind)[end_state_] != 0)
         return;
     }
     complain("end: it does not end where the property is violated");
@@ -87,8 +87,7 @@ class Checker {
   bool lost(const CompiledProperty& one) const {
     CompiledProperty never = one;
     never.first = one.second;  // always_reachable: G
-    if (judge_.bad(never, Property::Kind::always_reachable)[static_cast<std::size_t>(end_state_)] == 0)
-      return false;
+    if (judge_.bad(never, Property::Kind::always_reachable)[end_state_] == 0) return false;
     for (auto marking = path_.rbegin(); marking != path_.rend() && !one.second.holds(*marking); ++marking)
       if (one.first.holds(*marking)) return true;
     return false;
@@ -102,7 +101,7 @@ class Checker {
     const std::string why = verdict_.at("why");
     for (std::size_t c = 0; c < net_.channels.size(); ++c) {
       if (!why.starts_with(net_.channels[c].name + " ")) continue;
-      if (judge_.dry(static_cast<int>(c))[static_cast<std::size_t>(end_state_)] == 0)
+      if (judge_.dry(static_cast<int>(c))[end_state_] == 0)
         complain("end: the channel can be read again, or its reader can end");
       return;
     }
@@ -114,9 +113,7 @@ class Checker {
       if (text.starts_with(net_.subsystems[s].path + " ")) return static_cast<int>(s);
     return -1;
   }
-  bool stuck(int subsystem) const {
-    return judge_.stuck(subsystem)[static_cast<std::size_t>(end_state_)] != 0;
-  }
+  bool stuck(int subsystem) const { return judge_.stuck(subsystem)[end_state_] != 0; }
 
   void stuck_end() {
     const std::string why = verdict_.at("why");
@@ -183,7 +180,7 @@ class Checker {
   bool for_ever(int subsystem) const {
     std::vector<char> own(net_.transitions.size());
     for (std::size_t t = 0; t < own.size(); ++t) own[t] = net_.transitions[t].subsystem == subsystem ? 1 : 0;
-    return judge_.graph().can_fire_for_ever(own)[static_cast<std::size_t>(end_state_)] != 0;
+    return judge_.graph().can_fire_for_ever(own)[end_state_] != 0;
   }
 
   /// "goes on and sends CHANNEL no more": it may fire for ever, and uses its side of the channel never again.
@@ -207,13 +204,13 @@ class Checker {
     std::vector<char> uses(net_.transitions.size());
     for (const int t : transitions) uses[static_cast<std::size_t>(t)] = 1;
     const auto& graph = judge_.graph();
-    return graph.can_reach(graph.where_enabled(uses))[static_cast<std::size_t>(end_state_)] == 0;
+    return graph.can_reach(graph.where_enabled(uses))[end_state_] == 0;
   }
 
   bool left_with_none(int subsystem) const {
     for (const int b : net_.subsystems[static_cast<std::size_t>(subsystem)].behaviours) {
       const auto none = net_.place_of.find(net_.behaviours[static_cast<std::size_t>(b)].path + ".out.none");
-      if (none != net_.place_of.end() && end().has(none->second)) return true;
+      if (none != net_.place_of.end() && has_token(end(), none->second)) return true;
     }
     return false;
   }
@@ -261,14 +258,13 @@ class Checker {
   bool blocked(const FlatNet::ChannelInfo& channel, bool sends) const {
     for (const int t : users(channel, sends)) {
       for (const int place : net_.transitions[static_cast<std::size_t>(t)].pre) {
-        if (net_.places[static_cast<std::size_t>(place)].fused || !end().has(place)) continue;
+        if (net_.places[static_cast<std::size_t>(place)].fused || !has_token(end(), place)) continue;
         std::vector<char> leaving(net_.transitions.size());
         for (std::size_t u = 0; u < leaving.size(); ++u)
           leaving[u] =
               std::count(net_.transitions[u].pre.begin(), net_.transitions[u].pre.end(), place) > 0 ? 1 : 0;
         const auto& graph = judge_.graph();
-        if (graph.can_reach(graph.where_enabled(leaving))[static_cast<std::size_t>(end_state_)] == 0)
-          return true;
+        if (graph.can_reach(graph.where_enabled(leaving))[end_state_] == 0) return true;
       }
     }
     return false;
@@ -279,7 +275,7 @@ class Checker {
   const FlatNet& net_;
   const json& verdict_;
   std::vector<Marking> path_;
-  StateGraph::State end_state_ = -1;
+  ReachabilityGraph::State end_state_ = 0;
   std::map<int, bool> by_error_;
   Complaints complaints_;
 };

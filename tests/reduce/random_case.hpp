@@ -13,6 +13,6 @@ struct RandomCase {
   net::Net net;
   reduce::Preserve what;  ///< `safe` is not set
 };
-[[nodiscard]] RandomCase random_case(std::uint64_t seed);
+[[nodiscard]] RandomCase random_case(std::uint32_t seed);
 
 }  // namespace tessera::test

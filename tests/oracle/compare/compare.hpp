@@ -2,7 +2,7 @@
 #pragma once
 
 #include "command.hpp"
-#include "judge.hpp"
+#include "oracle/judge/judge.hpp"
 
 namespace oracle {
 

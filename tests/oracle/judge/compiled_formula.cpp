@@ -1,4 +1,4 @@
-#include "formula.hpp"
+#include "compiled_formula.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,9 +1,9 @@
-#include "runs.hpp"
+#include "counterexample.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "conditions.hpp"
+#include "oracle/judge/conditions.hpp"
 
 namespace oracle {
 namespace {

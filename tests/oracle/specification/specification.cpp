@@ -1,7 +1,7 @@
+#include "specification.hpp"
+
 #include <sstream>
 #include <stdexcept>
-
-#include "specification.hpp"
 
 namespace oracle {
 namespace {

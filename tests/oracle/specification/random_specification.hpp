@@ -2,15 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "flat_net.hpp"
+#include "specification.hpp"
 
 namespace oracle {
 
 /// The same numbers on every machine.
-class Random {
+class RandomNumbers {
  public:
-  explicit Random(std::uint64_t seed);
+  explicit RandomNumbers(std::uint64_t seed);
   /// 0 .. below - 1
   int below(int bound);
   /// True so many times in a hundred.
@@ -27,8 +28,8 @@ class Random {
 Specification random_specification(std::uint64_t seed);
 
 /// Communication models: some sound, some spoilt by one change.
-std::vector<Model> random_models(Random& random);
+std::vector<Model> random_models(RandomNumbers& random);
 /// Properties over the places that the net has.
-std::vector<Property> random_properties(Random& random, const Specification& specification);
+std::vector<Property> random_properties(RandomNumbers& random, const Specification& specification);
 
 }  // namespace oracle

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formula.hpp"
+#include "compiled_formula.hpp"
 #include "oracle/nets/reachability_graph.hpp"
 
 namespace oracle {

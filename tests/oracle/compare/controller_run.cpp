@@ -1,9 +1,9 @@
-#include "controllers.hpp"
+#include "controller_run.hpp"
 
 #include <filesystem>
 #include <sstream>
 
-#include "conditions.hpp"
+#include "oracle/judge/conditions.hpp"
 
 namespace oracle {
 namespace {

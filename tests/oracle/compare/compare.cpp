@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "conditions.hpp"
-#include "runs.hpp"
+#include "counterexample.hpp"
+#include "oracle/judge/conditions.hpp"
 
 namespace oracle {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "flat_net.hpp"
+#include "oracle/judge/flat_net.hpp"
 
 namespace oracle {
 

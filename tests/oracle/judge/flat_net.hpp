@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "oracle/nets/petri_net.hpp"
-#include "specification.hpp"
+#include "oracle/specification/specification.hpp"
 
 namespace oracle {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "judge.hpp"
+#include "oracle/judge/judge.hpp"
 
 namespace oracle {
 

@@ -13,9 +13,9 @@ std::uint64_t mixed(std::uint64_t z) {
 }  // namespace
 
 // Mixed, so that the numbers of one seed are not those of the next one, shifted.
-Random::Random(std::uint64_t seed) : state_(mixed(mixed(seed + 0x1234567U) + seed)) {}
+RandomNumbers::RandomNumbers(std::uint64_t seed) : state_(mixed(mixed(seed + 0x1234567U) + seed)) {}
 
-int Random::below(int bound) {
+int RandomNumbers::below(int bound) {
   state_ += 0x9E3779B97F4A7C15U;
   return static_cast<int>(mixed(state_) % static_cast<std::uint64_t>(bound));
 }
@@ -246,7 +246,7 @@ class Generator {
             !net.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
   }
 
-  Random random_;
+  RandomNumbers random_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

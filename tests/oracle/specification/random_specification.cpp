@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "oracle/judge/flat_net.hpp"
+
 namespace oracle {
 
 namespace {

@@ -33,7 +33,7 @@ Generated generate_alone(const Verified& verified, const GenerateCommandOptions&
 
 int generate_command(const GenerateCommandOptions& options) {
   check_replaceable(options.json, "{");
-  const std::optional<Verified> verified = walk(options.spec, options.gate, terminal());
+  const std::optional<Verified> verified = run_pipeline(options.spec, options.gate, terminal());
   if (!verified) return refused();
   const Step step(terminal(), "generating");
   const Generated generated = generate_alone(*verified, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "net/token_game.hpp"
 #include "reduce/draft.hpp"
 
 namespace tessera::reduce {
@@ -102,28 +103,11 @@ void Reduced::append(std::uint32_t sequence, std::vector<net::TransitionId>& to)
 /// Fires what was put off, so that a marking that is dead in the reduced net becomes dead in the original
 /// one: undoes the rules from the last to the first.
 void Reduced::settle(std::vector<net::TransitionId>& trace) const {
-  std::vector<std::int64_t> tokens;
-  for (const net::Place& place : original_->places()) tokens.push_back(place.tokens);
-  const auto fire = [&](net::TransitionId id, std::int64_t sign) {
-    bool enabled = true;
-    for (const Arc& arc : original_->preset(id))
-      enabled = (tokens[arc.place.value] -= sign * arc.weight) >= 0 && enabled;
-    for (const Arc& arc : original_->postset(id)) tokens[arc.place.value] += sign * arc.weight;
-    return enabled;
-  };
-  for (const net::TransitionId id : trace) fire(id, 1);
+  net::Marking marking = net::marking_after(*original_, trace);
   for (auto sequence = delayed_.rbegin(); sequence != delayed_.rend(); ++sequence) {
     std::vector<net::TransitionId> parts;
     append(*sequence, parts);
-    for (bool enabled = true; enabled;) {
-      std::size_t fired = 0;
-      while (enabled && fired < parts.size()) enabled = fire(parts[fired++], 1);
-      if (enabled) {
-        trace.insert(trace.end(), parts.begin(), parts.end());
-        continue;
-      }
-      while (fired > 0) fire(parts[--fired], -1);
-    }
+    while (net::fire_all(*original_, parts, marking)) trace.insert(trace.end(), parts.begin(), parts.end());
   }
 }
 

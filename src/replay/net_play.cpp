@@ -13,8 +13,8 @@ std::string seconds_text(std::int64_t time_ns) {
   return fmt::format("{:.6f} s", static_cast<double>(time_ns) * 1e-9);
 }
 
-NetPlay::NetPlay(const Recording& recording, const net::Net& net) : recording_(recording), net_(net) {
-  for (const net::Place& place : net.places()) marking_.push_back(place.tokens);
+NetPlay::NetPlay(const Recording& recording, const net::Net& net)
+    : recording_(recording), net_(net), marking_(net::initial_marking(net)) {
   if (match_transitions()) find_makers();
 }
 
@@ -67,7 +67,7 @@ NetPlay::Obstacle NetPlay::obstacle(const Event& firing) const {
               .due = due};
   }
   for (const Arc& arc : net_.preset(transitions_[firing.subject])) {
-    if (marking_[arc.place.value] >= arc.weight) continue;
+    if (net::suffices(marking_, arc)) continue;
     // All firings of the channel up to this one have been played, and so have those of its own subsystem.
     const bool own = net_[arc.place].fused() ? channel != none && versions_[channel].is == Version::known
                                              : makers_[arc.place.value] == firing.instance();
@@ -92,13 +92,11 @@ std::string NetPlay::fire(const Event& firing) {
     versions_[channel].last = firing.version;
     if (!knows_version(channel)) versions_[channel].is = Version::guessed;
   }
-  for (const Arc& arc : net_.preset(id)) marking_[arc.place.value] -= arc.weight;
-  for (const Arc& arc : net_.postset(id)) {
-    marking_[arc.place.value] += arc.weight;
+  net::fire(net_, id, marking_);
+  for (const Arc& arc : net_.postset(id))
     if (marking_[arc.place.value] > 1)
       return fmt::format("{}: '{}' puts a second token into '{}'", seconds_text(firing.time_ns),
                          net_[id].name, net_[arc.place].name);
-  }
   ++firings_;
   return {};
 }

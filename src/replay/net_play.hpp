@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "net/net.hpp"
+#include "net/token_game.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::replay {
@@ -79,7 +80,7 @@ class NetPlay {
   const Recording& recording_;
   const net::Net& net_;
   std::string mismatch_;
-  std::vector<std::uint32_t> marking_;
+  net::Marking marking_;
   std::uint64_t firings_ = 0;
   std::vector<net::TransitionId> transitions_;  // per transition of the recording
   std::vector<std::uint32_t> channels_;         // per transition of the recording; none

@@ -4,8 +4,7 @@
 
 #include <set>
 
-#include "naive.hpp"
-#include "random_net.hpp"
+#include "formula_oracle.hpp"
 #include "small_nets.hpp"
 
 namespace tessera::explore {
@@ -38,7 +37,7 @@ TEST(Encoding, WidensUpToWhatTokensHold) {
 }
 
 TEST(Encoding, FieldsStayWithinTheirWordAndApart) {
-  Random random(7);
+  oracle::Random random(7);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<net::Net> parts;
     const PtNet net(trial % 2 == 0 ? random_machines(random) : random_wild(random));
@@ -55,9 +54,9 @@ TEST(Encoding, FieldsStayWithinTheirWordAndApart) {
 TEST(Encoding, DecodesWhatItEncodedAndTellsMarkingsApart) {
   for (std::uint32_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
+    oracle::Random random(seed);
     const net::Net net = seed % 2 == 0 ? random_machines(random) : random_weighted(random);
-    const auto graph = NaiveGraph::of(net, 200);
+    const auto graph = naive_graph(net, 200);
     if (!graph) continue;
     const PtNet compiled(net);
     const Encoding encoding = Growth(compiled).encoding();

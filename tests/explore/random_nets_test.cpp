@@ -2,8 +2,9 @@
 
 #include <tuple>
 
-#include "naive.hpp"
-#include "random_net.hpp"
+#include "explore/explore.hpp"
+#include "formula_oracle.hpp"
+#include "oracle/nets/of_net.hpp"
 
 namespace tessera::explore {
 namespace {
@@ -16,7 +17,7 @@ Kind yes_if(bool truth) { return truth ? Kind::yes : Kind::no; }
 /// Every question about one net, asked of the explorer and of the oracle.
 class Comparison {
  public:
-  Comparison(const net::Net& net, const NaiveGraph& naive, Random& random)
+  Comparison(const net::Net& net, const ReachabilityGraph& naive, oracle::Random& random)
       : net_(net), compiled_(net), naive_(naive), random_(random) {}
 
   void run() {
@@ -35,13 +36,13 @@ class Comparison {
   std::size_t end_of(const Answer& answer) {
     Marking marking = naive_.marking(0);
     for (const TransitionId transition : answer.trace.firings) {
-      const auto next = fired(net_, transition, marking);
+      const auto next = oracle::fired(net_, transition, marking);
       EXPECT_TRUE(next) << "the trace does not replay";
       if (!next) return 0;
       marking = *next;
     }
     EXPECT_EQ(marking, answer.trace.end);
-    const auto index = naive_.index_of(marking);
+    const auto index = naive_.find(marking);
     EXPECT_TRUE(index);
     return index.value_or(0);
   }
@@ -50,69 +51,70 @@ class Comparison {
     const Count counted = count(compiled_, limits_);
     EXPECT_TRUE(counted.complete) << counted.why;
     EXPECT_EQ(counted.markings, naive_.size());
-    EXPECT_EQ(counted.edges, naive_.edges());
+    EXPECT_EQ(counted.edges, naive_.edges().size());
     EXPECT_EQ(counted.most_tokens, naive_.most_tokens());
   }
 
   void finds() {
     const Formula goal = formula();
     const Answer answer = find(compiled_, goal, limits_);
-    const auto nearest = naive_.nearest(goal);
-    ASSERT_EQ(answer.kind, yes_if(nearest.has_value()));
+    const auto shortest = nearest(naive_, goal);
+    ASSERT_EQ(answer.kind, yes_if(shortest.has_value()));
     if (answer.kind != Kind::yes) return;
-    EXPECT_TRUE(naive_.holds(goal, end_of(answer)));
-    EXPECT_EQ(answer.trace.firings.size(), *nearest);
+    EXPECT_TRUE(holds(naive_, goal, end_of(answer)));
+    EXPECT_EQ(answer.trace.firings.size(), *shortest);
   }
 
   void deadlocks() {
-    const Formula is_final = below(random_, 2) == 0 ? Formula::never() : formula();
+    const Formula is_final = oracle::below(random_, 2) == 0 ? Formula::never() : formula();
     const Formula unwanted = Formula::all({Formula::dead(), Formula::negation(is_final)});
     const Answer answer = find_deadlock(compiled_, is_final, limits_);
-    const auto nearest = naive_.nearest(unwanted);
-    ASSERT_EQ(answer.kind, yes_if(nearest.has_value()));
+    const auto shortest = nearest(naive_, unwanted);
+    ASSERT_EQ(answer.kind, yes_if(shortest.has_value()));
     if (answer.kind != Kind::yes) return;
-    EXPECT_TRUE(naive_.holds(unwanted, end_of(answer)));
+    EXPECT_TRUE(holds(naive_, unwanted, end_of(answer)));
     if (answer.shortest) {
-      EXPECT_EQ(answer.trace.firings.size(), *nearest);
+      EXPECT_EQ(answer.trace.firings.size(), *shortest);
     }
   }
 
   void always_reaches() {
     const Formula goal = formula();
     const Answer answer = always_reachable(compiled_, goal, limits_);
-    ASSERT_EQ(answer.kind, yes_if(naive_.always_reachable(goal)));
+    ASSERT_EQ(answer.kind, yes_if(always_reachable(naive_, goal)));
     if (answer.kind == Kind::no) {
-      EXPECT_FALSE(naive_.can_reach(end_of(answer), goal, Formula::never()));
+      EXPECT_FALSE(can_reach(naive_, end_of(answer), goal));
     }
   }
 
   void leads() {
     const Formula p = formula(), q = formula();
     const Answer answer = leads_to(compiled_, p, q, limits_);
-    ASSERT_EQ(answer.kind, yes_if(naive_.leads_to(p, q)));
+    ASSERT_EQ(answer.kind, yes_if(leads_to(naive_, p, q)));
     if (answer.kind != Kind::no) return;
-    EXPECT_FALSE(naive_.can_reach(end_of(answer), q, Formula::never()));
+    EXPECT_FALSE(can_reach(naive_, end_of(answer), q));
     ASSERT_LE(answer.turn, answer.trace.firings.size());
     Marking marking = naive_.marking(0);
     for (std::size_t at = 0; at <= answer.trace.firings.size(); ++at) {
-      const std::size_t index = naive_.index_of(marking).value();
+      const std::size_t index = naive_.find(marking).value();
       if (at == answer.turn) {
-        EXPECT_TRUE(naive_.holds(p, index));
+        EXPECT_TRUE(holds(naive_, p, index));
       }
       if (at >= answer.turn) {
-        EXPECT_FALSE(naive_.holds(q, index));
+        EXPECT_FALSE(holds(naive_, q, index));
       }
-      if (at < answer.trace.firings.size()) marking = fired(net_, answer.trace.firings[at], marking).value();
+      if (at < answer.trace.firings.size())
+        marking = oracle::fired(net_, answer.trace.firings[at], marking).value();
     }
   }
 
   void obligations() {
     std::vector<Obligation> wanted(2);
     for (Obligation& obligation : wanted) {
-      if (below(random_, 2) == 0) obligation.unless = formula();
+      if (oracle::below(random_, 2) == 0) obligation.unless = formula();
       const auto transitions = static_cast<std::uint32_t>(net_.transitions().size());
-      for (std::uint32_t more = below(random_, 3); more > 0 && transitions > 0; --more)
-        obligation.any_of.push_back(TransitionId{below(random_, transitions)});
+      for (std::uint32_t more = oracle::below(random_, 3); more > 0 && transitions > 0; --more)
+        obligation.any_of.push_back(TransitionId{oracle::below(random_, transitions)});
     }
     const std::vector<Answer> answers = can_always_fire(compiled_, wanted, limits_);
     ASSERT_EQ(answers.size(), wanted.size());
@@ -120,23 +122,23 @@ class Comparison {
       std::vector<Formula> ways{wanted[at].unless};
       for (const TransitionId transition : wanted[at].any_of) ways.push_back(Formula::enabled(transition));
       const Formula goal = Formula::any(std::move(ways));
-      ASSERT_EQ(answers[at].kind, yes_if(naive_.always_reachable(goal)));
+      ASSERT_EQ(answers[at].kind, yes_if(always_reachable(naive_, goal)));
       if (answers[at].kind == Kind::no) {
-        EXPECT_FALSE(naive_.can_reach(end_of(answers[at]), goal, Formula::never()));
+        EXPECT_FALSE(can_reach(naive_, end_of(answers[at]), goal));
       }
     }
   }
 
   const net::Net& net_;
   const PtNet compiled_;
-  const NaiveGraph& naive_;
-  Random& random_;
+  const ReachabilityGraph& naive_;
+  oracle::Random& random_;
   const Limits limits_;
 };
 
 struct Family {
   const char* name;
-  net::Net (*draw)(Random&);
+  net::Net (*draw)(oracle::Random&);
 };
 
 class RandomNets : public testing::TestWithParam<std::tuple<Family, std::uint32_t>> {};
@@ -147,9 +149,9 @@ TEST_P(RandomNets, EveryAnswerIsThatOfTheOracle) {
   std::uint32_t compared = 0;
   for (std::uint32_t seed = part * nets; seed < (part + 1) * nets; ++seed) {
     SCOPED_TRACE(testing::Message() << family.name << " net of seed " << seed);
-    Random random(seed);
+    oracle::Random random(seed);
     const net::Net net = family.draw(random);
-    if (const auto naive = NaiveGraph::of(net, most_naive_markings)) {
+    if (const auto naive = naive_graph(net, most_naive_markings)) {
       Comparison(net, *naive, random).run();
       ++compared;
     } else {

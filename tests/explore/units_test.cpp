@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "naive.hpp"
-#include "random_net.hpp"
+#include "formula_oracle.hpp"
 #include "small_nets.hpp"
 
 namespace tessera::explore {
@@ -55,9 +54,9 @@ TEST(Units, HoldAtMostOneTokenInEveryMarkingOfRandomNets) {
   std::size_t units = 0;
   for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     SCOPED_TRACE(seed);
-    Random random(seed);
+    oracle::Random random(seed);
     const net::Net net = random_machines(random);
-    const auto graph = NaiveGraph::of(net, 300);
+    const auto graph = naive_graph(net, 300);
     if (!graph) continue;
     std::vector<int> uses(net.places().size(), 0);
     for (const Unit& unit : find_units(PtNet(net))) {

@@ -1,21 +1,47 @@
 #include <gtest/gtest.h>
 
-#include "layers/exploration.hpp"
+#include <set>
+#include <string>
+#include <vector>
+
+#include "layers/drawn_net.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
+#include "oracle/nets/of_net.hpp"
+#include "oracle/nets/reachability_graph.hpp"
 
 namespace tessera::test {
 namespace {
 
+using oracle::Marking;
+using oracle::ReachabilityGraph;
+
 constexpr std::size_t limit = 20000;  // of the small models, which are explored as a whole
 constexpr std::size_t sample = 3000;  // of markings checked one by one
 
-template <class SomeNet>
-std::set<std::set<std::string>> named(const SomeNet& net, const Exploration& found) {
-  std::set<std::set<std::string>> all;
-  for (const Marking& marking : found.markings) all.insert(marked(net, marking));
+/// The marked places by name, "name" or "name*2".
+std::set<std::string> marked(const std::vector<std::string>& names, const Marking& marking) {
+  std::set<std::string> all;
+  for (std::size_t place = 0; place < marking.size(); ++place)
+    if (marking[place] > 0)
+      all.insert(names[place] + (marking[place] == 1 ? "" : "*" + std::to_string(marking[place])));
   return all;
 }
+
+std::set<std::set<std::string>> named(const std::vector<std::string>& names, const ReachabilityGraph& graph) {
+  std::set<std::set<std::string>> all;
+  for (ReachabilityGraph::State state = 0; state < graph.size(); ++state)
+    all.insert(marked(names, graph.marking(state)));
+  return all;
+}
+
+std::vector<std::string> place_names(const net::Net& net) {
+  std::vector<std::string> names;
+  for (const net::Place& place : net.places()) names.push_back(place.name);
+  return names;
+}
+
+oracle::PetriNet free_net(const net::Net& net) { return oracle::petri_net(net, oracle::Conditions::free); }
 
 std::vector<spec::Model> small_models() {
   std::vector<spec::Model> models{pair({}), pair({{N, N}, {B, B}}),
@@ -28,12 +54,14 @@ std::vector<spec::Model> small_models() {
 TEST(TokenGame, OnThePagesReachesTheMarkingsOfTheFlatNet) {
   for (const spec::Model& model : small_models()) {
     const Built built = build(model);
-    const Exploration flat = explore(built.net, limit), drawn = explore(built.pages, limit);
-    ASSERT_TRUE(flat.complete);
-    ASSERT_TRUE(drawn.complete);
-    EXPECT_GT(flat.markings.size(), 20U);
-    EXPECT_EQ(flat.markings.size(), drawn.markings.size());
-    EXPECT_EQ(named(built.net, flat), named(built.pages, drawn));
+    const DrawnNet pages = drawn_net(built.pages);
+    const auto flat = ReachabilityGraph::of(free_net(built.net), limit);
+    const auto drawn = ReachabilityGraph::of(pages.game, limit);
+    ASSERT_TRUE(flat);
+    ASSERT_TRUE(drawn);
+    EXPECT_GT(flat->size(), 20U);
+    EXPECT_EQ(flat->size(), drawn->size());
+    EXPECT_EQ(named(place_names(built.net), *flat), named(pages.names, *drawn));
   }
 }
 
@@ -41,7 +69,9 @@ TEST(TokenGame, OnThePagesReachesTheMarkingsOfTheFlatNet) {
 void expect_kept(const spec::Model& model) {
   const Built built = build(model);
   const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
-  for (const Marking& marking : explore(built.net, sample).markings) {
+  const ReachabilityGraph graph(free_net(built.net), sample);
+  for (ReachabilityGraph::State state = 0; state < graph.size(); ++state) {
+    const Marking& marking = graph.marking(state);
     for (std::uint32_t place = 0; place < marking.size(); ++place)
       ASSERT_LE(marking[place], 1U) << built.net.places()[place].name;
     for (const net::Invariant& invariant : invariants) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "naive_net.hpp"
+#include "executor_oracle.hpp"
 
 namespace tessera::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "naive_net.hpp"
+#include "executor_oracle.hpp"
 
 // TESSERA_STOPS asks for more stops than an everyday run makes.
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "naive_net.hpp"
+#include "executor_oracle.hpp"
 #include "nets.hpp"
 #include "nets/flat_net.hpp"
 #include "tessera/recording.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "naive_net.hpp"
+#include "executor_oracle.hpp"
 
 namespace tessera::testing {
 namespace {
@@ -123,7 +123,7 @@ TEST(Workers, RandomNetsFireLegallyAndWaitForTheirOperations) {
       net.places[place].operation = [count = &finished[place]] { ++*count; };
       net.places[place].runs = random() % 3 == 0 ? Runs::inline_with_firing : Runs::on_worker;
     }
-    NaiveNet naive(net);
+    NaiveRun naive(net);
     std::vector<std::uint32_t> taken(net.places.size(), 0);
     NetExecutor::Options options{.seed = seed, .workers = 1 + seed % 3, .bound = 20};
     options.ties = seed % 2 == 0 ? NetExecutor::Ties::fair : NetExecutor::Ties::random;

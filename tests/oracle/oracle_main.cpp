@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "compare.hpp"
-#include "controllers.hpp"
-#include "random_specification.hpp"
-#include "shrink.hpp"
+#include "oracle/compare/compare.hpp"
+#include "oracle/compare/controller_run.hpp"
+#include "oracle/specification/random_specification.hpp"
+#include "oracle/specification/shrink.hpp"
 
 namespace {
 

@@ -8,9 +8,10 @@
 #include <set>
 
 #include "../environment.hpp"
-#include "layers/exploration.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
+#include "oracle/nets/of_net.hpp"
+#include "oracle/nets/reachability_graph.hpp"
 #include "verify/communication/abstraction.hpp"
 #include "verify/counterexample/waits.hpp"
 #include "verify/verify.hpp"
@@ -21,27 +22,22 @@
 namespace tessera::verify {
 namespace {
 
+using oracle::Marking;
+using oracle::ReachabilityGraph;
+
 /// The long form of the test: TESSERA_RANDOM_SYSTEMS=20000.
 bool any(const std::vector<bool>& flags) {
   return std::ranges::any_of(flags, [](bool flag) { return flag; });
 }
 
 /// The marking a run leads to; fails the test if it is none.
-std::vector<std::uint32_t> replayed(const net::Net& net, const std::vector<net::TransitionId>& run) {
-  std::vector<std::uint32_t> tokens;
-  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
-  for (const net::TransitionId id : run) {
-    EXPECT_NE(net[id].condition.truth, net::Condition::Truth::never) << net[id].name;
-    for (const net::Arc& arc : net.preset(id)) {
-      EXPECT_GE(tokens[arc.place.value], arc.weight) << net[id].name << " is not enabled";
-      tokens[arc.place.value] -= arc.weight;
-    }
-    for (const net::Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
-  }
-  return tokens;
+Marking end_of(const net::Net& net, const std::vector<net::TransitionId>& run) {
+  const std::optional<Marking> end = oracle::replayed(net, run);
+  EXPECT_TRUE(end) << "the run cannot be fired";
+  return end.value_or(oracle::initial_marking(net));
 }
 
-net::Net starting_in(const net::Net& net, const std::vector<std::uint32_t>& tokens) {
+net::Net starting_in(const net::Net& net, const Marking& tokens) {
   net::Net other;
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     net::Place place = net.places()[index];
@@ -55,11 +51,11 @@ net::Net starting_in(const net::Net& net, const std::vector<std::uint32_t>& toke
 
 /// The places that start a behaviour and are never marked, by the paths of the behaviours.
 std::set<std::string> dead_behaviours(const net::Net& net) {
-  const test::Exploration all = test::explore(net, 100000);
+  const ReachabilityGraph graph(oracle::petri_net(net), 100000);
   std::vector<bool> marked(net.places().size(), false);
-  for (const test::Marking& marking : all.markings)
-    for (std::size_t place = 0; place < marking.size(); ++place)
-      if (marking[place] > 0) marked[place] = true;
+  for (ReachabilityGraph::State state = 0; state < graph.size(); ++state)
+    for (std::size_t place = 0; place < marked.size(); ++place)
+      if (graph.marking(state)[place] > 0) marked[place] = true;
   std::set<std::string> dead;
   for (std::size_t place = 0; place < marked.size(); ++place)
     if (const net::Place& one = net.places()[place];
@@ -83,7 +79,7 @@ std::optional<Truth> truth_of(const spec::Model& model, const net::Net& flat) {
   if (!conditions) return std::nullopt;
   return Truth{std::move(*conditions),
                test::explore_naively(test::naively_abstract(model, flat, true), most_markings),
-               dead_behaviours(possible_part(net))};
+               dead_behaviours(net)};
 }
 
 // ---------------------------------------------------------------------------------------------- runs
@@ -91,17 +87,10 @@ std::optional<Truth> truth_of(const spec::Model& model, const net::Net& flat) {
 /// The transitions that can be fired at some time from the initial marking; nullopt: it has too many
 /// markings.
 std::optional<std::set<std::uint32_t>> that_can_fire(const net::Net& net) {
-  const test::Exploration all = test::explore(possible_part(net), 3000);
-  if (!all.complete) return std::nullopt;
+  const auto graph = ReachabilityGraph::of(oracle::petri_net(net), 3000);
+  if (!graph) return std::nullopt;
   std::set<std::uint32_t> can;
-  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
-    if (net.transitions()[index].condition.truth == net::Condition::Truth::never) continue;
-    const auto enabled = [&](const test::Marking& marking) {
-      return std::ranges::all_of(net.preset({index}),
-                                 [&](const net::Arc& arc) { return marking[arc.place.value] >= arc.weight; });
-    };
-    if (std::ranges::any_of(all.markings, enabled)) can.insert(index);
-  }
+  for (const ReachabilityGraph::Edge& edge : graph->edges()) can.insert(edge.transition);
   return can;
 }
 
@@ -248,7 +237,7 @@ class Comparison {
   void shows(const PropertyResult& property) const {
     const net::Net abstract =
         abstract_net(built_.net, property.exceptions ? Assume::exceptions : Assume::conditions);
-    const net::Net after = starting_in(abstract, replayed(abstract, property.trace));
+    const net::Net after = starting_in(abstract, end_of(abstract, property.trace));
     expect_fitting_endings(model_, abstract, property.trace, property.exceptions);
     const auto can_fire = that_can_fire(after);
     if (!can_fire) return;

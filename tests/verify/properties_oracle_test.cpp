@@ -8,10 +8,10 @@
 #include <string>
 
 #include "../environment.hpp"
-#include "explore/naive.hpp"
-#include "explore/random_net.hpp"
+#include "explore/formula_oracle.hpp"
 #include "layers/layers.hpp"
 #include "layers/models.hpp"
+#include "oracle/nets/of_net.hpp"
 #include "verify/communication/abstraction.hpp"
 #include "verify/search/claims.hpp"
 #include "verify/verify.hpp"
@@ -20,10 +20,8 @@
 namespace tessera::verify {
 namespace {
 
-using explore::below;
 using explore::Formula;
-using explore::NaiveGraph;
-using explore::Random;
+using explore::ReachabilityGraph;
 using net::Statement;
 using Claimed = net::Property::Kind;
 
@@ -31,18 +29,18 @@ using Claimed = net::Property::Kind;
 /// Statements as the layers make them of paths: pages, places, states of channels.
 class Statements {
  public:
-  Statements(const test::Built& built, Random& random) : built_(built), random_(random) {
+  Statements(const test::Built& built, oracle::Random& random) : built_(built), random_(random) {
     for (std::uint32_t page = 0; page < built.pages.pages.size(); ++page)
       if (built.pages.pages[page].layer == net::Layer::behaviour) behaviours_.push_back({page});
   }
 
   Statement statement(int depth) {
-    const std::uint32_t kind = depth == 0 ? 0 : below(random_, 6);
-    if (kind < 3) return below(random_, 3) > 0 ? running() : token();
+    const std::uint32_t kind = depth == 0 ? 0 : oracle::below(random_, 6);
+    if (kind < 3) return oracle::below(random_, 3) > 0 ? running() : token();
     Statement made;
     made.kind =
         kind == 3 ? Statement::Kind::negation : (kind == 4 ? Statement::Kind::all : Statement::Kind::any);
-    const std::uint32_t parts = kind == 3 ? 1 : 1 + below(random_, 2);
+    const std::uint32_t parts = kind == 3 ? 1 : 1 + oracle::below(random_, 2);
     for (std::uint32_t part = 0; part < parts; ++part) made.parts.push_back(statement(depth - 1));
     return made;
   }
@@ -50,7 +48,7 @@ class Statements {
  private:
   Statement running() {
     Statement made;
-    made.page = behaviours_[below(random_, static_cast<std::uint32_t>(behaviours_.size()))];
+    made.page = behaviours_[oracle::below(random_, static_cast<std::uint32_t>(behaviours_.size()))];
     for (std::uint32_t place = 0; place < built_.net.places().size(); ++place)
       for (net::PageId at = built_.net.places()[place].page; at.valid();
            at = built_.pages.pages[at.value].parent)
@@ -60,46 +58,46 @@ class Statements {
 
   Statement token() {
     Statement made;
-    made.places = {{below(random_, static_cast<std::uint32_t>(built_.net.places().size()))}};
+    made.places = {{oracle::below(random_, static_cast<std::uint32_t>(built_.net.places().size()))}};
     return made;
   }
 
   const test::Built& built_;
-  Random& random_;
+  oracle::Random& random_;
   std::vector<net::PageId> behaviours_;
 };
 
-bool claim_holds(const NaiveGraph& graph, Claimed kind, const net::Claim& claim) {
+bool claim_holds(const ReachabilityGraph& graph, Claimed kind, const net::Claim& claim) {
   const Formula what = formula_of(claim.what);
   switch (kind) {
     case Claimed::never:
-      return !graph.nearest(what);
+      return !nearest(graph, what);
     case Claimed::always:
-      return !graph.nearest(Formula::negation(what));
+      return !nearest(graph, Formula::negation(what));
     case Claimed::reachable:
-      return graph.nearest(what).has_value();
+      return nearest(graph, what).has_value();
     case Claimed::always_reachable:
-      return graph.always_reachable(what);
+      return always_reachable(graph, what);
     case Claimed::leads_to:
-      return graph.leads_to(what, formula_of(claim.then));
+      return leads_to(graph, what, formula_of(claim.then));
   }
   return false;
 }
 
 /// Does the marking at the end of a run break the claim?
-bool broken_at(const NaiveGraph& graph, std::size_t end, Claimed kind, const net::Claim& claim) {
+bool broken_at(const ReachabilityGraph& graph, std::size_t end, Claimed kind, const net::Claim& claim) {
   const Formula what = formula_of(claim.what);
   switch (kind) {
     case Claimed::never:
-      return graph.holds(what, end);
+      return explore::holds(graph, what, end);
     case Claimed::always:
-      return !graph.holds(what, end);
+      return !explore::holds(graph, what, end);
     case Claimed::reachable:
       return false;
     case Claimed::always_reachable:
-      return !graph.can_reach(end, what, Formula::never());
+      return !can_reach(graph, end, what);
     case Claimed::leads_to:
-      return !graph.can_reach(end, formula_of(claim.then), Formula::never());
+      return !can_reach(graph, end, formula_of(claim.then));
   }
   return false;
 }
@@ -107,7 +105,7 @@ bool broken_at(const NaiveGraph& graph, std::size_t end, Claimed kind, const net
 class PropertyComparison {
  public:
   PropertyComparison(const test::Built& built, const std::vector<net::Invariant>& invariants,
-                     const NaiveGraph& graph)
+                     const ReachabilityGraph& graph)
       : built_(built), invariants_(invariants), abstract_(abstract_net(built.net)), graph_(graph) {}
 
   void with(const std::string& method, const std::vector<net::Property>& properties,
@@ -144,10 +142,9 @@ class PropertyComparison {
   void shows(const net::Property& property, const PropertyResult& result) {
     std::size_t at = 0;
     for (const net::TransitionId id : result.trace) {
-      EXPECT_NE(abstract_[id].condition.truth, net::Condition::Truth::never);
-      const auto next = explore::fired(abstract_, id, graph_.marking(at));
+      const auto next = oracle::fired(abstract_, id, graph_.marking(at));
       ASSERT_TRUE(next) << abstract_[id].name << " is not enabled";
-      at = graph_.index_of(*next).value();
+      at = graph_.find(*next).value();
     }
     EXPECT_TRUE(std::ranges::any_of(
         property.claims,
@@ -158,10 +155,10 @@ class PropertyComparison {
   const test::Built& built_;
   const std::vector<net::Invariant>& invariants_;
   net::Net abstract_;
-  const NaiveGraph& graph_;
+  const ReachabilityGraph& graph_;
 };
 
-std::vector<net::Property> random_properties(const test::Built& built, Random& random) {
+std::vector<net::Property> random_properties(const test::Built& built, oracle::Random& random) {
   constexpr std::array kinds{Claimed::never, Claimed::always, Claimed::reachable, Claimed::always_reachable,
                              Claimed::leads_to};
   Statements statements(built, random);
@@ -172,7 +169,7 @@ std::vector<net::Property> random_properties(const test::Built& built, Random& r
       property.kind = kind;
       property.name = std::to_string(static_cast<int>(kind)) + " at depth " + std::to_string(depth);
       property.text = property.name;
-      for (std::uint32_t claim = 1 + below(random, 2); claim > 0; --claim)
+      for (std::uint32_t claim = 1 + oracle::below(random, 2); claim > 0; --claim)
         property.claims.push_back({"", statements.statement(depth), statements.statement(depth)});
       properties.push_back(std::move(property));
     }
@@ -187,11 +184,11 @@ TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const spec::Model model = test::random_system(seed);
     const test::Built built = test::build(model);
-    const auto graph = NaiveGraph::of(possible_part(abstract_net(built.net)), 400);
+    const auto graph = explore::naive_graph(abstract_net(built.net), 400);
     if (!graph) continue;
     ++compared;
     const std::vector<net::Invariant> invariants = layers::invariants(model, built.pages, built.net);
-    Random random(static_cast<std::uint32_t>(seed));
+    oracle::Random random(static_cast<std::uint32_t>(seed));
     const std::vector<net::Property> properties = random_properties(built, random);
     PropertyComparison comparison(built, invariants, *graph);
     for (const char* method : {"", "invariants", "circuits", "explicit"})

@@ -20,7 +20,7 @@ struct NaiveAnswers {
   bool deadlock = false;             ///< some dead marking is not final
 };
 
-/// nullopt if there are more markings than that. Safe nets of at most 256 places only.
+/// nullopt if there are more markings than that. Safe nets only.
 [[nodiscard]] std::optional<NaiveAnswers> explore_naively(const net::Net& net, std::size_t most_markings);
 
 }  // namespace tessera::test

@@ -126,7 +126,7 @@ fs::path make_program(const Verified& verified, const fs::path& state, const Bui
 
 std::optional<Controller> make_controller(const fs::path& given, const BuildOptions& options,
                                           Listener& listener) {
-  std::optional<Verified> verified = walk(given, options.gate, listener);
+  std::optional<Verified> verified = run_pipeline(given, options.gate, listener);
   if (!verified) return std::nullopt;
   const fs::path project = verified->specification.project, state = state_folder(project);
   check_path(project);

@@ -52,15 +52,29 @@ bool names_are_free(const spec::Model& model, diagnostics::Diagnostics& out) {
 
 }  // namespace
 
+PartialNets build_what_is_possible(const spec::Model& model, diagnostics::Diagnostics& out) {
+  PartialNets nets;
+  nets.pages = layers::build(model, out);
+  if (nets.pages) nets.flat = net::flatten(*nets.pages, out);
+  if (nets.flat) nets.properties = layers::properties(model, *nets.pages, *nets.flat, out);
+  return nets;
+}
+
+Draft draft_of(diagnostics::Diagnostics& text) {
+  Draft draft;
+  draft.known = spec::parse_what_is_known(text);
+  draft.is_model = draft.known && !text.has_errors();
+  if (!draft.is_model) return draft;
+  judge_models(*draft.known, text);
+  draft.nets = build_what_is_possible(*draft.known, text);
+  return draft;
+}
+
 std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out) {
   const bool free = names_are_free(model, out);
-  std::optional<net::HierarchicalNet> pages = layers::build(model, out);
-  std::optional<net::Net> flat;
-  if (pages) flat = net::flatten(*pages, out);
-  std::optional<std::vector<net::Property>> properties;
-  if (flat) properties = layers::properties(model, *pages, *flat, out);
-  if (!properties || !free) return std::nullopt;
-  return Nets{std::move(*pages), std::move(*flat), std::move(*properties)};
+  PartialNets nets = build_what_is_possible(model, out);
+  if (!nets.properties || !free) return std::nullopt;
+  return Nets{std::move(*nets.pages), std::move(*nets.flat), std::move(*nets.properties)};
 }
 
 std::optional<Nets> build(const Specification& specification, Listener& listener) {
@@ -145,7 +159,7 @@ bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, co
 
 }  // namespace
 
-std::optional<Verified> walk(const fs::path& given, const Gate& gate, Listener& listener) {
+std::optional<Verified> run_pipeline(const fs::path& given, const Gate& gate, Listener& listener) {
   std::optional<Specification> specification = read(given, listener);
   if (!specification || !models_are_sound(*specification, listener)) return std::nullopt;
   std::optional<Nets> nets = build(*specification, listener);

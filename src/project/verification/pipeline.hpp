@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "diagnostics/diagnostics.hpp"
 #include "net/net.hpp"
@@ -11,8 +12,8 @@
 #include "spec/model/model.hpp"
 #include "verify/verify.hpp"
 
-/// The walk of the data: specification -> Model -> hierarchical net -> flat net -> verified net. Every stage
-/// says what it has to say to a listener.
+/// The pipeline: text of a specification -> Model -> hierarchical net -> flat net -> verified net. Each stage
+/// has two forms: one reports to Diagnostics, the other tells a listener.
 namespace tessera::project {
 
 /// A specification that was read without error.
@@ -38,13 +39,34 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
 /// check_files, told (src/project/files/assets.hpp).
 [[nodiscard]] bool files_are_there(const Specification& specification, Listener& listener);
 
+/// The nets of a model, as far as the stages got: an error is reported, and what
+/// follows from it is missing.
+struct PartialNets {
+  std::optional<net::HierarchicalNet> pages;
+  std::optional<net::Net> flat;
+  std::optional<std::vector<net::Property>> properties;  ///< of the author
+};
+/// Errors: those of layers::build, net::flatten and layers::properties.
+[[nodiscard]] PartialNets build_what_is_possible(const spec::Model& model, diagnostics::Diagnostics& out);
+
+/// A text that may be wrong, as far as the pipeline gets with it.
+struct Draft {
+  std::optional<spec::Model> known;  ///< what could be understood (spec::parse_what_is_known)
+  bool is_model = false;             ///< that is all of it: the text has no errors that reading finds
+  PartialNets nets;                  ///< of a model; those of unsound communication models too
+};
+/// text: loaded, not read. Errors: those of spec::parse, judge_models and build_what_is_possible.
+///
+/// Threads: pure.
+[[nodiscard]] Draft draft_of(diagnostics::Diagnostics& text);
+
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
   std::vector<net::Property> properties;  ///< of the author
 };
-/// Errors: those of layers::build, net::flatten and layers::properties; E106 a property of the author's with
-/// the name of a default one. nullopt after an error.
+/// All of them, or nullopt after an error. Errors: those of build_what_is_possible; E106 a property of the
+/// author's with the name of a default one.
 [[nodiscard]] std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out);
 /// The same, told.
 [[nodiscard]] std::optional<Nets> build(const Specification& specification, Listener& listener);
@@ -58,13 +80,13 @@ struct Gate {
   bool accept_violations = false;  ///< a violated net too
 };
 
-/// read, judge_models, build, verify; only a net without violations gets through, unless the gate is open.
-/// What is unknown is told of and gets through. Uses up the nets.
 struct Verified {
   Specification specification;
   verify::VerifiedNet net;
 };
-[[nodiscard]] std::optional<Verified> walk(const std::filesystem::path& given, const Gate& gate,
-                                           Listener& listener);
+/// The whole pipeline: read, models_are_sound, build, verdicts. Only a net without violations gets through,
+/// unless the gate is open. What is unknown is told of and gets through.
+[[nodiscard]] std::optional<Verified> run_pipeline(const std::filesystem::path& given, const Gate& gate,
+                                                   Listener& listener);
 
 }  // namespace tessera::project

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "net/token_game.hpp"
 #include "verify/communication/blocks.hpp"
 
 namespace tessera::verify {
@@ -184,13 +185,14 @@ class Start {
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
       if (net.transitions()[index].subsystem == net::no_subsystem) upper_.push_back({index});
     // Parents come before children, so one pass in order starts everything.
-    for (const net::TransitionId id : upper_) fire(id);
+    for (const net::TransitionId id : upper_)
+      if (net::enabled(net_, id, tokens_)) net::fire(net_, id, tokens_);
   }
 
   /// The entry places, one per subsystem, or why there are none.
   std::vector<PlaceId> entries(std::string& why_not) {
     for (const net::TransitionId id : upper_)
-      if (enabled(id)) why_not = "'" + net_[id].name + "' can fire again";
+      if (net::enabled(net_, id, tokens_)) why_not = "'" + net_[id].name + "' can fire again";
     std::vector<PlaceId> marked;
     for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
       if (tokens_[place] == 0) continue;
@@ -205,17 +207,6 @@ class Start {
   }
 
  private:
-  [[nodiscard]] bool enabled(net::TransitionId id) const {
-    return std::ranges::all_of(net_.preset(id),
-                               [&](const net::Arc& arc) { return tokens_[arc.place.value] >= arc.weight; });
-  }
-
-  void fire(net::TransitionId id) {
-    if (!enabled(id)) return;
-    for (const net::Arc& arc : net_.preset(id)) tokens_[arc.place.value] -= arc.weight;
-    for (const net::Arc& arc : net_.postset(id)) tokens_[arc.place.value] += arc.weight;
-  }
-
   const net::Net& net_;
   std::vector<std::uint32_t> tokens_;
   std::vector<net::TransitionId> upper_;

@@ -10,6 +10,7 @@ namespace tessera::verify {
 namespace {
 
 using net::Arc;
+using net::PlaceId;
 using net::TransitionId;
 
 /// The subsystems and those that use a channel with one of them.
@@ -30,6 +31,19 @@ std::set<std::uint32_t> that_exchange(const net::Net& net, std::set<std::uint32_
       if (subsystems.insert(peer).second) open.push_back(peer);
   }
   return subsystems;
+}
+
+/// One byte per place: markings are many.
+std::string packed(const net::Marking& marking) {
+  std::string bytes;
+  for (const std::uint32_t tokens : marking) bytes += static_cast<char>(tokens);
+  return bytes;
+}
+
+net::Marking unpacked(const std::string& bytes) {
+  net::Marking marking;
+  for (const char tokens : bytes) marking.push_back(static_cast<unsigned char>(tokens));
+  return marking;
 }
 
 }  // namespace
@@ -63,28 +77,27 @@ void Aftermath::choose(const std::set<std::uint32_t>& subsystems) {
         for (const Arc& arc : net_->preset(id)) wanted[arc.place.value] = true;
     }
   }
-  std::uint32_t next = 0;
   for (const TransitionId id : transitions_)
-    for (const auto arcs : {net_->preset(id), net_->postset(id)})
-      for (const Arc& arc : arcs)
-        if (std::uint32_t& local = local_[arc.place.value]; local == UINT32_MAX) local = next++;
+    part_.add(net::Transition{}, in_part(net_->preset(id)), in_part(net_->postset(id)));
+}
+
+/// The same arcs in the part of the net that is played.
+std::vector<Arc> Aftermath::in_part(std::span<const Arc> arcs) {
+  std::vector<Arc> own;
+  for (const Arc& arc : arcs) {
+    PlaceId& place = local_[arc.place.value];
+    if (!place.valid()) place = part_.add(net::Place{});
+    own.push_back({place, arc.weight});
+  }
+  return own;
 }
 
 void Aftermath::begin_after(const Run& run) {
-  for (const net::Place& place : net_->places()) at_start_.push_back(place.tokens);
-  for (const TransitionId id : run) {
-    for (const Arc& arc : net_->preset(id)) at_start_[arc.place.value] -= arc.weight;
-    for (const Arc& arc : net_->postset(id)) at_start_[arc.place.value] += arc.weight;
-  }
-  std::string marking(local_.size(), '\0');
-  std::size_t used = 0;
+  at_start_ = net::marking_after(*net_, run);
+  net::Marking marking(part_.places().size());
   for (std::uint32_t place = 0; place < local_.size(); ++place)
-    if (local_[place] != UINT32_MAX) {
-      marking[local_[place]] = static_cast<char>(at_start_[place]);
-      ++used;
-    }
-  marking.resize(used);
-  static_cast<void>(number(marking));
+    if (local_[place].valid()) marking[local_[place].value] = at_start_[place];
+  static_cast<void>(number(packed(marking)));
 }
 
 Aftermath::Number Aftermath::number(const std::string& marking) {
@@ -101,24 +114,15 @@ bool Aftermath::explored(std::size_t most) {
   most = std::min(most, most_work / std::max<std::size_t>(transitions_.size(), 1));
   for (Number at = 0; at < markings_.size(); ++at) {
     if (markings_.size() > most) return false;
-    const std::string marking = markings_[at];
-    for (const TransitionId id : transitions_) {
-      const auto has = [&](const Arc& arc) {
-        return static_cast<unsigned char>(marking[local_[arc.place.value]]) >= arc.weight;
-      };
-      if (!std::ranges::all_of(net_->preset(id), has)) continue;
-      std::string next = marking;
-      const auto change = [&](const Arc& arc, int sign) {
-        char& tokens = next[local_[arc.place.value]];
-        tokens = static_cast<char>(tokens + sign * static_cast<int>(arc.weight));
-      };
-      for (const Arc& arc : net_->preset(id)) change(arc, -1);
-      for (const Arc& arc : net_->postset(id)) change(arc, 1);
+    const net::Marking marking = unpacked(markings_[at]);
+    for (std::uint32_t index = 0; index < transitions_.size(); ++index) {
+      if (!net::enabled(part_, {index}, marking)) continue;
+      net::Marking next = marking;
+      net::fire(part_, {index}, next);
       // A net that is not safe could grow for ever.
-      if (std::ranges::any_of(next, [](char tokens) { return static_cast<unsigned char>(tokens) > 100; }))
-        return false;
-      const Number to = number(next);
-      edges_[at].push_back({id, to});
+      if (std::ranges::any_of(next, [](std::uint32_t tokens) { return tokens > 100; })) return false;
+      const Number to = number(packed(next));
+      edges_[at].push_back({transitions_[index], to});
     }
   }
   return true;
@@ -194,8 +198,8 @@ std::optional<Aftermath::Way> Aftermath::way(Number from, const Markings& goal) 
 std::vector<std::uint32_t> Aftermath::tokens(Number marking) const {
   std::vector<std::uint32_t> all = at_start_;
   for (std::uint32_t place = 0; place < all.size(); ++place)
-    if (local_[place] != UINT32_MAX)
-      all[place] = static_cast<unsigned char>(markings_[marking][local_[place]]);
+    if (local_[place].valid())
+      all[place] = static_cast<unsigned char>(markings_[marking][local_[place].value]);
   return all;
 }
 

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "net/net.hpp"
+#include "net/token_game.hpp"
 
 namespace tessera::verify {
 
@@ -49,17 +51,19 @@ class Aftermath {
     net::TransitionId transition;
     Number to = 0;
   };
-  explicit Aftermath(const net::Net& net) : net_(&net), local_(net.places().size(), UINT32_MAX) {}
+  explicit Aftermath(const net::Net& net) : net_(&net), local_(net.places().size()) {}
   void choose(const std::set<std::uint32_t>& subsystems);
+  [[nodiscard]] std::vector<net::Arc> in_part(std::span<const net::Arc> arcs);
   void begin_after(const Run& run);
   [[nodiscard]] bool explored(std::size_t most);
   Number number(const std::string& marking);
 
   const net::Net* net_;
   std::vector<net::TransitionId> transitions_;  // that can happen
-  std::vector<std::uint32_t> local_;            // per place: its number in a marking
-  std::vector<std::uint32_t> at_start_;         // tokens per place of the net
-  std::vector<std::string> markings_;
+  net::Net part_;                               // these transitions and their places, without names
+  std::vector<net::PlaceId> local_;             // per place: the same in the part, if it is there
+  net::Marking at_start_;                       // of the net
+  std::vector<std::string> markings_;           // of the part, packed
   std::unordered_map<std::string, Number> numbers_;
   std::vector<std::vector<Edge>> edges_;
 };

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "net/token_game.hpp"
 #include "verify/counterexample/waits.hpp"
 
 namespace tessera::verify {
@@ -64,7 +65,7 @@ class Prospect {
  public:
   Prospect(const net::Net& net, const Run& run)
       : net_(net), reached_by_(net.places().size(), unknown), missing_(net.transitions().size()) {
-    const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+    const net::Marking tokens = net::marking_after(net, run);
     std::vector<std::vector<std::uint32_t>> takers(net.places().size());
     for (std::uint32_t index = 0; index < missing_.size(); ++index) {
       missing_[index] = net.preset({index}).size();
@@ -149,14 +150,13 @@ class Concern {
 /// Those that give or take tokens which the stuck transitions lack where a token waits for them.
 std::vector<TransitionId> awaited(const net::Net& net, const Run& run,
                                   const std::vector<TransitionId>& stuck) {
-  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+  const net::Marking tokens = net::marking_after(net, run);
   std::set<std::uint32_t> lacking;
   for (const TransitionId id : stuck) {
     const auto inputs = net.preset(id);
-    if (std::ranges::none_of(inputs, [&](const Arc& arc) { return tokens[arc.place.value] >= arc.weight; }))
-      continue;
+    if (std::ranges::none_of(inputs, [&](const Arc& arc) { return net::suffices(tokens, arc); })) continue;
     for (const Arc& arc : inputs)
-      if (tokens[arc.place.value] < arc.weight && net[arc.place].fused()) lacking.insert(arc.place.value);
+      if (!net::suffices(tokens, arc) && net[arc.place].fused()) lacking.insert(arc.place.value);
   }
   std::vector<TransitionId> found;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
@@ -202,7 +202,7 @@ namespace {
 class Continuation {
  public:
   Continuation(const net::Net& net, Run run)
-      : net_(net), run_(std::move(run)), tokens_(tokens_after(net, run_)) {
+      : net_(net), run_(std::move(run)), tokens_(net::marking_after(net, run_)) {
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
       const TransitionId id{index};
       if (net[id].condition.truth == net::Condition::Truth::never) continue;
@@ -254,9 +254,8 @@ class Continuation {
 
   bool fire_one_of(std::uint32_t subsystem) {
     for (const TransitionId id : of_subsystem_[subsystem]) {
-      if (!std::ranges::all_of(net_.preset(id), [&](const Arc& arc) { return suffices(arc); })) continue;
-      for (const Arc& arc : net_.preset(id)) tokens_[arc.place.value] -= arc.weight;
-      for (const Arc& arc : net_.postset(id)) tokens_[arc.place.value] += arc.weight;
+      if (!net::enabled(net_, id, tokens_)) continue;
+      net::fire(net_, id, tokens_);
       run_.push_back(id);
       return true;
     }
@@ -275,11 +274,11 @@ class Continuation {
     return places;
   }
 
-  [[nodiscard]] bool suffices(const Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
+  [[nodiscard]] bool suffices(const Arc& arc) const { return net::suffices(tokens_, arc); }
 
   const net::Net& net_;
   Run run_;
-  std::vector<std::uint32_t> tokens_;
+  net::Marking tokens_;
   std::vector<std::vector<TransitionId>> of_subsystem_;  // those that start it too
   std::vector<TransitionId> nobodys_;
   std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // per place of a channel

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "net/token_game.hpp"
 #include "verify/counterexample/aftermath.hpp"
 #include "verify/counterexample/causes.hpp"
 #include "verify/counterexample/waits.hpp"
@@ -168,7 +169,7 @@ class Explainer {
 // ---------------------------------------------------------------------------------------------- large nets
 
 net::Net starting_after(const net::Net& net, const Run& run) {
-  const std::vector<std::uint32_t> tokens = tokens_after(net, run);
+  const net::Marking tokens = net::marking_after(net, run);
   net::Net other(net.shared_parts());
   for (std::uint32_t index = 0; index < tokens.size(); ++index) {
     net::Place place = net.places()[index];
@@ -202,7 +203,7 @@ Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& st
 /// Who can be shown to be stuck, and follows from the first by waiting.
 std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
                                       std::vector<std::uint32_t> concerned) {
-  const Waits waits(net, tokens_after(net, run));
+  const Waits waits(net, net::marking_after(net, run));
   std::vector<std::string> lines;
   for (std::size_t next = 0; next < concerned.size(); ++next) {
     const std::uint32_t subsystem = concerned[next];
@@ -239,7 +240,7 @@ Explanation explained(const net::Net& net, Run run, const std::vector<Transition
 }
 
 Explanation explained(const net::Net& net, Run run) {
-  const Waits waits(net, tokens_after(net, run));
+  const Waits waits(net, net::marking_after(net, run));
   std::set<std::uint32_t> stopped;
   for (std::uint32_t subsystem = 0; subsystem < waits.subsystems(); ++subsystem)
     if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) stopped.insert(subsystem);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "net/token_game.hpp"
+
 namespace tessera::verify {
 namespace {
 
@@ -29,9 +31,8 @@ Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
 }
 
 bool Waits::moves(std::uint32_t subsystem) const {
-  return std::ranges::any_of(transitions_[subsystem], [&](TransitionId id) {
-    return std::ranges::all_of(net_.preset(id), [&](const net::Arc& arc) { return has(arc); });
-  });
+  return std::ranges::any_of(transitions_[subsystem],
+                             [&](TransitionId id) { return net::enabled(net_, id, tokens_); });
 }
 
 bool Waits::has_ended(std::uint32_t subsystem) const {
@@ -118,7 +119,7 @@ std::string Waits::gives_no_more(std::uint32_t giver, std::uint32_t place) const
 
 std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
                                 const std::vector<TransitionId>& transitions) {
-  const auto has = [&](const net::Arc& arc) { return tokens[arc.place.value] >= arc.weight; };
+  const auto has = [&](const net::Arc& arc) { return net::suffices(tokens, arc); };
   std::set<std::uint32_t> places;
   for (const TransitionId id : transitions) {
     // Who waits with a timeout is told of by what it waits for, not by what the timeout takes back.
@@ -130,16 +131,6 @@ std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint
       if (!has(arc)) places.insert(arc.place.value);
   }
   return places;
-}
-
-std::vector<std::uint32_t> tokens_after(const net::Net& net, const std::vector<TransitionId>& run) {
-  std::vector<std::uint32_t> tokens;
-  for (const net::Place& place : net.places()) tokens.push_back(place.tokens);
-  for (const TransitionId id : run) {
-    for (const net::Arc& arc : net.preset(id)) tokens[arc.place.value] -= arc.weight;
-    for (const net::Arc& arc : net.postset(id)) tokens[arc.place.value] += arc.weight;
-  }
-  return tokens;
 }
 
 }  // namespace tessera::verify

@@ -44,7 +44,6 @@ class Waits {
   [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
-  [[nodiscard]] bool has(const net::Arc& arc) const { return tokens_[arc.place.value] >= arc.weight; }
   /// Is it a place of the memory of a channel into which nobody else can put a token?
   [[nodiscard]] bool is_own_memory(std::uint32_t subsystem, std::uint32_t place) const;
   [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
@@ -60,9 +59,5 @@ class Waits {
 /// The places of channels that the transitions lack, where they lack nothing else. tokens: of every place.
 [[nodiscard]] std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
                                               const std::vector<net::TransitionId>& transitions);
-
-/// Tokens of every place after a run. Precondition: the run is one of the net.
-[[nodiscard]] std::vector<std::uint32_t> tokens_after(const net::Net& net,
-                                                      const std::vector<net::TransitionId>& run);
 
 }  // namespace tessera::verify

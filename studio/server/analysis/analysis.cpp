@@ -8,14 +8,10 @@
 #include "diagnostics/diagnostics.hpp"
 #include "diagnostics/utf8.hpp"
 #include "drawing/drawing.hpp"
-#include "layers/layers.hpp"
-#include "layers/properties.hpp"
-#include "net/flatten.hpp"
 #include "project/verification/pipeline.hpp"
 #include "server/analysis/folder.hpp"
 #include "server/analysis/structure.hpp"
 #include "server/http/json_text.hpp"
-#include "spec/parser.hpp"
 #include "verify/hashes.hpp"
 
 namespace tessera::server {
@@ -49,27 +45,18 @@ Json diagnostic_json(const diagnostics::Diagnostic& one, const Diagnostics& all)
           {"end_column", browser_column(line, one.span.column + one.span.length)}};
 }
 
-/// Adds the nets of a model without errors, as far as they can be built.
-void add_nets(Analysis& analysis, Diagnostics& found) {
-  project::judge_models(*analysis.model, found);
-  analysis.pages = layers::build(*analysis.model, found);
-  if (analysis.pages) analysis.net = net::flatten(*analysis.pages, found);
-  if (!analysis.net) return;
-  static_cast<void>(layers::properties(*analysis.model, *analysis.pages, *analysis.net, found));
-  analysis.net_hash = verify::hash_of(*analysis.net);
-}
-
 }  // namespace
 
 Analysis analyse(const std::string& name, const std::string& text) {
   Analysis analysis;
   Diagnostics found(name, text);
-  std::optional<spec::Model> known = spec::parse_what_is_known(found);
-  const std::string structure = known ? text_of(structure_json(*known)) : "null";
-  if (known && !found.has_errors()) {
-    analysis.model = std::move(known);
-    add_nets(analysis, found);
-  }
+  project::Draft draft = project::draft_of(found);
+  const std::string structure = draft.known ? text_of(structure_json(*draft.known)) : "null";
+  if (draft.is_model) analysis.model = std::move(draft.known);
+  analysis.pages = std::move(draft.nets.pages);
+  analysis.net = std::move(draft.nets.flat);
+  if (draft.nets.properties) analysis.properties = std::move(*draft.nets.properties);
+  if (analysis.net) analysis.net_hash = verify::hash_of(*analysis.net);
   Json diagnostics = Json::array();
   for (const diagnostics::Diagnostic& one : found.sorted())
     diagnostics.push_back(diagnostic_json(one, found));

@@ -5,8 +5,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "net/net.hpp"
+#include "net/property.hpp"
 #include "spec/model/model.hpp"
 
 namespace tessera::server {
@@ -18,6 +20,7 @@ struct Analysis {
   std::optional<spec::Model> model;
   std::optional<net::HierarchicalNet> pages;
   std::optional<net::Net> net;
+  std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
 };
 

@@ -10,7 +10,6 @@
 
 #include "diagnostics/diagnostics.hpp"
 #include "layers/layers.hpp"
-#include "layers/properties.hpp"
 #include "project/verification/run_files.hpp"
 #include "project/verification/violation.hpp"
 #include "server/http/json_text.hpp"
@@ -21,12 +20,6 @@ namespace tessera::server {
 namespace {
 
 using nlohmann::json;
-
-std::vector<net::Property> properties_of(const Analysis& analysis, const std::string& text) {
-  diagnostics::Diagnostics ignored("", text);  // said when the text was analysed
-  return layers::properties(*analysis.model, *analysis.pages, *analysis.net, ignored)
-      .value_or(std::vector<net::Property>{});
-}
 
 /// As `tessera verify --json` writes it; of a property with a run also the indices of its transitions (those
 /// beyond the net's stand for "no initial condition holds") and the run told in words.
@@ -56,7 +49,7 @@ VerifyJobs::Started VerifyJobs::start(Request request) {
   const std::shared_ptr<const Analysis> analysis = analyses_.of(request.text);
   if (!analysis->net) return {0, 422, "a specification with errors has no net to verify", ""};
   std::vector<std::string> names = verify::default_properties();
-  for (const net::Property& property : properties_of(*analysis, request.text)) names.push_back(property.name);
+  for (const net::Property& property : analysis->properties) names.push_back(property.name);
   for (const std::string& name : request.properties)
     if (std::ranges::find(names, name) == names.end())
       return {0, 422, "there is no property '" + name + "'", diagnostics::did_you_mean(name, names)};
@@ -67,21 +60,18 @@ VerifyJobs::Started VerifyJobs::start(Request request) {
   forget_old();
   const std::uint64_t id = ++last_;
   Job& job = *(jobs_[id] = std::make_unique<Job>());
-  job.thread = std::thread([this, id, &job, analysis, request = std::move(request)] {
-    run(id, job, *analysis, request.text, request);
-  });
+  job.thread = std::thread(
+      [this, id, &job, analysis, request = std::move(request)] { run(id, job, *analysis, request); });
   return {id, 202, {}, {}};
 }
 
-void VerifyJobs::run(std::uint64_t id, Job& job, const Analysis& analysis, const std::string& text,
-                     const Request& request) {
+void VerifyJobs::run(std::uint64_t id, Job& job, const Analysis& analysis, const Request& request) {
   using Clock = std::chrono::steady_clock;
   events_.publish("verify", fmt::format(R"({{"job":"{}","state":"running"}})", id));
   std::string result = "null";
   try {
     const std::vector<net::Invariant> invariants =
         layers::invariants(*analysis.model, *analysis.pages, *analysis.net);
-    const std::vector<net::Property> properties = properties_of(analysis, text);
     verify::ProveOptions how;
     how.time = std::chrono::duration<double>(request.seconds);
     how.only = request.properties;
@@ -97,7 +87,7 @@ void VerifyJobs::run(std::uint64_t id, Job& job, const Analysis& analysis, const
                                              {"rate", progress.markings_per_second}}));
     };
     const verify::Report report =
-        verify::prove({*analysis.net, &*analysis.pages, invariants, properties}, how);
+        verify::prove({*analysis.net, &*analysis.pages, invariants, analysis.properties}, how);
     result = text_of(result_json(analysis, report));
   } catch (const std::exception& error) {
     result = text_of(json{{"error", error.what()}});

@@ -49,8 +49,7 @@ class VerifyJobs {
     std::string result;  ///< of done; guarded by mutex_
     std::thread thread;
   };
-  void run(std::uint64_t id, Job& job, const Analysis& analysis, const std::string& text,
-           const Request& request);
+  void run(std::uint64_t id, Job& job, const Analysis& analysis, const Request& request);
   void forget_old();
 
   Analyses& analyses_;

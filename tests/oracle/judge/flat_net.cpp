@@ -1,0 +1,388 @@
+#include "flat_net.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace oracle {
+namespace {
+
+std::string member(const std::string& agent, const Fleet& fleet, int index) {
+  return fleet.count == 0 ? agent : agent + "[" + std::to_string(index) + "]";
+}
+
+class Builder {
+ public:
+  explicit Builder(const Specification& specification) : specification_(specification) {}
+
+  FlatNet build() {
+    name_subsystems();
+    expand_channels();
+    system_layer();
+    for (std::size_t s = 0; s < net_.subsystems.size(); ++s) subsystem_layer(static_cast<int>(s));
+    collect_pages();
+    for (auto& behaviour : net_.behaviours) behaviour.waits = waits_.contains(behaviour.path);
+    return std::move(net_);
+  }
+
+ private:
+  int add_place(const std::string& name, bool marked = false, bool fused = false) {
+    const auto [at, added] = net_.place_of.try_emplace(name, static_cast<int>(net_.places.size()));
+    if (!added) throw std::logic_error("place twice: " + name);
+    net_.places.push_back({name, marked, fused});
+    return at->second;
+  }
+  FlatTransition& add_transition(const std::string& name, std::vector<int> pre, std::vector<int> post) {
+    net_.transitions.push_back(
+        {name, std::move(pre), std::move(post), Role::plain, subsystem_, behaviour_, -1});
+    return net_.transitions.back();
+  }
+  void add_page(const std::string& path, int in, int out) { net_.pages.push_back({path, in, out, {}}); }
+
+  void name_subsystems() {
+    for (const Agent& agent : specification_.agents) {
+      const Fleet fleet = fleet_of(specification_, agent.name);
+      for (int i = 0; i < std::max(1, fleet.count); ++i) {
+        agents_.push_back(member(agent.name, fleet, i));
+        for (const Subsystem& of : subsystems_of(specification_, agent)) {
+          by_path_[agents_.back() + "." + of.name] = static_cast<int>(net_.subsystems.size());
+          net_.subsystems.push_back({agents_.back() + "." + of.name, -1, -1, -1, {}, &of});
+          agent_of_.push_back(static_cast<int>(agents_.size()) - 1);
+        }
+      }
+    }
+  }
+
+  /// The member that an end means where `i` is `index`; -1: past the end of a fleet that is no ring.
+  int index_of(const End& end, int index) const {
+    const Fleet fleet = fleet_of(specification_, end.agent);
+    if (end.index.empty()) return 0;
+    if (end.index == "i" || end.index == "*") return index;
+    if (end.index != "i+1") return std::stoi(end.index);
+    if (index + 1 < fleet.count) return index + 1;
+    return fleet.ring ? 0 : -1;
+  }
+
+  void expand_channels() {
+    for (const Channel& of : specification_.channels) {
+      const auto varies = [](const End& end) { return end.index == "*" || end.index.starts_with("i"); };
+      int times = 1;
+      for (const End* end : {&of.from, &of.to})
+        if (varies(*end)) times = fleet_of(specification_, end->agent).count;
+      for (int i = 0; i < times; ++i) {
+        const int from = index_of(of.from, i), to = index_of(of.to, i);
+        if (from >= 0 && to >= 0) add_channel(of, from, to);
+      }
+    }
+  }
+
+  void add_channel(const Channel& of, int from, int to) {
+    const auto path = [&](const End& end, int index) {
+      return member(end.agent, fleet_of(specification_, end.agent), index) + "." + end.subsystem;
+    };
+    FlatNet::ChannelInfo channel;
+    channel.of = &of;
+    channel.sender = by_path_.at(path(of.from, from));
+    channel.receiver = by_path_.at(path(of.to, to));
+    channel.output = of.from.buffer;
+    channel.input = of.to.buffer;
+    channel.name = path(of.from, from) + "." + of.from.buffer + "->" + path(of.to, to) + "." + of.to.buffer;
+    net_.channels.push_back(channel);
+  }
+
+  void system_layer() {
+    const int in = add_place("in", true), out = add_place("out");
+    net_.system_out = out;
+    add_page("", in, out);
+    std::vector<int> ins, outs;
+    for (std::size_t a = 0; a < agents_.size(); ++a) {
+      ins.push_back(add_place(agents_[a] + ".in"));
+      outs.push_back(add_place(agents_[a] + ".out"));
+      add_page(agents_[a], ins.back(), outs.back());
+      agent_layer(static_cast<int>(a), ins.back(), outs.back());
+    }
+    add_transition("t_in", {in}, ins);
+    add_transition("t_out", outs, {out});
+    net_.layers["system"] = {2, 2, static_cast<int>(agents_.size())};
+    net_.layers["agent"] = {2 * static_cast<int>(agents_.size()), 2 * static_cast<int>(agents_.size()),
+                            static_cast<int>(net_.subsystems.size())};
+  }
+
+  void agent_layer(int agent, int in, int out) {
+    std::vector<int> ins, outs;
+    for (std::size_t s = 0; s < net_.subsystems.size(); ++s) {
+      if (agent_of_[s] != agent) continue;
+      FlatNet::SubsystemInfo& subsystem = net_.subsystems[s];
+      ins.push_back(subsystem.in = add_place(subsystem.path + ".in"));
+      outs.push_back(subsystem.out = add_place(subsystem.path + ".out"));
+      subsystem.agent_out = out;
+      add_page(subsystem.path, subsystem.in, subsystem.out);
+    }
+    add_transition(agents_[static_cast<std::size_t>(agent)] + ".t_in", {in}, ins);
+    add_transition(agents_[static_cast<std::size_t>(agent)] + ".t_out", outs, {out});
+  }
+
+  void subsystem_layer(int s) {
+    subsystem_ = s;
+    FlatNet::SubsystemInfo& subsystem = net_.subsystems[static_cast<std::size_t>(s)];
+    std::map<std::string, int> in_of{{"end", subsystem.out}};
+    for (const Behaviour& of : subsystem.of->behaviours) {
+      const std::string path = subsystem.path + "." + of.name;
+      const int in = add_place(path + ".in"), out = add_place(path + ".out");
+      in_of[of.name] = in;
+      subsystem.behaviours.push_back(static_cast<int>(net_.behaviours.size()));
+      net_.behaviours.push_back({path, s, &of, in, out});
+      add_page(path, in, out);
+    }
+    const std::string& start =
+        subsystem.of->start.empty() ? subsystem.of->behaviours[0].name : subsystem.of->start;
+    add_transition(subsystem.path + ".t_in", {subsystem.in}, {in_of.at(start)});
+    FlatNet::Counts& counts = net_.layers["subsystem"];
+    counts.places += 2;
+    counts.transitions += 1;
+    for (const int b : subsystem.behaviours) {
+      counts.pages += 1;
+      behaviour_ = b;
+      const FlatNet::BehaviourInfo& info = net_.behaviours[static_cast<std::size_t>(b)];
+      std::vector<Entry> next = info.of->next;
+      if (next.empty()) next = {{"end", Entry::When::always, "", Truth::open}};
+      for (std::size_t k = 0; k < next.size(); ++k) {
+        FlatTransition& t =
+            add_transition(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), {info.out},
+                           {in_of.at(next[k].to)});
+        t.role = Role::next;
+        t.entry = static_cast<int>(k);
+        counts.transitions += 1;
+      }
+      behaviour_layer(info);
+    }
+    behaviour_ = subsystem_ = -1;
+  }
+
+  void behaviour_layer(const FlatNet::BehaviourInfo info) {
+    const std::string& path = info.path;
+    const int two = add_place(path + ".2");
+    const int snd_in = add_place(path + ".snd.in"), snd_out = add_place(path + ".snd.out");
+    const int rcv_in = add_place(path + ".rcv.in"), rcv_out = add_place(path + ".rcv.out");
+    add_page(path + ".snd", snd_in, snd_out);
+    add_page(path + ".rcv", rcv_in, rcv_out);
+    add_transition(path + ".t1", {info.in}, {snd_in});
+    add_transition(path + ".t2", {snd_out}, {two});
+    add_transition(path + ".t3", {two}, {rcv_in});
+    add_transition(path + ".t4", {rcv_out}, {info.in}).role = Role::t4;
+    add_transition(path + ".t5", {rcv_out}, {info.out}).role = Role::t5;
+    add_transition(path + ".t6", {rcv_out}, {info.out}).role = Role::t6;
+    FlatNet::Counts& counts = net_.layers["behaviour"];
+    counts.places += 3;
+    counts.transitions += 6;
+    counts.pages += 2;
+    communication(info, true, path + ".snd", snd_in, snd_out);
+    communication(info, false, path + ".rcv", rcv_in, rcv_out);
+  }
+
+  /// The channels of one side of a behaviour, in the order of its blocks.
+  std::vector<int> channels_of(const FlatNet::BehaviourInfo& info, bool send) const {
+    const auto& listed = send ? info.of->send : info.of->receive;
+    std::vector<int> all;
+    for (std::size_t c = 0; c < net_.channels.size(); ++c)
+      if ((send ? net_.channels[c].sender : net_.channels[c].receiver) == info.subsystem)
+        all.push_back(static_cast<int>(c));
+    if (!listed) return all;
+    std::vector<int> ordered;
+    for (const std::string& buffer : *listed)
+      for (const int c : all)
+        if (buffer_of(c, send) == buffer) ordered.push_back(c);
+    return ordered;
+  }
+  const std::string& buffer_of(int c, bool send) const {
+    const FlatNet::ChannelInfo& channel = net_.channels[static_cast<std::size_t>(c)];
+    return send ? channel.output : channel.input;
+  }
+
+  /// "o", or "o#2" where the output feeds several channels.
+  std::string block_name(int c, bool send) const {
+    if (!send) return buffer_of(c, send);
+    int number = 0, of = 0;
+    for (int d = 0; d < static_cast<int>(net_.channels.size()); ++d) {
+      const FlatNet::ChannelInfo& other = net_.channels[static_cast<std::size_t>(d)];
+      if (other.sender != net_.channels[static_cast<std::size_t>(c)].sender ||
+          other.output != buffer_of(c, send))
+        continue;
+      ++of;
+      if (d <= c) ++number;
+    }
+    return of == 1 ? buffer_of(c, send) : buffer_of(c, send) + "#" + std::to_string(number);
+  }
+
+  void communication(const FlatNet::BehaviourInfo& info, bool send, const std::string& path, int in,
+                     int out) {
+    const std::size_t places_before = net_.places.size(), transitions_before = net_.transitions.size();
+    const std::vector<int> channels = channels_of(info, send);
+    std::size_t fused = 0;
+    for (const int c : channels) {
+      fused += share(c);
+      const Channel& of = *net_.channels[static_cast<std::size_t>(c)].of;
+      if (send ? of.send_blocking : of.receive_blocking) waits_.insert(path.substr(0, path.size() - 4));
+    }
+    if (channels.empty()) {
+      add_transition(path + ".t1", {in}, {out});
+    } else if (info.of->parallel && channels.size() > 1) {
+      std::vector<int> ins, outs;
+      for (const int c : channels) {
+        const std::string prefix = path + "." + block_name(c, send);
+        ins.push_back(add_place(prefix + ".in"));
+        outs.push_back(add_place(prefix + ".out"));
+        block(c, send, prefix, ins.back(), outs.back());
+      }
+      add_transition(path + ".fork", {in}, ins);
+      add_transition(path + ".join", outs, {out});
+    } else {
+      for (std::size_t k = 0; k < channels.size(); ++k) {
+        const std::string prefix = path + "." + block_name(channels[k], send);
+        const int after = k + 1 == channels.size() ? out : add_place(prefix + ".out");
+        block(channels[k], send, prefix, in, after);
+        in = after;
+      }
+    }
+    FlatNet::Counts& counts = net_.layers["communication"];
+    counts.places += 2 + static_cast<int>(net_.places.size() - places_before - fused);
+    counts.transitions += static_cast<int>(net_.transitions.size() - transitions_before);
+  }
+
+  const Model* model_of(const Channel& channel) const {
+    for (const Model& model : specification_.models)
+      if (model.name == channel.model) return &model;
+    return nullptr;
+  }
+
+  /// Makes the fused places of a channel when its first block is made; how many.
+  std::size_t share(int c) {
+    FlatNet::ChannelInfo& channel = net_.channels[static_cast<std::size_t>(c)];
+    if (!channel.shared.empty()) return 0;
+    const auto add = [&](const std::string& name, bool marked) {
+      channel.shared[name] = add_place(channel.name + "." + name, marked, true);
+    };
+    if (const Model* model = model_of(*channel.of)) {
+      for (const auto& [name, tokens] : model->shared) add(name, tokens > 0);
+    } else if (!channel.of->send_blocking && !channel.of->receive_blocking) {
+      add("channel", true);
+    } else {
+      add("empty", true);
+      add("full", false);
+      if (channel.of->send_blocking) add("ack", false);
+    }
+    return channel.shared.size();
+  }
+
+  void block(int c, bool send, const std::string& prefix, int in, int out) {
+    FlatNet::ChannelInfo& channel = net_.channels[static_cast<std::size_t>(c)];
+    if (!send) channel.received = true;
+    if (const Model* model = model_of(*channel.of))
+      return model_block(channel, send ? model->send : model->receive, send, prefix, in, out);
+    const int two = add_place(prefix + ".2");
+    (send ? channel.writing : channel.reading)[1].push_back(two);
+    if (!send) channel.reads.push_back(static_cast<int>(net_.transitions.size()));
+    if (channel.shared.contains("channel")) {
+      const int memory = channel.shared.at("channel");
+      add_transition(prefix + ".t1", {in, memory}, {two});
+      add_transition(prefix + ".t2", {two}, {out, memory});
+    } else if (send) {
+      send_block(channel, prefix, in, two, out);
+    } else {
+      receive_block(channel, prefix, in, two, out);
+    }
+  }
+
+  void send_block(const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two, int out) {
+    const int empty = channel.shared.at("empty"), full = channel.shared.at("full");
+    add_transition(prefix + ".t1", {in, empty}, {two});
+    if (!channel.of->send_blocking) {
+      add_transition(prefix + ".t1o", {in, full}, {two});
+      add_transition(prefix + ".t2", {two}, {out, full});
+      return;
+    }
+    const int wait = add_place(prefix + ".wait");
+    add_transition(prefix + ".t2", {two}, {wait, full});
+    add_transition(prefix + ".t3", {wait, channel.shared.at("ack")}, {out});
+    if (channel.of->send_timeout) add_transition(prefix + ".timeout", {wait, full}, {out, empty});
+  }
+
+  void receive_block(const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two,
+                     int out) {
+    const int empty = channel.shared.at("empty"), full = channel.shared.at("full");
+    add_transition(prefix + ".t1", {in, full}, {two});
+    std::vector<int> after{out, empty};
+    if (channel.of->send_blocking) after.push_back(channel.shared.at("ack"));
+    add_transition(prefix + ".t2", {two}, after);
+    if (!channel.of->receive_blocking) add_transition(prefix + ".skip", {in, empty}, {out, empty});
+    if (channel.of->receive_timeout) add_transition(prefix + ".timeout", {in, empty}, {out, empty});
+  }
+
+  void model_block(FlatNet::ChannelInfo& channel, const ModelSide& side, bool send, const std::string& prefix,
+                   int in, int out) {
+    std::map<std::string, int> place = channel.shared;
+    std::map<std::string, int> slot_of;
+    for (const auto& one : side.places) {
+      place[one.name] = one.name == "in" ? in : one.name == "out" ? out : add_place(prefix + "." + one.name);
+      slot_of[one.name] = one.slot;
+      if (one.slot > 0) (send ? channel.writing : channel.reading)[one.slot].push_back(place[one.name]);
+    }
+    for (const auto& one : side.transitions) {
+      std::vector<int> pre, post;
+      bool reads = false;
+      for (const std::string& name : one.from) pre.push_back(place.at(name));
+      for (const std::string& name : one.to) {
+        post.push_back(place.at(name));
+        reads = reads || (!send && slot_of[name] > 0);
+      }
+      if (reads) channel.reads.push_back(static_cast<int>(net_.transitions.size()));
+      add_transition(prefix + "." + one.name, pre, post);
+    }
+  }
+
+  void collect_pages() {
+    for (FlatNet::Page& page : net_.pages)
+      for (std::size_t p = 0; p < net_.places.size(); ++p)
+        if (!net_.places[p].fused && (page.path.empty() || net_.places[p].name.starts_with(page.path + ".")))
+          page.places.push_back(static_cast<int>(p));
+  }
+
+  const Specification& specification_;
+  FlatNet net_;
+  std::vector<std::string> agents_;
+  std::vector<int> agent_of_;
+  std::map<std::string, int> by_path_;
+  std::set<std::string> waits_;
+  int subsystem_ = -1, behaviour_ = -1;
+};
+
+}  // namespace
+
+Fleet fleet_of(const Specification& specification, const std::string& agent) {
+  for (const Agent& one : specification.agents)
+    if (one.name == agent) return {one.count, one.ring};
+  throw std::logic_error("no agent " + agent);
+}
+
+FlatNet flat_net(const Specification& specification) { return Builder(specification).build(); }
+
+PetriNet petri_net(const FlatNet& net) {
+  const auto arcs = [](const std::vector<int>& places) {
+    std::vector<Arc> all;
+    for (const int place : places) all.push_back({static_cast<std::uint32_t>(place)});
+    return all;
+  };
+  PetriNet plain;
+  for (const FlatNet::PlaceInfo& place : net.places) plain.initial.push_back(place.marked ? 1 : 0);
+  for (const FlatTransition& transition : net.transitions)
+    plain.transitions.push_back({arcs(transition.pre), arcs(transition.post)});
+  return plain;
+}
+
+std::uint32_t tokens_in(const Marking& marking, const std::vector<int>& places) {
+  std::uint32_t tokens = 0;
+  for (const int place : places) tokens += marking[static_cast<std::size_t>(place)];
+  return tokens;
+}
+
+}  // namespace oracle

@@ -1,0 +1,261 @@
+#include "random_specification.hpp"
+
+#include <algorithm>
+
+#include "oracle/judge/flat_net.hpp"
+
+namespace oracle {
+
+namespace {
+std::uint64_t mixed(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31);
+}
+}  // namespace
+
+// Mixed, so that the numbers of one seed are not those of the next one, shifted.
+RandomNumbers::RandomNumbers(std::uint64_t seed) : state_(mixed(mixed(seed + 0x1234567U) + seed)) {}
+
+int RandomNumbers::below(int bound) {
+  state_ += 0x9E3779B97F4A7C15U;
+  return static_cast<int>(mixed(state_) % static_cast<std::uint64_t>(bound));
+}
+
+namespace {
+
+class Generator {
+ public:
+  explicit Generator(std::uint64_t seed) : random_(seed) {}
+
+  Specification make() {
+    if (random_.percent(15)) specification_.models = random_models(random_);
+    agents();
+    const int channels = random_.below(2) + random_.below(1 + static_cast<int>(bodies_.size()) * 2);
+    for (int c = 0; c < channels; ++c) channel();
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
+    time();
+    if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
+    return std::move(specification_);
+  }
+
+ private:
+  /// Small enough to visit every marking: about four subsystems in all.
+  Agent body(const std::string& name, int most) {
+    Agent agent;
+    agent.name = name;
+    agent.subsystems.push_back({"control", Subsystem::Kind::control, true, {}, {}, {}, ""});
+    const int more = random_.below(most);
+    for (int s = 0; s < more; ++s) {
+      const bool receptor = random_.percent(50);
+      agent.subsystems.push_back({(receptor ? "r" : "e") + std::to_string(s),
+                                  receptor ? Subsystem::Kind::receptor : Subsystem::Kind::effector,
+                                  true,
+                                  {},
+                                  {},
+                                  {},
+                                  ""});
+    }
+    return agent;
+  }
+
+  void agents() {
+    const bool templates = random_.percent(45);
+    if (templates) specification_.templates.push_back(body("t0", random_.percent(35) ? 2 : 1));
+    if (templates && random_.percent(20)) {
+      specification_.templates.push_back({});
+      specification_.templates.back().name = "t1";
+      specification_.templates.back().use = "t0";
+    }
+    const int number = 1 + random_.below(2) + (templates ? 0 : random_.below(2));
+    for (int a = 0; a < number; ++a) {
+      const std::string name = "a" + std::to_string(a);
+      if (!templates || (a > 0 && random_.percent(50))) {
+        specification_.agents.push_back(body(name, number == 1                 ? 4
+                                                   : number == 2 && !templates ? 3
+                                                   : random_.percent(70)       ? 1
+                                                                               : 2));
+        continue;
+      }
+      Agent agent;
+      agent.name = name;
+      agent.use = random_.of(specification_.templates).name;
+      if (random_.percent(75)) agent.count = 1 + random_.below(3);
+      if (agent.count > 0) agent.ring = random_.percent(50);
+      specification_.agents.push_back(agent);
+    }
+    for (Agent& one : specification_.templates)
+      if (one.use.empty()) bodies_.push_back(&one);
+    for (Agent& one : specification_.agents)
+      if (one.use.empty()) bodies_.push_back(&one);
+  }
+
+  Agent* body_of(const Agent& agent) {
+    if (agent.use.empty()) return const_cast<Agent*>(&agent);
+    for (Agent& one : specification_.templates)
+      if (one.name == agent.use) return body_of(one);
+    return nullptr;
+  }
+
+  /// A new input of some subsystem, fed in every agent that has it.
+  void channel() {
+    Agent* target = random_.of(bodies_);
+    Subsystem& subsystem = target->subsystems[static_cast<std::size_t>(
+        random_.below(static_cast<int>(target->subsystems.size())))];
+    const std::string input = "i" + std::to_string(inputs_++);
+    subsystem.inputs.push_back(input);
+    for (const Agent& agent : specification_.agents)
+      if (body_of(agent) == target) feed(agent, subsystem, input);
+  }
+
+  void feed(const Agent& agent, const Subsystem& subsystem, const std::string& input) {
+    const Agent& from = random_.percent(45) ? agent : random_.of(specification_.agents);
+    Agent* source = body_of(from);
+    Subsystem& sender = source->subsystems[static_cast<std::size_t>(
+        random_.below(static_cast<int>(source->subsystems.size())))];
+    if (sender.outputs.empty() || !random_.percent(35))
+      sender.outputs.push_back("o" + std::to_string(outputs_++));
+    Channel one;
+    one.from = {from.name, "", sender.name, random_.of(sender.outputs)};
+    one.to = {agent.name, "", subsystem.name, input};
+    manner(one);
+    for (const auto& [from_index, to_index] : indices(from, agent)) {
+      one.from.index = from_index;
+      one.to.index = to_index;
+      specification_.channels.push_back(one);
+    }
+  }
+
+  /// How the members of fleets are named so that every input has one source.
+  std::vector<std::pair<std::string, std::string>> indices(const Agent& from, const Agent& to) {
+    if (to.count == 0) return {{from.count == 0 ? "" : std::to_string(random_.below(from.count)), ""}};
+    if (from.count == to.count && random_.percent(80))
+      return {{"i", random_.percent(&from == &to ? 70 : 30) ? "i+1" : "i"}};
+    if (from.count == 0 && random_.percent(50)) return {{"", "*"}};
+    std::vector<std::pair<std::string, std::string>> each;
+    for (int i = 0; i < to.count; ++i)
+      each.emplace_back(from.count == 0 ? "" : std::to_string(random_.below(from.count)), std::to_string(i));
+    return each;
+  }
+
+  void manner(Channel& channel) {
+    if (!specification_.models.empty() && random_.percent(45)) {
+      const Model& model = random_.of(specification_.models);
+      const auto waits = [](const ModelSide& side) {
+        return std::any_of(side.transitions.begin(), side.transitions.end(),
+                           [](const auto& t) { return t.elapsed; });
+      };
+      channel.model = model.name;
+      channel.send_timeout = waits(model.send);
+      channel.receive_timeout = waits(model.receive);
+      return;
+    }
+    channel.send_blocking = random_.percent(35);
+    channel.receive_blocking = random_.percent(55);
+    channel.send_timeout = channel.send_blocking && random_.percent(20);
+    channel.receive_timeout = channel.receive_blocking && random_.percent(20);
+  }
+
+  Truth truth(int open) {
+    if (random_.percent(open)) return Truth::open;
+    return random_.percent(50) ? Truth::yes : Truth::no;
+  }
+
+  Condition condition(int absent, int always, const char* letter) {
+    Condition condition;
+    if (random_.percent(absent)) return condition;
+    condition.form = Condition::Form::single;
+    if (random_.percent(always)) {
+      condition.single = Truth::yes;
+    } else if (random_.percent(45)) {
+      condition.single = truth(88);
+    } else {
+      condition.form = Condition::Form::named;
+      const int names = 1 + random_.below(3);
+      for (int n = 0; n < names; ++n) condition.named.emplace_back(letter + std::to_string(n), truth(75));
+    }
+    return condition;
+  }
+
+  Entry entry(const Subsystem& subsystem, const Behaviour& behaviour) {
+    Entry entry;
+    entry.to = random_.percent(20) ? "end" : random_.of(subsystem.behaviours).name;
+    std::vector<std::string> names;
+    for (const Condition* of : {&behaviour.terminal, &behaviour.error})
+      for (const auto& [name, known] : of->named) names.push_back(name);
+    const int kind = random_.below(100);
+    if (kind < 40) return entry;
+    if (kind < 60) {
+      entry.when = Entry::When::error;
+    } else if (kind < 85 && !names.empty()) {
+      entry.when = Entry::When::name;
+      entry.name = random_.of(names);
+    } else {
+      entry.when = Entry::When::expression;
+      entry.truth = truth(80);
+    }
+    return entry;
+  }
+
+  std::optional<std::vector<std::string>> some_of(std::vector<std::string> all) {
+    if (all.empty() || !random_.percent(25)) return std::nullopt;
+    std::vector<std::string> chosen;
+    while (!all.empty()) {
+      const int at = random_.below(static_cast<int>(all.size()));
+      if (random_.percent(70)) chosen.push_back(all[static_cast<std::size_t>(at)]);
+      all.erase(all.begin() + at);
+    }
+    return chosen;
+  }
+
+  void behaviours(Subsystem& subsystem) {
+    const int number = random_.percent(60) ? 1 : random_.percent(70) ? 2 : 3;
+    for (int b = 0; b < number; ++b) {
+      Behaviour behaviour;
+      behaviour.name = "b" + std::to_string(b);
+      behaviour.terminal = condition(b + 1 == number ? 45 : 15, 40, "t");
+      behaviour.error = condition(65, 12, "f");
+      behaviour.send = some_of(subsystem.outputs);
+      behaviour.receive = some_of(subsystem.inputs);
+      behaviour.parallel = random_.percent(30);
+      behaviour.takes = random_.percent(10);
+      subsystem.behaviours.push_back(behaviour);
+    }
+    for (std::size_t b = 0; b < subsystem.behaviours.size(); ++b) {
+      Behaviour& behaviour = subsystem.behaviours[b];
+      if (random_.percent(12)) continue;
+      const int entries = random_.percent(60) ? 0 : 1 + random_.below(3);
+      for (int e = 0; e < entries; ++e) behaviour.next.push_back(entry(subsystem, behaviour));
+      if (entries > 0 && random_.percent(30)) continue;
+      behaviour.next.push_back({subsystem.behaviours[(b + 1) % subsystem.behaviours.size()].name,
+                                Entry::When::always, "", Truth::open});
+      if (random_.percent(15)) behaviour.next.back().to = "end";
+    }
+    if (random_.percent(15)) subsystem.start = random_.of(subsystem.behaviours).name;
+  }
+
+  /// Every behaviour takes time: by a rate, a blocking channel, or `takes`; three in a hundred may not, and
+  /// are refused.
+  void time() {
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems) subsystem.rate = random_.percent(65);
+    if (random_.percent(3)) return;
+    const FlatNet net = flat_net(specification_);
+    for (const auto& behaviour : net.behaviours)
+      if (!behaviour.waits)
+        const_cast<Behaviour*>(behaviour.of)->takes |=
+            !net.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
+  }
+
+  RandomNumbers random_;
+  Specification specification_;
+  std::vector<Agent*> bodies_;
+  int inputs_ = 0, outputs_ = 0;
+};
+
+}  // namespace
+
+Specification random_specification(std::uint64_t seed) { return Generator(seed).make(); }
+
+}  // namespace oracle

@@ -11,13 +11,13 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
-#include "diagnostics/diagnostics.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/events.hpp"
 #include "replay/legality.hpp"
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
+#include "tessera/nearest.hpp"
 #include "tessera/recording.hpp"
 #include "verify/hashes.hpp"
 
@@ -221,8 +221,7 @@ bool known_subsystem(const Recording& recording, const std::string& path) {
   std::vector<std::string> names = recording.instances;
   names.emplace_back("system");
   if (path.empty() || std::ranges::count(names, path) > 0) return true;
-  const std::string hint = diagnostics::did_you_mean(path, names);
-  complain("the recording has no subsystem '" + path + "'" + (hint.empty() ? "" : "; " + hint));
+  complain(with_hint("the recording has no subsystem '" + path + "'", did_you_mean(path, names)));
   return false;
 }
 
@@ -234,8 +233,8 @@ bool known_values(const Recording& recording, const std::string& wanted) {
     names.push_back(buffer.path);
     names.push_back(buffer.path.substr(buffer.path.rfind('.') + 1));
   }
-  const std::string hint = diagnostics::did_you_mean(wanted, names);
-  complain("no buffer of the recording has '" + wanted + "' in its path" + (hint.empty() ? "" : "; " + hint));
+  complain(
+      with_hint("no buffer of the recording has '" + wanted + "' in its path", did_you_mean(wanted, names)));
   return false;
 }
 

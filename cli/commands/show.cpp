@@ -8,6 +8,7 @@
 #include "drawing/drawing.hpp"
 #include "net/counts.hpp"
 #include "project/verification/pipeline.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::cli {
 
@@ -72,10 +73,9 @@ int show_command(const ShowOptions& options) {
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::PageId page = nets->pages.find(options.page);
-  if (!page.valid()) {
-    const std::string hint = diagnostics::did_you_mean(options.page, page_paths(nets->pages));
-    return complain(fmt::format("there is no page '{}'{}{}", options.page, hint.empty() ? "" : "; ", hint));
-  }
+  if (!page.valid())
+    return complain(with_hint("there is no page '" + options.page + "'",
+                              did_you_mean(options.page, page_paths(nets->pages))));
   const bool drawn = draw(options, *specification, *nets, page);
   if (options.counts) {
     const net::Counts counts = net::count(nets->pages, nets->flat);

@@ -16,6 +16,7 @@
 #include "project/verification/run_files.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
+#include "tessera/nearest.hpp"
 #include "verify/communication/abstraction.hpp"
 
 namespace tessera::cli {
@@ -150,8 +151,7 @@ bool known(const std::vector<std::string>& asked, const std::vector<std::string>
   bool all = true;
   for (const std::string& name : asked) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    const std::string hint = diagnostics::did_you_mean(name, names);
-    complain("there is no property '" + name + "'" + (hint.empty() ? "" : "; " + hint));
+    complain(with_hint("there is no property '" + name + "'", did_you_mean(name, names)));
     all = false;
   }
   return all;

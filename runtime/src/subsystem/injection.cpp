@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "system/nearest.hpp"
 #include "tessera/given_values.hpp"
+#include "tessera/nearest.hpp"
 #include "tessera/signals.hpp"
 
 namespace tessera {
@@ -80,10 +80,10 @@ class Reader {
     const std::string name = what.substr(0, equals);
     const std::vector<std::string> known{"throw", "stall", "nan", "inf"};
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument(fmt::format(
-          "unknown fault '{}'{}; there are throw, stall=TIME, nan, inf, and the prefixes device:, "
-          "silent:, signal:",
-          name, did_you_mean(name, known)));
+      throw std::invalid_argument(with_hint("unknown fault '" + name +
+                                                "'; there are throw, stall=TIME, nan, inf, and the prefixes "
+                                                "device:, silent:, signal:",
+                                            did_you_mean(name, known)));
     if ((name == "stall") != (equals != std::string::npos))
       throw std::invalid_argument(name == "stall" ? "stall needs a time, for example stall=200ms"
                                                   : "'" + name + "' takes no value");
@@ -121,7 +121,7 @@ class Reader {
       }
       fault_.part.clear();
     }
-    throw std::invalid_argument(fmt::format("unknown '{}'{}", path, did_you_mean(path, known)));
+    throw std::invalid_argument(with_hint("unknown '" + path + "'", did_you_mean(path, known)));
   }
 
   void when(const std::string& text) {

@@ -7,6 +7,7 @@
 #include "spec/document/expression_text.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -90,7 +91,7 @@ std::string hint_for(const std::string& word, const Behaviour& of) {
       if (!one.name.empty()) names.push_back(one.name);
     }
   }
-  const std::string guess = diagnostics::did_you_mean(word, names);
+  const std::string guess = did_you_mean(word, names);
   return guess.empty() ? "name it under 'terminal' or 'error', or write an expression such as in.line.left"
                        : guess;
 }

@@ -5,6 +5,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -115,8 +116,7 @@ Index Templates::find(const Node& name, Diagnostics& out) {
     return found->second.definition;
   }
   one_is_unknown_ = true;
-  out.error("E101", name.span, "unknown template " + quoted(name.text),
-            diagnostics::did_you_mean(name.text, order_));
+  out.error("E101", name.span, "unknown template " + quoted(name.text), did_you_mean(name.text, order_));
   return none;
 }
 

@@ -6,6 +6,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -121,7 +122,7 @@ Lookup::Lookup(const Model& model, const Groups& groups) : model_(model), groups
 const Group* Lookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
   const auto group = groups_.find(agent);
   if (group != groups_.end()) return &group->second;
-  out.error("E101", span, "unknown agent " + quoted(agent), diagnostics::did_you_mean(agent, names_));
+  out.error("E101", span, "unknown agent " + quoted(agent), did_you_mean(agent, names_));
   return nullptr;
 }
 
@@ -161,7 +162,7 @@ bool Lookup::find(const BufferPath& path, Place& place, Known& known, Diagnostic
     std::vector<std::string> names;
     for (const Subsystem& one : subsystems) names.push_back(one.name);
     out.error("E101", path.subsystem_span, "unknown subsystem " + quoted(path.subsystem),
-              diagnostics::did_you_mean(path.subsystem, names));
+              did_you_mean(path.subsystem, names));
     return false;
   }
   place.subsystem = static_cast<Index>(subsystem - subsystems.begin());
@@ -193,7 +194,7 @@ Index Lookup::find_buffer(const BufferPath& path, const Place& place, const std:
   std::vector<std::string> names;
   for (const Field& field : buffers) names.push_back(field.name);
   out.error("E101", path.buffer_span, "unknown " + what + " " + quoted(path.buffer),
-            diagnostics::did_you_mean(path.buffer, names));
+            did_you_mean(path.buffer, names));
   return none;
 }
 

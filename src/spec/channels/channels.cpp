@@ -6,6 +6,7 @@
 #include "spec/channels/channel_ends.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -102,7 +103,7 @@ class ChannelReader {
     if (text->text != "blocking") {
       out_.error("E104", text->span,
                  quoted(entry->key) + " must be blocking or non_blocking, not " + quoted(text->text),
-                 diagnostics::did_you_mean(text->text, {"blocking", "non_blocking"}));
+                 did_you_mean(text->text, {"blocking", "non_blocking"}));
     }
     return Mode::blocking;
   }

@@ -9,6 +9,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -123,7 +124,7 @@ Index Models::find(const Node& name, Diagnostics& out) {
   one_is_unknown_ = true;
   std::vector<std::string> names;
   for (const Known& one : known_) names.push_back(one.name);
-  const std::string hint = diagnostics::did_you_mean(name.text, names);
+  const std::string hint = did_you_mean(name.text, names);
   out.error("E101", name.span, "unknown model " + quoted(name.text),
             hint.empty()
                 ? "models of your own stand under 'models'; the others are chosen by send and receive"

@@ -11,6 +11,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -133,7 +134,7 @@ class DriverReader {
     }
     std::vector<std::string> names;
     for (const DriverKind& kind : driver_kinds) names.emplace_back(kind.name);
-    const std::string guess = diagnostics::did_you_mean(stranger->key, names);
+    const std::string guess = did_you_mean(stranger->key, names);
     out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
                guess.empty() ? "there are cpp, reflectance and velocity" : guess);
   }

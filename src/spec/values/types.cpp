@@ -8,6 +8,7 @@
 #include "spec/document/section.hpp"
 #include "spec/document/type_text.hpp"
 #include "spec/model/structure_order.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -163,7 +164,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
                                                [&](const Synonym& one) { return one.theirs == parts->name; });
       out.error("E101", parts->name_span, "unknown type " + quoted(parts->name),
                 synonym != synonyms.end() ? "here it is called " + std::string(synonym->ours)
-                                          : diagnostics::did_you_mean(parts->name, known_names_));
+                                          : did_you_mean(parts->name, known_names_));
       return unknown();
     }
     type.structure = found->second;

@@ -4,6 +4,10 @@
 
 namespace tessera::cli {
 
+void declare_specification(Subcommand& command, std::string& spec) {
+  command.option("spec", spec, "Specification, or the folder of its spec.yaml").shows_default();
+}
+
 void declare_gate(Subcommand& command, project::Gate& gate) {
   command.option("--verify-timeout", gate.timeout, "How long verification may take, such as 10s or 2min")
       .shows_default();
@@ -13,7 +17,7 @@ void declare_gate(Subcommand& command, project::Gate& gate) {
 
 void declare(Subcommand& command, project::LaunchOptions& options) {
   options.progress = isatty(STDERR_FILENO) != 0;
-  command.option("spec", options.spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options.spec);
   command.option("--for", options.duration, "How long to run: 60s, 500ms, 2min");
   command.option("--set", options.set, "PATH=VALUE: change a parameter (v=0.3, robot.control.v=0.3)")
       .repeated();

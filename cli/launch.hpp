@@ -1,11 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "cli/arguments.hpp"
 #include "project/launch.hpp"
 
 /// Options that several commands have in common.
 namespace tessera::cli {
 
+/// Declares the argument that names the specification.
+void declare_specification(Subcommand& command, std::string& spec);
 /// Declares --verify-timeout and --accept-violations.
 void declare_gate(Subcommand& command, project::Gate& gate);
 /// Declares the options shared by `simulate` and `run`.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/assets.hpp"
@@ -57,7 +58,7 @@ int check_command(const CheckOptions& options) {
 void add_check(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("check", "Read a specification and report every mistake in it");
   auto options = std::make_shared<CheckOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
   command.footer(
       "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"

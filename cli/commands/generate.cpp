@@ -68,7 +68,7 @@ int generate_command(const GenerateCommandOptions& options) {
 void add_generate(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
   auto options = std::make_shared<GenerateCommandOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("-o,--output", options->output,
                  "Folder for the generated files (default: .tessera/generated)");
   command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "drawing/drawing.hpp"
 #include "net/counts.hpp"
@@ -99,7 +100,7 @@ int show_command(const ShowOptions& options) {
 void add_show(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
   auto options = std::make_shared<ShowOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--page", options->page,
                  "Path of one page, e.g. robot.control.follow (default: the whole system)");
   command.option("--svg", options->svg, "Draw to this file (- is standard output)");

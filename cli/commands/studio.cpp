@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/installation.hpp"
 #include "project/process/process.hpp"
@@ -85,7 +86,7 @@ int studio_command(const StudioCommandOptions& options) {
 void add_studio(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("studio", "See, edit, verify and run a system in the browser");
   auto options = std::make_shared<StudioCommandOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
       .within(0, 65535)
       .shows_default();

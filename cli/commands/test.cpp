@@ -73,7 +73,7 @@ int test_command(const TestOptions& options) {
 void add_test(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("test", "Build and run the project's own GoogleTests of its functions");
   auto options = std::make_shared<TestOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command.flag("--debug", options->debug, "Build the tests for gdb");
   declare_gate(command, options->gate);

@@ -11,6 +11,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/events.hpp"
@@ -176,7 +177,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
-    if (fs::exists(folder / "spec.yaml")) return (folder / "spec.yaml").string();
+    if (fs::path file = folder / file_names::specification; fs::exists(file)) return file.string();
     if (folder == folder.parent_path()) break;
   }
   throw std::runtime_error("no specification is beside '" + options.recording +
@@ -240,7 +241,7 @@ bool known_values(const Recording& recording, const std::string& wanted) {
 
 /// The last run of the project here, wherever its files are kept.
 std::string last_recording() {
-  const fs::path kept = state_folder(fs::canonical(".")) / "last/recording.tsr";
+  const fs::path kept = state_folder(fs::canonical(".")) / "last" / file_names::recording;
   return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
 }
 

@@ -11,6 +11,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
@@ -60,8 +61,9 @@ void open_browser(const std::string& url) {
 int studio_command(const StudioCommandOptions& options) {
   const fs::path given = project::spec_file(options.spec);
   if (fs::is_directory(given) || !fs::exists(given))
-    return complain(fmt::format("there is no specification {}; `tessera new NAME` makes a project",
-                                fs::is_directory(given) ? (given / "spec.yaml").string() : given.string()));
+    return complain(fmt::format(
+        "there is no specification {}; `tessera new NAME` makes a project",
+        fs::is_directory(given) ? (given / project::file_names::specification).string() : given.string()));
   const project::Installation installation = project::Installation::find();
   server::StudioOptions studio;
   studio.spec = fs::canonical(given);

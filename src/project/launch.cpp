@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/verification/verdicts.hpp"
 #include "sim/track.hpp"
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 
 RunFiles run_files(const LaunchOptions& options) {
   const fs::path folder = fs::absolute(options.folder);
-  return {options.record.empty() ? folder / "recording.tsr" : fs::absolute(options.record),
-          folder / "path.csv", folder / "summary.json"};
+  return {options.record.empty() ? folder / file_names::recording : fs::absolute(options.record),
+          folder / file_names::path, folder / file_names::summary};
 }
 
 namespace {
@@ -46,8 +47,8 @@ void flatten_parameters(const YAML::Node& node, const std::string& path, std::ve
 
 // PATH=VALUE of every entry; nested maps and dotted paths mean the same.
 std::vector<std::string> parameters_of(const Specification& specification, const LaunchOptions& options) {
-  const fs::path file =
-      options.parameters.empty() ? specification.project / "params.yaml" : fs::path(options.parameters);
+  const fs::path file = options.parameters.empty() ? specification.project / file_names::parameters
+                                                   : fs::path(options.parameters);
   if (options.parameters.empty() && !fs::exists(file)) return {};
   std::vector<std::string> values;
   try {

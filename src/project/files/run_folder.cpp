@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::project {
@@ -172,7 +173,8 @@ fs::path shown_instead(const fs::path& state, const fs::path& before) {
   std::error_code problem;
   if (!before.empty() && fs::is_directory(state / before, problem)) return state / before;
   std::vector<OldRun> runs = runs_in(state / "runs");
-  std::erase_if(runs, [&](const OldRun& run) { return !fs::exists(run.folder / "recording.tsr", problem); });
+  std::erase_if(runs,
+                [&](const OldRun& run) { return !fs::exists(run.folder / file_names::recording, problem); });
   return runs.empty() ? fs::path() : runs.back().folder;
 }
 

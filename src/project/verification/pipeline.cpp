@@ -10,6 +10,7 @@
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "project/files/assets.hpp"
+#include "project/files/file_names.hpp"
 #include "project/process/listener.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
@@ -21,7 +22,7 @@ namespace tessera::project {
 namespace fs = std::filesystem;
 
 fs::path spec_file(const fs::path& given) {
-  fs::path inside = given / "spec.yaml";
+  fs::path inside = given / file_names::specification;
   return fs::exists(inside) ? inside : given;
 }
 

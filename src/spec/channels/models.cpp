@@ -9,6 +9,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/channel_limits.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::spec {

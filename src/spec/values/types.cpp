@@ -17,7 +17,6 @@ using diagnostics::quoted;
 
 constexpr std::array scalars = std::to_array<std::string_view>(
     {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
-constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
 
 /// What other languages call our types.
 struct Synonym {
@@ -51,7 +50,7 @@ bool has_unit(const Type& type) { return type.kind == Type::Kind::scalar && type
 /// Saturates well above the limit.
 std::uint64_t bytes_of(const Type& type, const std::vector<std::uint64_t>& structures) {
   std::uint64_t one = std::uint64_t{type.capacity} + 4;
-  if (type.kind == Type::Kind::scalar) one = scalar_bytes[static_cast<std::size_t>(type.scalar)];
+  if (type.kind == Type::Kind::scalar) one = bytes_of(type.scalar);
   if (type.kind == Type::Kind::structure)
     one = type.structure < structures.size() ? structures[type.structure] : 0;
   const std::uint64_t extent = std::max<std::uint64_t>(type.extent, 1);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "project/files/file_names.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/launch.hpp"
@@ -207,7 +208,7 @@ void Run::execute(project::Controller controller) {
       });
   process_over_ = true;
   if (follower_.joinable()) follower_.join();
-  json summary = read_summary(folder.path() / "summary.json");
+  json summary = read_summary(folder.path() / project::file_names::summary);
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
   std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
   if (!summary.is_object()) {
@@ -223,8 +224,9 @@ void Run::execute(project::Controller controller) {
 }
 
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
-  Follower follower(RecordingStream::of_file(folder / "recording.tsr", GrowingRecording::From::newest),
-                    folder / "path.csv", *analysis_);
+  Follower follower(
+      RecordingStream::of_file(folder / project::file_names::recording, GrowingRecording::From::newest),
+      folder / project::file_names::path, *analysis_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
@@ -290,7 +292,7 @@ void Run::attach() {
   const std::filesystem::path file = readable(*snapshot);
   Follower follower(file.empty() ? [this] { return link_.recording(); }
                                  : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                    file.empty() ? file : file.parent_path() / "path.csv", *analysis_);
+                    file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
     if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) Follower::rest();

@@ -67,7 +67,7 @@ class Parameters {
                                                  : sizeof(double);
   }
 
-  /// All share their place: what is there is not looked at.
+  /// All share their storage: what is there is not looked at.
   [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool text = parameter.type.kind == spec::Type::Kind::string;
@@ -122,7 +122,7 @@ int check_run(const LaunchOptions& options, bool with_world) {
   if (!specification) return ok;
   if (!parameters_fit(*specification, options)) return failed;
   if (!with_world || !specification->model.simulation) return ok;
-  if (!files_are_there(*specification, terminal())) return failed;
+  if (!simulation_files_exist(*specification, terminal())) return failed;
   static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
   return ok;
 }

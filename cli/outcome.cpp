@@ -34,10 +34,10 @@ T value_or_throw(std::optional<T> value, const std::string& error) {
   return std::move(*value);
 }
 
-report::Drive drive_over(const Floor& floor, sim::Trace trace) {
+report::DrivenPath drive_over(const Floor& floor, sim::Trace trace) {
   std::string error;
   std::optional<sim::Track> track = sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  report::Drive drive;
+  report::DrivenPath drive;
   drive.floor = value_or_throw(std::move(track), error);
   drive.trace = std::move(trace);
   drive.line = sim::skeleton(drive.floor);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/names.hpp"
+#include "sim/unknown_name.hpp"
 
 namespace tessera::sim {
 namespace {

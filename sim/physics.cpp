@@ -110,23 +110,23 @@ std::optional<Pose> Physics::robot() const {
   return pose({model_->jnt_bodyid[robot_joint_]});
 }
 
-Pose Physics::pose(Root root) const {
+Pose Physics::pose(RootBody root) const {
   locate();
   const mjtNum* at = view_->xpos + 3 * root.body;
   const mjtNum* axes = view_->xmat + 9 * root.body;
   return {{at[0], at[1]}, std::atan2(axes[3], axes[0])};
 }
 
-std::string Physics::name(Root root) const {
+std::string Physics::name(RootBody root) const {
   const char* name = mj_id2name(model_.get(), mjOBJ_BODY, root.body);
   return name != nullptr && *name != '\0' ? name : "body " + std::to_string(root.body);
 }
 
-Physics::Root Physics::root_of_site(int site) const {
+Physics::RootBody Physics::root_of_site(int site) const {
   return {model_->body_rootid[model_->site_bodyid[site]]};
 }
 
-std::optional<Physics::Root> Physics::root_of_actuator(int actuator) const {
+std::optional<Physics::RootBody> Physics::root_of_actuator(int actuator) const {
   const int target = model_->actuator_trnid[2 * actuator];
   if (target < 0) return std::nullopt;
   int body = 0;
@@ -142,7 +142,7 @@ std::optional<Physics::Root> Physics::root_of_actuator(int actuator) const {
     default:
       return std::nullopt;
   }
-  return Root{model_->body_rootid[body]};
+  return RootBody{model_->body_rootid[body]};
 }
 
 void Physics::place_robot(const Pose& pose) {

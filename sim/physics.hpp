@@ -39,15 +39,15 @@ class Physics {
 
   /// A body that is attached to the world itself, fixed or free to move, with all that hangs on it: a robot,
   /// an arm, a ball.
-  struct Root {
+  struct RootBody {
     int body = 0;
-    friend auto operator<=>(const Root&, const Root&) = default;
+    friend auto operator<=>(const RootBody&, const RootBody&) = default;
   };
-  [[nodiscard]] Root root_of_site(int site) const;
+  [[nodiscard]] RootBody root_of_site(int site) const;
   /// nullopt: the actuator moves no body of its own, such as a tendon between two.
-  [[nodiscard]] std::optional<Root> root_of_actuator(int actuator) const;
-  [[nodiscard]] Pose pose(Root root) const;
-  [[nodiscard]] std::string name(Root root) const;
+  [[nodiscard]] std::optional<RootBody> root_of_actuator(int actuator) const;
+  [[nodiscard]] Pose pose(RootBody root) const;
+  [[nodiscard]] std::string name(RootBody root) const;
 
   [[nodiscard]] std::optional<int> site(const std::string& name) const;
   [[nodiscard]] Point site_position(int site) const;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/names.hpp"
+#include "sim/unknown_name.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -48,12 +48,12 @@ void Simulation::sample() {
                    .x_m = robot.at.x_m,
                    .y_m = robot.at.y_m,
                    .heading_rad = robot.heading_rad};
-  std::vector<Point> places;
+  std::vector<Point> positions;
   for (const Eye& eye : eyes_) {
-    places.push_back(physics_->site_position(eye.site));
+    positions.push_back(physics_->site_position(eye.site));
     point.on_line = point.on_line || light_under(eye) < line_threshold;
   }
-  const Point middle = places.empty() ? robot.at : middle_of(places);
+  const Point middle = positions.empty() ? robot.at : middle_of(positions);
   point.eye_x_m = middle.x_m;
   point.eye_y_m = middle.y_m;
   trace_.add(point);
@@ -61,7 +61,7 @@ void Simulation::sample() {
 
 std::vector<std::string> Simulation::robot_names() const {
   std::vector<std::string> names;
-  for (const Physics::Root robot : robots_) names.push_back(physics_->name(robot));
+  for (const Physics::RootBody robot : robots_) names.push_back(physics_->name(robot));
   return names;
 }
 

@@ -50,7 +50,7 @@ class Simulation {
   std::unique_ptr<Physics> physics_;
   std::optional<Track> floor_;
   std::vector<Eye> eyes_;
-  std::set<Physics::Root> robots_;  // that have devices
+  std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;
   Duration next_sample_{0};
 };

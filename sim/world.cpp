@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "sim/devices.hpp"
-#include "sim/names.hpp"
 #include "sim/simulation.hpp"
+#include "sim/unknown_name.hpp"
 #include "tessera/device.hpp"
 
 namespace tessera::sim {
@@ -67,7 +67,7 @@ class MujocoWorld final : public World {
   std::uint64_t seed_;
 };
 
-bool place(Physics& physics, const WorldOptions& options, std::string& error) {
+bool put_robot_at_start(Physics& physics, const WorldOptions& options, std::string& error) {
   if (!options.start_x_m && !options.start_y_m && !options.start_heading_rad) return true;
   auto pose = physics.robot();
   if (!pose) {
@@ -90,7 +90,7 @@ std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
     return nullptr;
   }
   auto physics = Physics::load(options.world, error);
-  if (!physics || !place(*physics, options, error)) return nullptr;
+  if (!physics || !put_robot_at_start(*physics, options, error)) return nullptr;
   std::optional<Track> floor;
   if (!options.track.empty()) {
     floor = Track::load(options.track, options.metres_per_pixel, error);

@@ -30,7 +30,7 @@ int check_json(const CheckOptions& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
     if (const std::optional<spec::Model> model = spec::parse(found)) {
-      check_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
+      check_simulation_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
     }
   write_output(options.json, diagnostics::render_json(found) + "\n");
@@ -41,9 +41,9 @@ int check_json(const CheckOptions& options) {
 int check_command(const CheckOptions& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const bool sound = models_are_sound(*specification, terminal());
-  if (!files_are_there(*specification, terminal()) || !sound) return refused();
+  if (!simulation_files_exist(*specification, terminal()) || !sound) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;

@@ -20,7 +20,7 @@ struct ExportOptions {
 
 int export_command(const ExportOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::Net net =

@@ -70,7 +70,7 @@ bool draw(const ShowOptions& options, const Specification& specification, const 
 
 int show_command(const ShowOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::PageId page = nets->pages.find(options.page);

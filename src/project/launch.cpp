@@ -180,7 +180,7 @@ std::vector<std::string> parameter_values(const Specification& specification, co
   return values;
 }
 
-bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener) {
+bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated, Listener& listener) {
   struct : Listener {
     void say(std::string_view) override {}
     void progress(std::string_view) override {}
@@ -225,7 +225,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
 
 fs::path death_note(const RunFiles& files) { return files.summary.parent_path() / "death.txt"; }
 
-Command attended(Command command, const fs::path& note) {
+Command with_death_note(Command command, const fs::path& note) {
   append(command, {"--death-note", note.string(), "--parent", std::to_string(getpid())});
   return command;
 }

@@ -56,7 +56,7 @@ ReportInput run_on_a_track() {
                             .on_line = i % 1000 > 30});
   }
   const auto line = skeleton(*floor);
-  input.drive = Drive{*floor, line, trace, measure(line, trace)};
+  input.drive = DrivenPath{*floor, line, trace, measure(line, trace)};
   return input;
 }
 

@@ -42,7 +42,7 @@ TEST(Physics, DevicesAreOnTheBodyThatIsAttachedToTheWorld) {
   std::string error;
   const auto physics = Physics::load(line_world(), error);
   ASSERT_TRUE(physics) << error;
-  const Physics::Root root = physics->root_of_site(*physics->site("eye_right"));
+  const Physics::RootBody root = physics->root_of_site(*physics->site("eye_right"));
   EXPECT_EQ(physics->name(root), "robot");
   EXPECT_EQ(physics->root_of_actuator(*physics->actuator("wheel_left")), root);
 }

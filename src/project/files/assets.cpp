@@ -51,7 +51,8 @@ bool check_file(const std::string& name, std::string_view what, const std::strin
 
 }  // namespace
 
-bool check_files(const spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
+bool check_simulation_files(const spec::Model& model, const fs::path& project,
+                            diagnostics::Diagnostics& out) {
   if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
   bool found = simulation.world.empty() ||  // its drivers are C++ classes

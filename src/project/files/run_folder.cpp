@@ -33,7 +33,7 @@ constexpr std::uint64_t most_runs = 100, most_bytes = 4'000'000'000;
 std::uint64_t limit_of(const char* variable, std::uint64_t usual) {
   const char* value = std::getenv(variable);
   if (value == nullptr || *value == '\0') return usual;
-  const std::uint64_t limit = bytes_of(value, variable);
+  const std::uint64_t limit = parse_size(value, variable);
   return limit == 0 ? UINT64_MAX : limit;
 }
 
@@ -223,7 +223,7 @@ void RunFolder::withdraw() const {
     fs::remove(state / "last");
 }
 
-fs::path RunFolder::own(const fs::path& program) const {
+fs::path RunFolder::own_copy_of(const fs::path& program) const {
   const fs::path own = path_ / "controller";
   std::error_code problem;
   fs::create_hard_link(program, own, problem);
@@ -231,7 +231,7 @@ fs::path RunFolder::own(const fs::path& program) const {
   return own;
 }
 
-std::uint64_t bytes_of(const std::string& text, const std::string& what) {
+std::uint64_t parse_size(const std::string& text, const std::string& what) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(end, text.data() + text.size());

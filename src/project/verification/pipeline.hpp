@@ -35,8 +35,8 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
 /// The same, told.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
-/// check_files, told (src/project/files/assets.hpp).
-[[nodiscard]] bool files_are_there(const Specification& specification, Listener& listener);
+/// check_simulation_files, told (src/project/files/assets.hpp).
+[[nodiscard]] bool simulation_files_exist(const Specification& specification, Listener& listener);
 
 struct Nets {
   net::HierarchicalNet pages;
@@ -53,7 +53,7 @@ struct Nets {
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
 /// What may pass on to generation.
-struct Gate {
+struct VerificationGate {
   std::string timeout = "10s";     ///< for the verdicts
   bool accept_violations = false;  ///< a violated net too
 };
@@ -64,7 +64,7 @@ struct Verified {
   Specification specification;
   verify::VerifiedNet net;
 };
-[[nodiscard]] std::optional<Verified> walk(const std::filesystem::path& given, const Gate& gate,
-                                           Listener& listener);
+[[nodiscard]] std::optional<Verified> read_and_verify(const std::filesystem::path& given,
+                                                      const VerificationGate& gate, Listener& listener);
 
 }  // namespace tessera::project

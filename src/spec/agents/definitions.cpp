@@ -12,7 +12,7 @@ namespace {
 
 using diagnostics::quoted;
 
-void read_group(const Entry* section, SubsystemKind kind, const Surroundings& around, Definition& definition,
+void read_group(const Entry* section, SubsystemKind kind, const SystemScope& around, Definition& definition,
                 Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, section->key, out)) {
@@ -32,7 +32,7 @@ void read_group(const Entry* section, SubsystemKind kind, const Surroundings& ar
 
 }  // namespace
 
-Definition read_definition(const Entry& entry, bool is_template, const Surroundings& around,
+Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
                            Diagnostics& out) {
   const Section section(*entry.value, entry.span, is_template ? "a template" : "an agent",
                         {"control", "receptors", "effectors", "use", "count", "ring"}, out);
@@ -51,7 +51,7 @@ Definition read_definition(const Entry& entry, bool is_template, const Surroundi
   return definition;
 }
 
-void Templates::read(const Entry* section, const Surroundings& around, Model& model, Diagnostics& out) {
+void Templates::read(const Entry* section, const SystemScope& around, Model& model, Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, "templates", out)) {
     check_name(entry.key, entry.span, "template", out);

@@ -9,7 +9,7 @@
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/document/section.hpp"
-#include "spec/model/flow.hpp"
+#include "spec/model/behaviour_flow.hpp"
 #include "spec/values/literals.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
@@ -114,7 +114,7 @@ std::string_view name_of(SubsystemKind kind) {
   return "effector";
 }
 
-Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
+Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemScope& around,
                          Diagnostics& out) {
   const Section section(
       *entry.value, entry.span, "a subsystem",
@@ -147,7 +147,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
     subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
-    check_flow(subsystem, out);
+    check_behaviour_flow(subsystem, out);
   }
   return subsystem;
 }

@@ -98,13 +98,13 @@ CommunicationModel read_model(const Entry& entry, Diagnostics& out) {
   }
   if (out.error_count() != before) return model;
   warn_of_unused_places(model, out);
-  for (ModelSide* side : {&model.send, &model.receive}) side->waits = comes_to_a_stand(model, *side);
+  for (ModelSide* side : {&model.send, &model.receive}) side->waits = waits_without_peer(model, *side);
   return model;
 }
 
 }  // namespace
 
-void Models::read(const Entry* section, Model& model, Diagnostics& out) {
+void CommunicationModels::read(const Entry* section, Model& model, Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, "models", out)) {
     const std::size_t before = out.error_count();
@@ -116,7 +116,7 @@ void Models::read(const Entry* section, Model& model, Diagnostics& out) {
   }
 }
 
-Index Models::find(const Node& name, Diagnostics& out) {
+Index CommunicationModels::find(const Node& name, Diagnostics& out) {
   const auto found = std::ranges::find(known_, name.text, &Known::name);
   if (found != known_.end()) {
     found->used = true;
@@ -133,7 +133,7 @@ Index Models::find(const Node& name, Diagnostics& out) {
   return none;
 }
 
-void Models::complain_about_unused(const Model& model, Diagnostics& out) const {
+void CommunicationModels::complain_about_unused(const Model& model, Diagnostics& out) const {
   if (one_is_unknown_) return;
   for (const Known& one : known_)
     if (!one.used && one.index != none)

@@ -12,7 +12,7 @@ namespace {
 using diagnostics::quoted;
 
 /// Where to complain about a value: at itself if it is text, else at its key.
-Span place(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
+Span span_of(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
 
 std::string found(const Node& node) {
   switch (node.kind) {
@@ -30,7 +30,7 @@ std::string found(const Node& node) {
 
 void complain(const Node& node, Span at, std::string_view what, std::string_view wanted, std::string hint,
               Diagnostics& out) {
-  out.error("E104", place(node, at),
+  out.error("E104", span_of(node, at),
             std::string(what) + " must be " + std::string(wanted) + ", not " + found(node), std::move(hint));
 }
 

@@ -56,6 +56,6 @@ struct CommunicationModel {
 
 /// What ModelSide::waits says. Precondition: at most `most_shared_places` of them. O(2^shared *
 /// transitions).
-[[nodiscard]] bool comes_to_a_stand(const CommunicationModel& model, const ModelSide& side);
+[[nodiscard]] bool waits_without_peer(const CommunicationModel& model, const ModelSide& side);
 
 }  // namespace tessera::spec

@@ -12,7 +12,7 @@
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "project/verification/pipeline.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 #include "server/analysis/structure.hpp"
 #include "server/http/json_text.hpp"
 #include "spec/parser.hpp"

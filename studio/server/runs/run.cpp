@@ -70,9 +70,9 @@ json read_summary(const std::filesystem::path& file) {
 }  // namespace
 
 /// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
-class Run::Teller final : public project::Listener {
+class Run::RunListener final : public project::Listener {
  public:
-  explicit Teller(const Run& run) : run_(run) {}
+  explicit RunListener(const Run& run) : run_(run) {}
   void say(std::string_view text) override {
     for (std::size_t start = 0; start < text.size();) {
       const std::size_t end = std::min(text.find('\n', start), text.size());
@@ -149,12 +149,12 @@ void Run::make_and_run() {
 }
 
 std::optional<project::Controller> Run::make() {
-  Teller teller(*this);
+  RunListener teller(*this);
   set_state(State::building);
   project::LaunchOptions launch;
   launch.spec = spec_.string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate || !request_.world.empty();
-  if (!project::drivers_are_there(launch, simulated, teller)) {
+  if (!project::every_real_buffer_has_driver(launch, simulated, teller)) {
     set_state(State::failed, teller.error());
     return std::nullopt;
   }
@@ -170,10 +170,10 @@ std::optional<project::Controller> Run::make() {
 }
 
 void Run::execute(project::Controller controller) {
-  Teller teller(*this);
+  RunListener teller(*this);
   const project::RunFolder folder(project::state_folder(controller.specification.project),
                                   name_of(request_.kind), project::RunFolder::Shown::as_last, teller);
-  controller.program = folder.own(controller.program);
+  controller.program = folder.own_copy_of(controller.program);
   {
     const std::lock_guard lock(mutex_);
     verdicts_ = json::object();
@@ -197,7 +197,7 @@ void Run::execute(project::Controller controller) {
   set_state(request_.paused && simulated ? State::paused : State::running);
   const std::filesystem::path note = folder.path() / "death.txt";
   const project::Exit exit = project::capture_apart(
-      project::attended(command, note), stop_,
+      project::with_death_note(command, note), stop_,
       [this](std::string_view line) {
         publish("log", {{"line", line}});
       },
@@ -224,7 +224,7 @@ void Run::execute(project::Controller controller) {
 }
 
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
-  Follower follower(
+  RunFollower follower(
       RecordingStream::of_file(folder / project::file_names::recording, GrowingRecording::From::newest),
       folder / project::file_names::path, *analysis_);
   bool connected = false;
@@ -232,14 +232,14 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
     const bool more = tell(follower, connected ? link_.snapshot() : std::nullopt, last);
     if (last && !more) break;
-    if (!more) Follower::rest();
+    if (!more) RunFollower::rest();
   }
   link_.close();
 }
 
 /// true: there is more to tell at once.
-bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
-  Follower::News news = follower.look(std::move(snapshot), last);
+bool Run::tell(RunFollower& follower, std::optional<json> snapshot, bool last) {
+  RunFollower::News news = follower.poll(std::move(snapshot), last);
   std::optional<State> changed;
   {
     const std::lock_guard lock(mutex_);
@@ -262,7 +262,7 @@ bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
 }
 
 /// Why what runs there cannot be shown on this net; empty: it can.
-std::string Run::refused(const json& snapshot) const {
+std::string Run::why_not_attachable(const json& snapshot) const {
   if (snapshot.value("net_hash", "") == analysis_->net_hash) return {};
   return fmt::format("the controller runs another net (of the system {}) than the specification here",
                      snapshot.value("system", "?"));
@@ -270,7 +270,7 @@ std::string Run::refused(const json& snapshot) const {
 
 /// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
 /// names a file of another machine, where this one may have an old one.
-std::filesystem::path Run::readable(const json& snapshot) {
+std::filesystem::path Run::readable_recording(const json& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);
   const std::filesystem::path folder = spec_.parent_path();
@@ -285,17 +285,18 @@ void Run::attach() {
   std::optional<json> snapshot;
   while (!snapshot && !stop_ && !link_.is_over()) {
     snapshot = link_.snapshot();
-    if (!snapshot) Follower::rest();
+    if (!snapshot) RunFollower::rest();
   }
   if (!snapshot) return set_state(State::ended, "it has ended");
-  if (const std::string why = refused(*snapshot); !why.empty()) return set_state(State::failed, why);
-  const std::filesystem::path file = readable(*snapshot);
-  Follower follower(file.empty() ? [this] { return link_.recording(); }
-                                 : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                    file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_);
+  if (const std::string why = why_not_attachable(*snapshot); !why.empty())
+    return set_state(State::failed, why);
+  const std::filesystem::path file = readable_recording(*snapshot);
+  RunFollower follower(file.empty() ? [this] { return link_.recording(); }
+                                    : RecordingStream::of_file(file, GrowingRecording::From::newest),
+                       file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
-    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) Follower::rest();
+    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();
     snapshot = link_.snapshot();
   }
   while (!stop_ && tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/true)) continue;

@@ -1,4 +1,4 @@
-#include "sim/names.hpp"
+#include "sim/unknown_name.hpp"
 
 #include "tessera/nearest.hpp"
 

@@ -1,4 +1,4 @@
-#include "project/files/path_check.hpp"
+#include "project/files/cmake_path_check.hpp"
 
 #include <fmt/core.h>
 
@@ -34,7 +34,7 @@ std::string shown(std::string_view path) {
 
 }  // namespace
 
-void check_path(const std::filesystem::path& path) {
+void check_path_for_cmake(const std::filesystem::path& path) {
   const std::string trouble = trouble_in(path.native());
   if (!trouble.empty())
     throw std::runtime_error(fmt::format("the path {} has {}, which CMake cannot handle: rename that folder",

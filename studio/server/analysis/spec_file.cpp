@@ -1,4 +1,4 @@
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>

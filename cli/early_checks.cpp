@@ -56,10 +56,7 @@ class Parameters {
       owners_.push_back({model.instance_path(index), of_instance_[index]});
   }
 
-  [[nodiscard]] bool take(const std::vector<std::pair<std::string, std::string>>& values,
-                          std::string& error) {
-    return set_parameters(owners_, values, error);
-  }
+  [[nodiscard]] const std::vector<ParameterOwner>& owners() const { return owners_; }
 
  private:
   [[nodiscard]] static std::size_t bytes_of(const spec::Type& type) {
@@ -98,7 +95,8 @@ bool parameters_fit(const Specification& specification, const LaunchOptions& opt
     values.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   std::string error;
-  if (Parameters(specification.model).take(values, error)) return true;
+  const Parameters parameters(specification.model);
+  if (set_parameters(parameters.owners(), values, error)) return true;
   return complain(error), false;
 }
 

@@ -52,7 +52,7 @@ int first_free_joint(const mjModel& model) {
 
 }  // namespace
 
-std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& error) {
+Result<std::unique_ptr<Physics>> Physics::load(const std::string& mjcf) {
   static std::mutex loading;  // the engine's parser keeps global state
   const std::scoped_lock lock(loading);
   mju_user_error = on_error;
@@ -69,8 +69,7 @@ std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& err
     complaint = "the time step is longer than 0.1 s";
   if (!model || !data || !view || !complaint.empty()) {
     if (complaint.empty()) complaint = message.data();
-    error = mjcf + ": " + complaint;
-    return nullptr;
+    return Problem{mjcf + ": " + complaint};
   }
   return std::unique_ptr<Physics>(
       new Physics(model.release(), data.release(), view.release(), std::move(complaint)));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/track.hpp"
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera::sim {
@@ -23,8 +24,8 @@ namespace tessera::sim {
 /// Threads: one at a time.
 class Physics {
  public:
-  /// nullptr and `error` when the file is missing, no valid MJCF, or slower than one step in 100 ms.
-  [[nodiscard]] static std::unique_ptr<Physics> load(const std::string& mjcf, std::string& error);
+  /// Problem: the file is missing, no valid MJCF, or slower than one step in 100 ms.
+  [[nodiscard]] static Result<std::unique_ptr<Physics>> load(const std::string& mjcf);
 
   /// One time step. Does nothing after a failure.
   void step();

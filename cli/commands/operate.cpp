@@ -10,6 +10,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "tessera/result.hpp"
 
 /// What an operator does to a controller that runs: `tessera set`, `emergency-stop`, `reset`.
 namespace tessera::cli {
@@ -33,20 +34,23 @@ bool tell(RunningController& controller, json command) {
   return controller.send(command.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-/// What the controller answers: what is wrong; empty: nothing.
-std::string answer_of(RunningController& controller) {
+/// What the controller answers: what is wrong; nullopt: nothing.
+std::optional<Problem> answer_of(RunningController& controller) {
   // Beside answers it sends what it does, several times a second: lines come as long as it lives.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
     const std::optional<std::string> said = controller.line();
     if (!said) break;
     const json answer = json::parse(*said, nullptr, /*allow_exceptions=*/false);
-    if (answer.is_object() && answer.value("answer", 0) == question) return answer.value("error", "");
+    if (answer.is_object() && answer.value("answer", 0) == question) {
+      std::string error = answer.value("error", "");
+      return error.empty() ? std::nullopt : std::optional(Problem{std::move(error)});
+    }
   }
-  return controller.name() + " has ended, or does not answer";
+  return Problem{controller.name() + " has ended, or does not answer"};
 }
 
-std::string ask(RunningController& controller, json command) {
+std::optional<Problem> ask(RunningController& controller, json command) {
   tell(controller, std::move(command));
   return answer_of(controller);
 }
@@ -60,7 +64,7 @@ int set_command(const OperateOptions& options) {
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
     const json command{
         {"command", "set"}, {"path", one.substr(0, equals)}, {"value", one.substr(equals + 1)}};
-    if (const std::string wrong = ask(*controller, command); !wrong.empty()) code = complain(wrong);
+    if (const std::optional<Problem> wrong = ask(*controller, command)) code = complain(wrong->text);
   }
   return code;
 }
@@ -74,10 +78,10 @@ int emergency_stop_command(const OperateOptions& options) {
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
   for (RunningController& one : controllers) {
-    if (const std::string wrong = answer_of(one); wrong.empty())
+    if (const std::optional<Problem> wrong = answer_of(one); !wrong)
       fmt::print("{}: emergency stop\n", one.name());
     else
-      code = complain(wrong + ": nobody knows whether its devices are safe");
+      code = complain(wrong->text + ": nobody knows whether its devices are safe");
   }
   return code;
 }
@@ -85,8 +89,8 @@ int emergency_stop_command(const OperateOptions& options) {
 int reset_command(const OperateOptions& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
-  const std::string wrong = ask(*controller, {{"command", "reset"}});
-  return wrong.empty() ? ok : complain(wrong);
+  const std::optional<Problem> wrong = ask(*controller, {{"command", "reset"}});
+  return wrong ? complain(wrong->text) : ok;
 }
 
 void declare_controller(Subcommand& command, OperateOptions& options,

@@ -83,10 +83,8 @@ std::string pose_text(double x_m, double y_m, double heading_rad) {
 }
 
 std::string start_on_line(const Floor& floor) {
-  std::string error;
-  const std::optional<sim::Track> track =
-      sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  if (!track) throw std::runtime_error(error);
+  const auto track = sim::Track::load(floor.image.string(), floor.metres_per_pixel);
+  if (!track) throw std::runtime_error(track.problem());
   const std::optional<sim::Pose> start = sim::start_on(sim::skeleton(*track));
   if (!start)
     throw std::runtime_error("there is no line to start on in " + floor.image.string() + "; name --start");

@@ -255,8 +255,8 @@ void Api::control_run(const Request& request, Response& response) {
   command["transitions"] = body.indices("breakpoints", "transition");
   command["conditions"] = body.indices("breakpoints", "condition");
   if (!body.good()) return;
-  const std::string wrong = run->control(std::move(command));
-  if (!wrong.empty()) return answer_error(response, 409, wrong);
+  if (const std::optional<Problem> problem = run->control(std::move(command)))
+    return answer_error(response, 409, problem->text);
   answer(response, "{}");
 }
 

@@ -261,11 +261,11 @@ bool Run::tell(RunFollower& follower, std::optional<json> snapshot, bool last) {
   return news.more;
 }
 
-/// Why what runs there cannot be shown on this net; empty: it can.
-std::string Run::why_not_attachable(const json& snapshot) const {
-  if (snapshot.value("net_hash", "") == analysis_->net_hash) return {};
-  return fmt::format("the controller runs another net (of the system {}) than the specification here",
-                     snapshot.value("system", "?"));
+/// Why what runs there cannot be shown on this net; nullopt: it can.
+std::optional<Problem> Run::why_not_attachable(const json& snapshot) const {
+  if (snapshot.value("net_hash", "") == analysis_->net_hash) return std::nullopt;
+  return Problem{fmt::format("the controller runs another net (of the system {}) than the specification here",
+                             snapshot.value("system", "?"))};
 }
 
 /// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
@@ -288,8 +288,8 @@ void Run::attach() {
     if (!snapshot) RunFollower::rest();
   }
   if (!snapshot) return set_state(State::ended, "it has ended");
-  if (const std::string why = why_not_attachable(*snapshot); !why.empty())
-    return set_state(State::failed, why);
+  if (const std::optional<Problem> why = why_not_attachable(*snapshot))
+    return set_state(State::failed, why->text);
   const std::filesystem::path file = readable_recording(*snapshot);
   RunFollower follower(file.empty() ? [this] { return link_.recording(); }
                                     : RecordingStream::of_file(file, GrowingRecording::From::newest),
@@ -322,22 +322,22 @@ json Run::info(bool all) const {
   return info;
 }
 
-std::string Run::control(json command) {
+std::optional<Problem> Run::control(json command) {
   const std::string what = command.value("command", "");
-  if (over()) return "the run is over";
+  if (over()) return Problem{"the run is over"};
   if (what == "stop") {
     stop_ = true;
-    return {};
+    return std::nullopt;
   }
-  if (request_.kind == RunRequest::Kind::run) return "a controller in real time can only be stopped";
-  if (is_building()) return "the controller is still being made";
+  if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
+  if (is_building()) return Problem{"the controller is still being made"};
   if (request_.kind == RunRequest::Kind::attach && !controllable_)
-    return "this controller can only be watched: it runs in real time";
+    return Problem{"this controller can only be watched: it runs in real time"};
   if (what == "breakpoints") {
     const bool known = to_names(command["places"], analysis_->net->places()) &&
                        to_names(command["transitions"], analysis_->net->transitions()) &&
                        to_names(command["conditions"], analysis_->net->transitions());
-    if (!known) return "the net has no such place or transition";
+    if (!known) return Problem{"the net has no such place or transition"};
   }
   return link_.command(std::move(command));
 }

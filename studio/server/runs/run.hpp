@@ -16,6 +16,7 @@
 #include "server/recordings/robot_path.hpp"
 #include "server/recordings/run_follower.hpp"
 #include "server/runs/controller_link.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::server {
 
@@ -50,8 +51,8 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
-  /// What is wrong with it; empty: done.
-  [[nodiscard]] std::string control(nlohmann::json command);
+  /// nullopt: done.
+  [[nodiscard]] std::optional<Problem> control(nlohmann::json command);
   void stop() { stop_ = true; }
 
  private:
@@ -61,7 +62,7 @@ class Run {
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
   void attach();
-  [[nodiscard]] std::string why_not_attachable(const nlohmann::json& snapshot) const;
+  [[nodiscard]] std::optional<Problem> why_not_attachable(const nlohmann::json& snapshot) const;
   [[nodiscard]] std::filesystem::path readable_recording(const nlohmann::json& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
   [[nodiscard]] bool tell(RunFollower& follower, std::optional<nlohmann::json> snapshot, bool last);

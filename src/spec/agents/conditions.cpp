@@ -74,7 +74,7 @@ void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
   }
 }
 
-std::optional<Index> place(const Condition& condition, std::string_view name) {
+std::optional<Index> expression_index(const Condition& condition, std::string_view name) {
   for (Index i = 0; i < condition.expressions.size(); ++i) {
     if (condition.expressions[i].name == name) return i;
   }
@@ -125,10 +125,10 @@ When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
     when.kind = *known ? When::Kind::always : When::Kind::never;
   } else if (word == "error") {
     when.kind = When::Kind::error;
-  } else if (const auto terminal = place(of.terminal, word); terminal && !word.empty()) {
+  } else if (const auto terminal = expression_index(of.terminal, word); terminal && !word.empty()) {
     when.kind = When::Kind::terminal;
     when.expression = *terminal;
-  } else if (const auto error = place(of.error, word); error && !word.empty()) {
+  } else if (const auto error = expression_index(of.error, word); error && !word.empty()) {
     when.kind = When::Kind::named_error;
     when.expression = *error;
   } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {

@@ -51,7 +51,7 @@ struct Type {
   bool operator==(const Type&) const = default;
 };
 
-/// A named, typed place for data: field of a structure, buffer, memory cell.
+/// A named and typed piece of data: field of a structure, buffer, memory cell.
 struct Field {
   std::string name;
   Type type;

@@ -56,10 +56,7 @@ class Parameters {
       owners_.push_back({model.instance_path(index), of_instance_[index]});
   }
 
-  [[nodiscard]] bool take(const std::vector<std::pair<std::string, std::string>>& values,
-                          std::string& error) {
-    return set_parameters(owners_, values, error);
-  }
+  [[nodiscard]] const std::vector<ParameterOwner>& owners() const { return owners_; }
 
  private:
   [[nodiscard]] static std::size_t bytes_of(const spec::Type& type) {
@@ -67,7 +64,7 @@ class Parameters {
                                                  : sizeof(double);
   }
 
-  /// All share their place: what is there is not looked at.
+  /// All share their storage: what is there is not looked at.
   [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool text = parameter.type.kind == spec::Type::Kind::string;
@@ -98,7 +95,8 @@ bool parameters_fit(const Specification& specification, const LaunchOptions& opt
     values.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   std::string error;
-  if (Parameters(specification.model).take(values, error)) return true;
+  const Parameters parameters(specification.model);
+  if (set_parameters(parameters.owners(), values, error)) return true;
   return complain(error), false;
 }
 
@@ -122,7 +120,7 @@ int check_run(const LaunchOptions& options, bool with_world) {
   if (!specification) return ok;
   if (!parameters_fit(*specification, options)) return failed;
   if (!with_world || !specification->model.simulation) return ok;
-  if (!files_are_there(*specification, terminal())) return failed;
+  if (!simulation_files_exist(*specification, terminal())) return failed;
   static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
   return ok;
 }

@@ -4,16 +4,20 @@
 
 namespace tessera::cli {
 
-void declare_gate(Subcommand& command, project::Gate& gate) {
+void declare_specification(Subcommand& command, std::string& spec) {
+  command.option("spec", spec, "Specification, or the folder of its spec.yaml").shows_default();
+}
+
+void declare_verification_gate(Subcommand& command, project::VerificationGate& gate) {
   command.option("--verify-timeout", gate.timeout, "How long verification may take, such as 10s or 2min")
       .shows_default();
   command.flag("--accept-violations", gate.accept_violations,
                "Make the controller although a property is violated (it carries the verdicts)");
 }
 
-void declare(Subcommand& command, project::LaunchOptions& options) {
+void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
   options.progress = isatty(STDERR_FILENO) != 0;
-  command.option("spec", options.spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options.spec);
   command.option("--for", options.duration, "How long to run: 60s, 500ms, 2min");
   command.option("--set", options.set, "PATH=VALUE: change a parameter (v=0.3, robot.control.v=0.3)")
       .repeated();
@@ -38,11 +42,11 @@ void declare(Subcommand& command, project::LaunchOptions& options) {
       .repeated();
   command.flag("--accept-stuck", options.accept_stuck,
                "A subsystem that waits for ever, while others go on, is no failure");
-  declare_gate(command, options.gate);
+  declare_verification_gate(command, options.gate);
   command.flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }
 
-void declare_world(Subcommand& command, project::LaunchOptions& options) {
+void declare_world_options(Subcommand& command, project::LaunchOptions& options) {
   command.option("--seed", options.seed, "Seed of sensor noise and of ties between subsystems")
       .shows_default();
   command

@@ -1,16 +1,20 @@
 #pragma once
 
+#include <string>
+
 #include "cli/arguments.hpp"
 #include "project/launch.hpp"
 
 /// Options that several commands have in common.
 namespace tessera::cli {
 
+/// Declares the argument that names the specification.
+void declare_specification(Subcommand& command, std::string& spec);
 /// Declares --verify-timeout and --accept-violations.
-void declare_gate(Subcommand& command, project::Gate& gate);
+void declare_verification_gate(Subcommand& command, project::VerificationGate& gate);
 /// Declares the options shared by `simulate` and `run`.
-void declare(Subcommand& command, project::LaunchOptions& options);
+void declare_run_options(Subcommand& command, project::LaunchOptions& options);
 /// Declares the options of the simulated world.
-void declare_world(Subcommand& command, project::LaunchOptions& options);
+void declare_world_options(Subcommand& command, project::LaunchOptions& options);
 
 }  // namespace tessera::cli

@@ -9,6 +9,7 @@
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/terminal.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::cli {
 
@@ -29,16 +30,14 @@ json read_summary(const fs::path& file) {
 }
 
 template <class T>
-T value_or_throw(std::optional<T> value, const std::string& error) {
-  if (!value) throw std::runtime_error(error);
-  return std::move(*value);
+T value_or_throw(Result<T> result) {
+  if (!result) throw std::runtime_error(result.problem());
+  return std::move(*result);
 }
 
-report::Drive drive_over(const Floor& floor, sim::Trace trace) {
-  std::string error;
-  std::optional<sim::Track> track = sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  report::Drive drive;
-  drive.floor = value_or_throw(std::move(track), error);
+report::DrivenPath drive_over(const Floor& floor, sim::Trace trace) {
+  report::DrivenPath drive;
+  drive.floor = value_or_throw(sim::Track::load(floor.image.string(), floor.metres_per_pixel));
   drive.trace = std::move(trace);
   drive.line = sim::skeleton(drive.floor);
   if (!drive.line.points.empty()) drive.metrics = sim::measure(drive.line, drive.trace);
@@ -48,7 +47,9 @@ report::Drive drive_over(const Floor& floor, sim::Trace trace) {
 report::ReportInput report_input(RunOutcome outcome, const verify::Report& verification) {
   std::string error;
   report::ReportInput input;
-  input.recording = value_or_throw(read_recording(outcome.recording.string(), error), error);
+  std::optional<Recording> recording = read_recording(outcome.recording.string(), error);
+  if (!recording) throw std::runtime_error(error);
+  input.recording = std::move(*recording);
   input.drive = std::move(outcome.drive);
   input.robots = outcome.robots;
   input.simulated_s = outcome.summary.value("simulated_s", 0.0);
@@ -73,8 +74,7 @@ RunOutcome read_outcome(const Controller& controller, const LaunchOptions& optio
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
   if (!has_world || !fs::exists(files.trace)) return outcome;
-  std::string error;
-  sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string(), error), error);
+  sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string()));
   outcome.robots = trace.robots;
   if (!outcome.robots.empty()) return outcome;
   if (const std::optional<Floor> floor = floor_of(specification, options))

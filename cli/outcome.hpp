@@ -14,7 +14,7 @@ namespace tessera::cli {
 struct RunOutcome {
   nlohmann::json summary;  ///< simulated_s, wall_s, real_time_factor, firings, ended, failed, subsystems
   std::filesystem::path recording;
-  std::optional<report::Drive> drive;
+  std::optional<report::DrivenPath> drive;
   std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
 };
 

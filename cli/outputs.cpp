@@ -54,7 +54,7 @@ void check_report(const std::string& folder) {
   const fs::path page = fs::path(folder) / "index.html", picture = fs::path(folder) / "path.png";
   if (fs::exists(folder) && !fs::is_directory(folder)) refuse(folder, "folder");
   const std::string there = beginning_of(page, head);
-  if (there.find(report::made_by) != there.npos) return;
+  if (there.find(report::generator_tag) != there.npos) return;
   if (!there.empty()) refuse(page, "report of a run");
   if (fs::exists(picture)) refuse(picture, "picture of a report");
 }

@@ -143,7 +143,7 @@ void print(const net::Net& net, const Played& played) {
 
 int play_net(const PlayOptions& options) {
   const std::optional<net::Net> net = read_net(options.file);
-  if (!net) return refused();
+  if (!net) return exit_code_without_net();
   const std::optional<Played> played = play(*net, options);
   if (!played) return failed;
   if (options.json != "-") print(*net, *played);

@@ -53,7 +53,7 @@ bool is_unreadable(const diagnostics::Diagnostics& found) {
 
 project::Listener& terminal() { return standard_error(); }
 
-int refused() { return standard_error().unreadable ? usage : failed; }
+int exit_code_without_net() { return standard_error().unreadable ? usage : failed; }
 
 int complain(const std::string& text) {
   fmt::print(stderr, "tessera: error: {}\n", text);

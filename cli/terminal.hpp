@@ -12,7 +12,7 @@ inline constexpr int ok = 0, failed = 1, usage = 2, unknown = 3, interrupted = 1
 
 /// Of a command that got no net to work with: `usage` if a file could not be read (missing, no YAML, no
 /// PNML), else `failed`: the file was read, and what it says is wrong or violated.
-[[nodiscard]] int refused();
+[[nodiscard]] int exit_code_without_net();
 /// Do the diagnostics say that the file could not be read?
 [[nodiscard]] bool is_unreadable(const diagnostics::Diagnostics& found);
 

@@ -73,7 +73,7 @@ bool may_go(const Bitmap& picture, std::size_t pixel, bool odd) {
 
 }  // namespace
 
-Point Bitmap::place(std::size_t pixel) const {
+Point Bitmap::centre_of(std::size_t pixel) const {
   const auto row = static_cast<std::size_t>(width);
   return {(static_cast<double>(pixel % row) - 0.5) * pixel_m,
           (static_cast<double>(pixel / row) - 0.5) * pixel_m};

@@ -17,7 +17,7 @@ struct Bitmap {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
   /// The middle of that pixel on the floor.
-  [[nodiscard]] Point place(std::size_t pixel) const;
+  [[nodiscard]] Point centre_of(std::size_t pixel) const;
 };
 
 /// Pixels darker than half, of at least 3 mm: a finer picture is averaged.

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/names.hpp"
+#include "sim/unknown_name.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -91,18 +91,14 @@ class Wheel final : public RealEffector {
 };
 
 /// Options must be among `known`, finite and not negative.
-bool options_fit(const DriverRequest& request, const std::vector<std::string>& known, std::string& error) {
+std::optional<Problem> problem_of_options(const DriverRequest& request,
+                                          const std::vector<std::string>& known) {
   for (const auto& [name, value] : request.options) {
-    if (std::ranges::find(known, name) == known.end()) {
-      error = unknown_name("option", name, known);
-    } else if (!std::isfinite(value) || value < 0) {
-      error = "option '" + name + "' must be a number from 0 up";
-    } else {
-      continue;
-    }
-    return false;
+    if (std::ranges::find(known, name) == known.end()) return Problem{unknown_name("option", name, known)};
+    if (!std::isfinite(value) || value < 0)
+      return Problem{"option '" + name + "' must be a number from 0 up"};
   }
-  return true;
+  return std::nullopt;
 }
 
 double option(const DriverRequest& request, const std::string& name, double otherwise) {
@@ -112,24 +108,25 @@ double option(const DriverRequest& request, const std::string& name, double othe
 
 }  // namespace
 
-std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulation,
-                                           const DriverRequest& request, double footprint_m,
-                                           std::uint64_t seed, std::string& error) {
-  if (!options_fit(request, {"noise", "footprint"}, error)) return nullptr;
-  const auto eye = simulation->add_eye(request.target, option(request, "footprint", footprint_m), error);
-  if (!eye) return nullptr;
+Result<std::unique_ptr<RealReceptor>> light_sensor(std::shared_ptr<Simulation> simulation,
+                                                   const DriverRequest& request, double footprint_m,
+                                                   std::uint64_t seed) {
+  if (auto problem = problem_of_options(request, {"noise", "footprint"})) return std::move(*problem);
+  const auto eye = simulation->add_eye(request.target, option(request, "footprint", footprint_m));
+  if (!eye) return Problem{eye.problem()};
   const std::uint64_t own_seed =
       hash_of(request.path, seed * 0x9e3779b97f4a7c15ULL + 14695981039346656037ULL);
-  return std::make_unique<LightSensor>(std::move(simulation), request.path, *eye,
-                                       option(request, "noise", 0.01), own_seed);
+  return std::unique_ptr<RealReceptor>(std::make_unique<LightSensor>(
+      std::move(simulation), request.path, *eye, option(request, "noise", 0.01), own_seed));
 }
 
-std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation, const DriverRequest& request,
-                                    std::string& error) {
-  if (!options_fit(request, {}, error)) return nullptr;
-  const auto actuator = simulation->add_actuator(request.target, error);
-  if (!actuator) return nullptr;
-  return std::make_unique<Wheel>(std::move(simulation), request.path, *actuator);
+Result<std::unique_ptr<RealEffector>> wheel(std::shared_ptr<Simulation> simulation,
+                                            const DriverRequest& request) {
+  if (auto problem = problem_of_options(request, {})) return std::move(*problem);
+  const auto actuator = simulation->add_actuator(request.target);
+  if (!actuator) return Problem{actuator.problem()};
+  return std::unique_ptr<RealEffector>(
+      std::make_unique<Wheel>(std::move(simulation), request.path, *actuator));
 }
 
 }  // namespace tessera::sim

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "sim/simulation.hpp"
 #include "tessera/device.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 
@@ -13,13 +13,13 @@ namespace tessera::sim {
 /// (standard deviation, default 0.01; 0: none) and `footprint` (diameter in m, default `footprint_m`). The
 /// noise comes from `seed` and the path of the device alone. read() throws std::runtime_error once the
 /// physics has failed.
-[[nodiscard]] std::unique_ptr<RealReceptor> light_sensor(std::shared_ptr<Simulation> simulation,
-                                                         const DriverRequest& request, double footprint_m,
-                                                         std::uint64_t seed, std::string& error);
+[[nodiscard]] Result<std::unique_ptr<RealReceptor>> light_sensor(std::shared_ptr<Simulation> simulation,
+                                                                 const DriverRequest& request,
+                                                                 double footprint_m, std::uint64_t seed);
 
 /// kind `velocity`: float64 or float32, rad/s to an actuator. Refuses what is not finite. write() throws
 /// std::runtime_error once the physics has failed.
-[[nodiscard]] std::unique_ptr<RealEffector> wheel(std::shared_ptr<Simulation> simulation,
-                                                  const DriverRequest& request, std::string& error);
+[[nodiscard]] Result<std::unique_ptr<RealEffector>> wheel(std::shared_ptr<Simulation> simulation,
+                                                          const DriverRequest& request);
 
 }  // namespace tessera::sim

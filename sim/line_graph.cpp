@@ -55,17 +55,17 @@ class Tracer {
   void trace_from(std::size_t start) {
     for (std::size_t pixel : linked(picture_, start)) {
       if (nodes_.contains(pixel) ? pixel < start : passed_.contains(pixel)) continue;
-      LineGraph::Edge edge{.ends = {nodes_.at(start), 0}, .points = {picture_.place(start)}};
+      LineGraph::Edge edge{.ends = {nodes_.at(start), 0}, .points = {picture_.centre_of(start)}};
       std::size_t before = start;
       while (!nodes_.contains(pixel)) {
         passed_.insert(pixel);
-        edge.points.push_back(picture_.place(pixel));
+        edge.points.push_back(picture_.centre_of(pixel));
         const auto next = linked(picture_, pixel);
         const std::size_t on = next[0] == before ? next[1] : next[0];
         before = pixel;
         pixel = on;
       }
-      edge.points.push_back(picture_.place(pixel));
+      edge.points.push_back(picture_.centre_of(pixel));
       edge.ends[1] = nodes_.at(pixel);
       edges_.push_back(std::move(edge));
     }
@@ -100,7 +100,7 @@ std::vector<std::vector<LineGraph::Port>> LineGraph::ports() const {
   return at;
 }
 
-const Point& LineGraph::place(const Port& port) const {
+const Point& LineGraph::position_of(const Port& port) const {
   const auto& points = edges_[port.edge].points;
   return port.end == 0 ? points.front() : points.back();
 }
@@ -128,7 +128,7 @@ void LineGraph::simplify() {
   do {
     join_through_nodes();
   } while (remove_spur());
-  melt_close_junctions();
+  merge_close_junctions();
   join_through_nodes();
 }
 
@@ -205,7 +205,7 @@ std::vector<Point> LineGraph::points_of(const Way& way) const {
   return points;
 }
 
-void LineGraph::melt_close_junctions() {
+void LineGraph::merge_close_junctions() {
   const auto at = ports();
   std::vector<std::size_t> melted;
   for (std::size_t e = 0; e < edges_.size(); ++e) {

@@ -47,7 +47,7 @@ class LineGraph {
   [[nodiscard]] std::vector<std::vector<Port>> ports() const;  ///< by node
   /// Unit vector into the edge, past what a junction distorts.
   [[nodiscard]] Point direction(const Port& port) const;
-  [[nodiscard]] const Point& place(const Port& port) const;
+  [[nodiscard]] const Point& position_of(const Port& port) const;
   /// All edges, each in one way; open ways first.
   [[nodiscard]] std::vector<Way> ways(const Partners& partners) const;
   [[nodiscard]] std::vector<Point> points_of(const Way& way) const;
@@ -55,7 +55,7 @@ class LineGraph {
   [[nodiscard]] Way longest_cycle() const;
   bool remove_spur();
   void join_through_nodes();
-  void melt_close_junctions();
+  void merge_close_junctions();
   void drop(std::vector<std::size_t> edges);
 
   double width_m_;

@@ -34,8 +34,8 @@ void LineGraph::bridge_gaps() {
     for (std::size_t j = i + 1; j < free_ends.size(); ++j) {
       const Port& from = free_ends[i];
       const Port& to = free_ends[j];
-      const double dx = place(to).x_m - place(from).x_m;
-      const double dy = place(to).y_m - place(from).y_m;
+      const double dx = position_of(to).x_m - position_of(from).x_m;
+      const double dy = position_of(to).y_m - position_of(from).y_m;
       const double gap = std::hypot(dx, dy);
       if (gap > reach || gap < 1e-9) continue;
       if (from.edge == to.edge && length_of(edges_[from.edge].points) < 4 * gap) continue;
@@ -52,7 +52,7 @@ void LineGraph::bridge_gaps() {
     joined.insert(joined.end(), {bridge.from, bridge.to});
     edges_.push_back(
         {{edges_[bridge.from.edge].ends[bridge.from.end], edges_[bridge.to.edge].ends[bridge.to.end]},
-         {place(bridge.from), place(bridge.to)}});
+         {position_of(bridge.from), position_of(bridge.to)}});
   }
   join_through_nodes();
 }

@@ -52,7 +52,7 @@ int first_free_joint(const mjModel& model) {
 
 }  // namespace
 
-std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& error) {
+Result<std::unique_ptr<Physics>> Physics::load(const std::string& mjcf) {
   static std::mutex loading;  // the engine's parser keeps global state
   const std::scoped_lock lock(loading);
   mju_user_error = on_error;
@@ -69,8 +69,7 @@ std::unique_ptr<Physics> Physics::load(const std::string& mjcf, std::string& err
     complaint = "the time step is longer than 0.1 s";
   if (!model || !data || !view || !complaint.empty()) {
     if (complaint.empty()) complaint = message.data();
-    error = mjcf + ": " + complaint;
-    return nullptr;
+    return Problem{mjcf + ": " + complaint};
   }
   return std::unique_ptr<Physics>(
       new Physics(model.release(), data.release(), view.release(), std::move(complaint)));
@@ -110,23 +109,23 @@ std::optional<Pose> Physics::robot() const {
   return pose({model_->jnt_bodyid[robot_joint_]});
 }
 
-Pose Physics::pose(Root root) const {
+Pose Physics::pose(RootBody root) const {
   locate();
   const mjtNum* at = view_->xpos + 3 * root.body;
   const mjtNum* axes = view_->xmat + 9 * root.body;
   return {{at[0], at[1]}, std::atan2(axes[3], axes[0])};
 }
 
-std::string Physics::name(Root root) const {
+std::string Physics::name(RootBody root) const {
   const char* name = mj_id2name(model_.get(), mjOBJ_BODY, root.body);
   return name != nullptr && *name != '\0' ? name : "body " + std::to_string(root.body);
 }
 
-Physics::Root Physics::root_of_site(int site) const {
+Physics::RootBody Physics::root_of_site(int site) const {
   return {model_->body_rootid[model_->site_bodyid[site]]};
 }
 
-std::optional<Physics::Root> Physics::root_of_actuator(int actuator) const {
+std::optional<Physics::RootBody> Physics::root_of_actuator(int actuator) const {
   const int target = model_->actuator_trnid[2 * actuator];
   if (target < 0) return std::nullopt;
   int body = 0;
@@ -142,7 +141,7 @@ std::optional<Physics::Root> Physics::root_of_actuator(int actuator) const {
     default:
       return std::nullopt;
   }
-  return Root{model_->body_rootid[body]};
+  return RootBody{model_->body_rootid[body]};
 }
 
 void Physics::place_robot(const Pose& pose) {

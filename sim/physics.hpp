@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/track.hpp"
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera::sim {
@@ -23,8 +24,8 @@ namespace tessera::sim {
 /// Threads: one at a time.
 class Physics {
  public:
-  /// nullptr and `error` when the file is missing, no valid MJCF, or slower than one step in 100 ms.
-  [[nodiscard]] static std::unique_ptr<Physics> load(const std::string& mjcf, std::string& error);
+  /// Problem: the file is missing, no valid MJCF, or slower than one step in 100 ms.
+  [[nodiscard]] static Result<std::unique_ptr<Physics>> load(const std::string& mjcf);
 
   /// One time step. Does nothing after a failure.
   void step();
@@ -39,15 +40,15 @@ class Physics {
 
   /// A body that is attached to the world itself, fixed or free to move, with all that hangs on it: a robot,
   /// an arm, a ball.
-  struct Root {
+  struct RootBody {
     int body = 0;
-    friend auto operator<=>(const Root&, const Root&) = default;
+    friend auto operator<=>(const RootBody&, const RootBody&) = default;
   };
-  [[nodiscard]] Root root_of_site(int site) const;
+  [[nodiscard]] RootBody root_of_site(int site) const;
   /// nullopt: the actuator moves no body of its own, such as a tendon between two.
-  [[nodiscard]] std::optional<Root> root_of_actuator(int actuator) const;
-  [[nodiscard]] Pose pose(Root root) const;
-  [[nodiscard]] std::string name(Root root) const;
+  [[nodiscard]] std::optional<RootBody> root_of_actuator(int actuator) const;
+  [[nodiscard]] Pose pose(RootBody root) const;
+  [[nodiscard]] std::string name(RootBody root) const;
 
   [[nodiscard]] std::optional<int> site(const std::string& name) const;
   [[nodiscard]] Point site_position(int site) const;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/names.hpp"
+#include "sim/unknown_name.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -48,12 +48,12 @@ void Simulation::sample() {
                    .x_m = robot.at.x_m,
                    .y_m = robot.at.y_m,
                    .heading_rad = robot.heading_rad};
-  std::vector<Point> places;
+  std::vector<Point> positions;
   for (const Eye& eye : eyes_) {
-    places.push_back(physics_->site_position(eye.site));
+    positions.push_back(physics_->site_position(eye.site));
     point.on_line = point.on_line || light_under(eye) < line_threshold;
   }
-  const Point middle = places.empty() ? robot.at : middle_of(places);
+  const Point middle = positions.empty() ? robot.at : middle_of(positions);
   point.eye_x_m = middle.x_m;
   point.eye_y_m = middle.y_m;
   trace_.add(point);
@@ -61,42 +61,33 @@ void Simulation::sample() {
 
 std::vector<std::string> Simulation::robot_names() const {
   std::vector<std::string> names;
-  for (const Physics::Root robot : robots_) names.push_back(physics_->name(robot));
+  for (const Physics::RootBody robot : robots_) names.push_back(physics_->name(robot));
   return names;
 }
 
-bool Simulation::finish(std::string& error) {
+std::optional<Problem> Simulation::finish() {
   const std::scoped_lock lock(mutex_);
   trace_.begin(robot_names());  // of a run that has ended before it began
-  const bool written = trace_.finish(error);
-  if (!physics_->failure().empty()) {
-    error = physics_->failure();
-    return false;
-  }
-  return written;
+  std::optional<Problem> problem = trace_.finish();
+  if (!physics_->failure().empty()) return Problem{physics_->failure()};
+  return problem;
 }
 
-std::optional<int> Simulation::add_eye(const std::string& site, double footprint_m, std::string& error) {
+Result<int> Simulation::add_eye(const std::string& site, double footprint_m) {
   const std::scoped_lock lock(mutex_);
   const auto id = physics_->site(site);
-  if (!id) {
-    error = unknown_name("site", site, physics_->sites());
-    return std::nullopt;
-  }
+  if (!id) return Problem{unknown_name("site", site, physics_->sites())};
   eyes_.push_back({*id, footprint_m});
   robots_.insert(physics_->root_of_site(*id));
   return static_cast<int>(eyes_.size()) - 1;
 }
 
-std::optional<int> Simulation::add_actuator(const std::string& name, std::string& error) {
+Result<int> Simulation::add_actuator(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   const auto id = physics_->actuator(name);
-  if (!id) {
-    error = unknown_name("actuator", name, physics_->actuators());
-    return std::nullopt;
-  }
+  if (!id) return Problem{unknown_name("actuator", name, physics_->actuators())};
   if (const auto root = physics_->root_of_actuator(*id)) robots_.insert(*root);
-  return id;
+  return *id;
 }
 
 double Simulation::light_at(int eye) {

@@ -10,6 +10,7 @@
 #include "sim/physics.hpp"
 #include "sim/trace_writer.hpp"
 #include "sim/track.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 
@@ -23,13 +24,13 @@ class Simulation {
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
 
   void advance_to(Time time);
-  [[nodiscard]] bool finish(std::string& error);
+  /// Problem: the physics has failed, or the trace could not be written.
+  [[nodiscard]] std::optional<Problem> finish();
 
-  /// The site as a light sensor, which from now on counts for the trace. nullopt and `error` when there is
-  /// none.
-  [[nodiscard]] std::optional<int> add_eye(const std::string& site, double footprint_m, std::string& error);
+  /// The site as a light sensor, which from now on counts for the trace.
+  [[nodiscard]] Result<int> add_eye(const std::string& site, double footprint_m);
   /// The body that it moves counts for the trace too.
-  [[nodiscard]] std::optional<int> add_actuator(const std::string& name, std::string& error);
+  [[nodiscard]] Result<int> add_actuator(const std::string& name);
 
   /// 0 dark .. 1 bright, without noise. Throws std::runtime_error once the physics has failed.
   [[nodiscard]] double light_at(int eye);
@@ -50,7 +51,7 @@ class Simulation {
   std::unique_ptr<Physics> physics_;
   std::optional<Track> floor_;
   std::vector<Eye> eyes_;
-  std::set<Physics::Root> robots_;  // that have devices
+  std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;
   Duration next_sample_{0};
 };

@@ -31,13 +31,10 @@ std::optional<TracePoint> parse_point(std::string_view line) {
 
 }  // namespace
 
-std::optional<Trace> read_trace(const std::string& path, std::string& error) {
+Result<Trace> read_trace(const std::string& path) {
   std::ifstream file(path);
   std::string line;
-  if (!file) {
-    error = path + ": cannot be read";
-    return std::nullopt;
-  }
+  if (!file) return Problem{path + ": cannot be read"};
   Trace trace;
   std::size_t number = 1;
   std::getline(file, line);
@@ -46,17 +43,12 @@ std::optional<Trace> read_trace(const std::string& path, std::string& error) {
     std::getline(file, line);
     ++number;
   }
-  if (!file || line != trace_columns) {
-    error = path + ": no trace (its first line is not \"" + std::string(trace_columns) + "\")";
-    return std::nullopt;
-  }
+  if (!file || line != trace_columns)
+    return Problem{path + ": no trace (its first line is not \"" + std::string(trace_columns) + "\")"};
   while (std::getline(file, line)) {
     ++number;
     const auto point = parse_point(line);
-    if (!point) {
-      error = path + ":" + std::to_string(number) + ": not seven numbers";
-      return std::nullopt;
-    }
+    if (!point) return Problem{path + ":" + std::to_string(number) + ": not seven numbers"};
     trace.points.push_back(*point);
   }
   return trace;

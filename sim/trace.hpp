@@ -1,9 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 
@@ -28,7 +29,7 @@ struct Trace {
 inline constexpr std::string_view trace_columns = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line";
 inline constexpr std::string_view several_robots = "# several robots: ";
 
-/// nullopt and `error` when the file cannot be read or is no trace.
-[[nodiscard]] std::optional<Trace> read_trace(const std::string& path, std::string& error);
+/// Problem: the file cannot be read or is no trace.
+[[nodiscard]] Result<Trace> read_trace(const std::string& path);
 
 }  // namespace tessera::sim

@@ -53,12 +53,11 @@ void TraceWriter::add(const TracePoint& point) {
   file_.flush();
 }
 
-bool TraceWriter::finish(std::string& error) {
-  if (!wanted()) return true;
+std::optional<Problem> TraceWriter::finish() {
+  if (!wanted()) return std::nullopt;
   file_.flush();
-  if (file_) return true;
-  error = path_ + ": the trace could not be written" + reason_;
-  return false;
+  if (file_) return std::nullopt;
+  return Problem{path_ + ": the trace could not be written" + reason_};
 }
 
 }  // namespace tessera::sim

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/trace.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 
@@ -19,8 +21,8 @@ class TraceWriter {
   /// Before the points; the first call counts. robots: bodies with devices; of several there are no points.
   void begin(const std::vector<std::string>& robots);
   void add(const TracePoint& point);
-  /// Flushes. false and `error` when any of it could not be written.
-  [[nodiscard]] bool finish(std::string& error);
+  /// Flushes. Problem: some of it could not be written.
+  [[nodiscard]] std::optional<Problem> finish();
 
  private:
   std::string path_;

@@ -12,21 +12,16 @@ constexpr std::uint64_t largest_picture_px = 100'000'000;
 
 }  // namespace
 
-std::optional<Track> Track::load(const std::string& png, double metres_per_pixel, std::string& error) {
-  if (!std::isfinite(metres_per_pixel) || metres_per_pixel <= 0) {
-    error = "metres per pixel must be a positive number";
-    return std::nullopt;
-  }
+Result<Track> Track::load(const std::string& png, double metres_per_pixel) {
+  if (!std::isfinite(metres_per_pixel) || metres_per_pixel <= 0)
+    return Problem{"metres per pixel must be a positive number"};
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&image, png.c_str()) == 0) {
-    error = png + ": " + image.message;
-    return std::nullopt;
-  }
+  if (png_image_begin_read_from_file(&image, png.c_str()) == 0) return Problem{png + ": " + image.message};
   if (std::uint64_t{image.width} * image.height > largest_picture_px) {
-    error = png + ": larger than " + std::to_string(largest_picture_px / 1'000'000) + " million pixels";
     png_image_free(&image);
-    return std::nullopt;
+    return Problem{png + ": larger than " + std::to_string(largest_picture_px / 1'000'000) +
+                   " million pixels"};
   }
   image.format = PNG_FORMAT_GRAY;
   Track track;
@@ -35,10 +30,8 @@ std::optional<Track> Track::load(const std::string& png, double metres_per_pixel
   track.metres_per_pixel_ = metres_per_pixel;
   track.pixels_.resize(PNG_IMAGE_SIZE(image));
   const png_color white{255, 255, 255};
-  if (png_image_finish_read(&image, &white, track.pixels_.data(), 0, nullptr) == 0) {
-    error = png + ": " + image.message;
-    return std::nullopt;
-  }
+  if (png_image_finish_read(&image, &white, track.pixels_.data(), 0, nullptr) == 0)
+    return Problem{png + ": " + image.message};
   return track;
 }
 

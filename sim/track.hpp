@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/trace.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 
@@ -23,9 +24,8 @@ struct Point {
 /// A floor picture: dark is line. Outside it the floor is white.
 class Track {
  public:
-  /// Any PNG that libpng reads; colours become grey, transparency white. nullopt and `error` otherwise.
-  [[nodiscard]] static std::optional<Track> load(const std::string& png, double metres_per_pixel,
-                                                 std::string& error);
+  /// Any PNG that libpng reads; colours become grey, transparency white.
+  [[nodiscard]] static Result<Track> load(const std::string& png, double metres_per_pixel);
 
   /// Mean reflectance (0 dark .. 1 bright) of the disc of that diameter around `at`.
   [[nodiscard]] double reflectance(Point at, double footprint_m) const;

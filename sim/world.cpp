@@ -6,23 +6,38 @@
 #include <utility>
 
 #include "sim/devices.hpp"
-#include "sim/names.hpp"
 #include "sim/simulation.hpp"
+#include "sim/unknown_name.hpp"
 #include "tessera/device.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::sim {
 namespace {
 
-/// What `make` returns; nullptr, and the reason in `error`, when it throws anything.
+/// What `make` returns, or the problem that it throws.
 template <class Make>
-auto without_exceptions(Make&& make, std::string& error) -> decltype(make()) try {
+auto without_exceptions(Make&& make) -> decltype(make()) try {
   return make();
 } catch (const std::exception& thrown) {
-  error = thrown.what();
-  return nullptr;
+  return Problem{thrown.what()};
 } catch (...) {
-  error = "the simulated world failed without saying why";
+  return Problem{"the simulated world failed without saying why"};
+}
+
+/// As the interface of worlds has it: nullptr and `error`.
+template <class T>
+std::unique_ptr<T> value_or_null(Result<std::unique_ptr<T>> made, std::string& error) {
+  if (made) return std::move(*made);
+  error = made.problem();
   return nullptr;
+}
+
+/// The device that `make` returns; nullptr, and in `error` the path and the reason.
+template <class Make>
+auto device_or_null(const DriverRequest& request, Make&& make, std::string& error) {
+  auto made = value_or_null(without_exceptions(std::forward<Make>(make)), error);
+  if (!made) error.insert(0, request.path + ": ");
+  return made;
 }
 
 class MujocoWorld final : public World {
@@ -32,72 +47,64 @@ class MujocoWorld final : public World {
 
   [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
                                                        std::string& error) override {
-    if (request.kind == "reflectance") {
-      return prefixed(
-          request,
-          without_exceptions([&] { return light_sensor(simulation_, request, footprint_m_, seed_, error); },
-                             error),
-          error);
-    }
-    error = request.path + ": " + unknown_name("receptor", request.kind, {"reflectance"});
-    return nullptr;
+    return device_or_null(
+        request, [&] { return make_receptor(request); }, error);
   }
 
   [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                        std::string& error) override {
-    if (request.kind == "velocity")
-      return prefixed(request, without_exceptions([&] { return wheel(simulation_, request, error); }, error),
-                      error);
-    error = request.path + ": " + unknown_name("effector", request.kind, {"velocity"});
-    return nullptr;
+    return device_or_null(
+        request, [&] { return make_effector(request); }, error);
   }
 
   void advance_to(Time time) override { simulation_->advance_to(time); }
-  [[nodiscard]] bool finish(std::string& error) override { return simulation_->finish(error); }
-
- private:
-  template <class Device>
-  static Device prefixed(const DriverRequest& request, Device device, std::string& error) {
-    if (!device) error = request.path + ": " + error;
-    return device;
+  [[nodiscard]] bool finish(std::string& error) override {
+    const std::optional<Problem> problem = simulation_->finish();
+    if (problem) error = problem->text;
+    return !problem;
   }
 
+ private:
+  [[nodiscard]] Result<std::unique_ptr<RealReceptor>> make_receptor(const DriverRequest& request) {
+    if (request.kind == "reflectance") return light_sensor(simulation_, request, footprint_m_, seed_);
+    return Problem{unknown_name("receptor", request.kind, {"reflectance"})};
+  }
+  [[nodiscard]] Result<std::unique_ptr<RealEffector>> make_effector(const DriverRequest& request) {
+    if (request.kind == "velocity") return wheel(simulation_, request);
+    return Problem{unknown_name("effector", request.kind, {"velocity"})};
+  }
   std::shared_ptr<Simulation> simulation_;  // devices may outlive the world
   double footprint_m_;
   std::uint64_t seed_;
 };
 
-bool place(Physics& physics, const WorldOptions& options, std::string& error) {
-  if (!options.start_x_m && !options.start_y_m && !options.start_heading_rad) return true;
+std::optional<Problem> put_robot_at_start(Physics& physics, const WorldOptions& options) {
+  if (!options.start_x_m && !options.start_y_m && !options.start_heading_rad) return std::nullopt;
   auto pose = physics.robot();
-  if (!pose) {
-    error = options.world + ": a start pose needs a body with a free joint";
-    return false;
-  }
+  if (!pose) return Problem{options.world + ": a start pose needs a body with a free joint"};
   *pose = {{options.start_x_m.value_or(pose->at.x_m), options.start_y_m.value_or(pose->at.y_m)},
            options.start_heading_rad.value_or(pose->heading_rad)};
-  if (!std::isfinite(pose->at.x_m) || !std::isfinite(pose->at.y_m) || !std::isfinite(pose->heading_rad)) {
-    error = "the start pose must be finite numbers";
-    return false;
-  }
+  if (!std::isfinite(pose->at.x_m) || !std::isfinite(pose->at.y_m) || !std::isfinite(pose->heading_rad))
+    return Problem{"the start pose must be finite numbers"};
   physics.place_robot(*pose);
-  return true;
+  return std::nullopt;
 }
 
-std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
-  if (!std::isfinite(options.footprint_m) || options.footprint_m < 0) {
-    error = "the footprint must be a number from 0 up";
-    return nullptr;
-  }
-  auto physics = Physics::load(options.world, error);
-  if (!physics || !place(*physics, options, error)) return nullptr;
+Result<std::unique_ptr<World>> open(const WorldOptions& options) {
+  if (!std::isfinite(options.footprint_m) || options.footprint_m < 0)
+    return Problem{"the footprint must be a number from 0 up"};
+  auto physics = Physics::load(options.world);
+  if (!physics) return Problem{physics.problem()};
+  if (auto problem = put_robot_at_start(**physics, options)) return std::move(*problem);
   std::optional<Track> floor;
   if (!options.track.empty()) {
-    floor = Track::load(options.track, options.metres_per_pixel, error);
-    if (!floor) return nullptr;
+    auto track = Track::load(options.track, options.metres_per_pixel);
+    if (!track) return Problem{track.problem()};
+    floor = std::move(*track);
   }
-  auto simulation = std::make_shared<Simulation>(std::move(physics), std::move(floor), options.trace);
-  return std::make_unique<MujocoWorld>(std::move(simulation), options.footprint_m, options.seed);
+  auto simulation = std::make_shared<Simulation>(std::move(*physics), std::move(floor), options.trace);
+  return std::unique_ptr<World>(
+      std::make_unique<MujocoWorld>(std::move(simulation), options.footprint_m, options.seed));
 }
 
 }  // namespace
@@ -111,5 +118,6 @@ std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
 /// site), effector `velocity` (target: an actuator).
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
     const tessera::WorldOptions& options, std::string& error) {
-  return tessera::sim::without_exceptions([&] { return tessera::sim::open(options, error); }, error);
+  return tessera::sim::value_or_null(
+      tessera::sim::without_exceptions([&] { return tessera::sim::open(options); }), error);
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/assets.hpp"
@@ -29,7 +30,7 @@ int check_json(const CheckOptions& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
     if (const std::optional<spec::Model> model = spec::parse(found)) {
-      check_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
+      check_simulation_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
     }
   write_output(options.json, diagnostics::render_json(found) + "\n");
@@ -40,9 +41,9 @@ int check_json(const CheckOptions& options) {
 int check_command(const CheckOptions& options) {
   if (!options.json.empty()) return check_json(options);
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const bool sound = models_are_sound(*specification, terminal());
-  if (!files_are_there(*specification, terminal()) || !sound) return refused();
+  if (!simulation_files_exist(*specification, terminal()) || !sound) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;
@@ -57,7 +58,7 @@ int check_command(const CheckOptions& options) {
 void add_check(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("check", "Read a specification and report every mistake in it");
   auto options = std::make_shared<CheckOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
   command.footer(
       "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "net/pnml.hpp"
 #include "project/verification/pipeline.hpp"
@@ -19,7 +20,7 @@ struct ExportOptions {
 
 int export_command(const ExportOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::Net net =
@@ -33,7 +34,7 @@ int export_command(const ExportOptions& options) {
 void add_export(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("export", "Write the flat net for other tools");
   auto options = std::make_shared<ExportOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
       .required();
   command.flag("--abstract", options->abstract,

@@ -20,7 +20,7 @@ namespace {
 struct GenerateCommandOptions {
   std::string spec = ".", output, json;
   bool stubs = false, build = false;
-  Gate gate;
+  VerificationGate gate;
 };
 
 Generated generate_alone(const Verified& verified, const GenerateCommandOptions& options) {
@@ -34,7 +34,7 @@ Generated generate_alone(const Verified& verified, const GenerateCommandOptions&
 int generate_command(const GenerateCommandOptions& options) {
   check_replaceable(options.json, "{");
   const std::optional<Verified> verified = run_pipeline(options.spec, options.gate, terminal());
-  if (!verified) return refused();
+  if (!verified) return exit_code_without_net();
   const Step step(terminal(), "generating");
   const Generated generated = generate_alone(*verified, options);
   if (!options.json.empty()) {
@@ -68,7 +68,7 @@ int generate_command(const GenerateCommandOptions& options) {
 void add_generate(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
   auto options = std::make_shared<GenerateCommandOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("-o,--output", options->output,
                  "Folder for the generated files (default: .tessera/generated)");
   command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
@@ -76,7 +76,7 @@ void add_generate(CommandLine& app, int& exit_code) {
       .flag("--build", options->build,
             "Compile the controller too: then a copy that nobody can write to runs")
       .excludes(command.declared("--output"));
-  declare_gate(command, options->gate);
+  declare_verification_gate(command, options->gate);
   command.option("--json", options->json, "Write what was done as JSON (- is standard output)");
   command.footer("Example: tessera generate --stubs");
   command.callback([options, &exit_code] { exit_code = generate_command(*options); });

@@ -15,6 +15,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/diagnostics.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "spec/document/names.hpp"
 
@@ -109,7 +110,7 @@ int new_command(const std::string& given) {
   const fs::path example = installation.share / "examples/01_line_follower";
   const Workshop workshop(folder);
   const fs::path made = workshop.folder();
-  copy_renamed(example / "spec.yaml", made / "spec.yaml", name);
+  copy_renamed(example / file_names::specification, made / file_names::specification, name);
   copy_tree(example / "src", made / "src", name);
   copy_tree(example / "test", made / "test", name);
   copy_tree(installation.share / "project", made, name);

@@ -12,6 +12,7 @@
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
 #include "project/process/control_messages.hpp"
+#include "tessera/result.hpp"
 
 /// What an operator does to a controller that runs: `tessera set`, `emergency-stop`, `reset`.
 namespace tessera::cli {
@@ -31,8 +32,8 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
   return controller.send(project::line_of(command, question));
 }
 
-/// What the controller answers: what is wrong; empty: nothing.
-std::string answer_of(RunningController& controller) {
+/// What the controller answers: what is wrong; nullopt: nothing.
+std::optional<Problem> answer_of(RunningController& controller) {
   // Beside answers it sends what it does, several times a second: lines come as long as it lives.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
@@ -40,12 +41,13 @@ std::string answer_of(RunningController& controller) {
     if (!said) break;
     std::optional<project::ControlLine> line = project::read_control_line(*said);
     auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
-    if (answer != nullptr && answer->id == question) return std::move(answer->error);
+    if (answer != nullptr && answer->id == question)
+      return answer->error.empty() ? std::nullopt : std::optional(Problem{std::move(answer->error)});
   }
-  return controller.name() + " has ended, or does not answer";
+  return Problem{controller.name() + " has ended, or does not answer"};
 }
 
-std::string ask(RunningController& controller, const project::ControlCommand& command) {
+std::optional<Problem> ask(RunningController& controller, const project::ControlCommand& command) {
   tell(controller, command);
   return answer_of(controller);
 }
@@ -58,7 +60,7 @@ int set_command(const OperateOptions& options) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
     const project::command::Set command{one.substr(0, equals), one.substr(equals + 1)};
-    if (const std::string wrong = ask(*controller, command); !wrong.empty()) code = complain(wrong);
+    if (const std::optional<Problem> wrong = ask(*controller, command)) code = complain(wrong->text);
   }
   return code;
 }
@@ -71,10 +73,10 @@ int emergency_stop_command(const OperateOptions& options) {
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
   for (RunningController& one : controllers) {
-    if (const std::string wrong = answer_of(one); wrong.empty())
+    if (const std::optional<Problem> wrong = answer_of(one); !wrong)
       fmt::print("{}: emergency stop\n", one.name());
     else
-      code = complain(wrong + ": nobody knows whether its devices are safe");
+      code = complain(wrong->text + ": nobody knows whether its devices are safe");
   }
   return code;
 }
@@ -82,8 +84,8 @@ int emergency_stop_command(const OperateOptions& options) {
 int reset_command(const OperateOptions& options) {
   std::optional<RunningController> controller = find_controller(options.which);
   if (!controller) return failed;
-  const std::string wrong = ask(*controller, project::command::Reset{});
-  return wrong.empty() ? ok : complain(wrong);
+  const std::optional<Problem> wrong = ask(*controller, project::command::Reset{});
+  return wrong ? complain(wrong->text) : ok;
 }
 
 void declare_controller(Subcommand& command, OperateOptions& options,

@@ -11,13 +11,14 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
-#include "diagnostics/diagnostics.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/events.hpp"
 #include "replay/legality.hpp"
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
+#include "tessera/nearest.hpp"
 #include "tessera/recording.hpp"
 #include "verify/hashes.hpp"
 
@@ -176,7 +177,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
-    if (fs::exists(folder / "spec.yaml")) return (folder / "spec.yaml").string();
+    if (fs::path file = folder / file_names::specification; fs::exists(file)) return file.string();
     if (folder == folder.parent_path()) break;
   }
   throw std::runtime_error("no specification is beside '" + options.recording +
@@ -221,8 +222,7 @@ bool known_subsystem(const Recording& recording, const std::string& path) {
   std::vector<std::string> names = recording.instances;
   names.emplace_back("system");
   if (path.empty() || std::ranges::count(names, path) > 0) return true;
-  const std::string hint = diagnostics::did_you_mean(path, names);
-  complain("the recording has no subsystem '" + path + "'" + (hint.empty() ? "" : "; " + hint));
+  complain(with_hint("the recording has no subsystem '" + path + "'", did_you_mean(path, names)));
   return false;
 }
 
@@ -234,14 +234,14 @@ bool known_values(const Recording& recording, const std::string& wanted) {
     names.push_back(buffer.path);
     names.push_back(buffer.path.substr(buffer.path.rfind('.') + 1));
   }
-  const std::string hint = diagnostics::did_you_mean(wanted, names);
-  complain("no buffer of the recording has '" + wanted + "' in its path" + (hint.empty() ? "" : "; " + hint));
+  complain(
+      with_hint("no buffer of the recording has '" + wanted + "' in its path", did_you_mean(wanted, names)));
   return false;
 }
 
 /// The last run of the project here, wherever its files are kept.
 std::string last_recording() {
-  const fs::path kept = state_folder(fs::canonical(".")) / "last/recording.tsr";
+  const fs::path kept = state_folder(fs::canonical(".")) / "last" / file_names::recording;
   return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
 }
 

@@ -4,10 +4,12 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "drawing/drawing.hpp"
 #include "net/counts.hpp"
 #include "project/verification/pipeline.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::cli {
 
@@ -68,14 +70,13 @@ bool draw(const ShowOptions& options, const Specification& specification, const 
 
 int show_command(const ShowOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
-  if (!specification) return refused();
+  if (!specification) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const net::PageId page = nets->pages.find(options.page);
-  if (!page.valid()) {
-    const std::string hint = diagnostics::did_you_mean(options.page, page_paths(nets->pages));
-    return complain(fmt::format("there is no page '{}'{}{}", options.page, hint.empty() ? "" : "; ", hint));
-  }
+  if (!page.valid())
+    return complain(with_hint("there is no page '" + options.page + "'",
+                              did_you_mean(options.page, page_paths(nets->pages))));
   const bool drawn = draw(options, *specification, *nets, page);
   if (options.counts) {
     const net::Counts counts = net::count(nets->pages, nets->flat);
@@ -99,7 +100,7 @@ int show_command(const ShowOptions& options) {
 void add_show(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
   auto options = std::make_shared<ShowOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--page", options->page,
                  "Path of one page, e.g. robot.control.follow (default: the whole system)");
   command.option("--svg", options->svg, "Draw to this file (- is standard output)");

@@ -47,7 +47,7 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
   if (options.debug) return print_debugger(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
-  const Exit exit = run(attended(command, note));
+  const Exit exit = run(with_death_note(command, note));
   if (!std::filesystem::exists(files.summary)) {
     if (const std::string death = describe_death(exit, note); !death.empty())
       complain(death);
@@ -120,7 +120,7 @@ RunFolder folder_for(Controller& controller, LaunchOptions& options, const char*
   const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
   RunFolder folder(state_folder(controller.specification.project), mode, shown, terminal());
   options.folder = folder.path().string();
-  controller.program = folder.own(controller.program);
+  controller.program = folder.own_copy_of(controller.program);
   folder.goes_to_children();
   return folder;
 }
@@ -139,10 +139,11 @@ int simulate_command(SimulateOptions options) {
   // A scenario shows a violation: that is what the controller is made for.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   check_outputs(options, options.json, options.report);
-  if (options.from.empty() && !drivers_are_there(options, /*simulated=*/true, terminal())) return failed;
+  if (options.from.empty() && !every_real_buffer_has_driver(options, /*simulated=*/true, terminal()))
+    return failed;
   std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
-  if (!controller) return refused();
+  if (!controller) return exit_code_without_net();
   const bool is_recorded = options.from.empty() && options.schedules == 0;
   const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
   const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
@@ -163,11 +164,11 @@ int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
-  if (!drivers_are_there(options, options.world, terminal())) return failed;
+  if (!every_real_buffer_has_driver(options, options.world, terminal())) return failed;
   check_outputs(options, options.json, options.report);
   std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
-  if (!controller) return refused();
+  if (!controller) return exit_code_without_net();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
@@ -180,8 +181,8 @@ int run_command(RunCommandOptions options) {
 void add_simulate(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
   auto options = std::make_shared<SimulateOptions>();
-  declare(command, *options);
-  declare_world(command, *options);
+  declare_run_options(command, *options);
+  declare_world_options(command, *options);
   command
       .option("--scenario", options->scenario,
               "Drive the controller through this run first (tessera verify --scenario)")
@@ -224,8 +225,8 @@ void add_run(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("run", "Build the controller and run it on the steady clock with real drivers");
   auto options = std::make_shared<RunCommandOptions>();
-  declare(command, *options);
-  declare_world(command, *options);
+  declare_run_options(command, *options);
+  declare_world_options(command, *options);
   command.flag("--world", options->world,
                "With the simulated drivers, in the simulated world if there is one, in real time");
   command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");

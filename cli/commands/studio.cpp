@@ -9,7 +9,9 @@
 #include <memory>
 
 #include "cli/commands/commands.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
@@ -59,8 +61,9 @@ void open_browser(const std::string& url) {
 int studio_command(const StudioCommandOptions& options) {
   const fs::path given = project::spec_file(options.spec);
   if (fs::is_directory(given) || !fs::exists(given))
-    return complain(fmt::format("there is no specification {}; `tessera new NAME` makes a project",
-                                fs::is_directory(given) ? (given / "spec.yaml").string() : given.string()));
+    return complain(fmt::format(
+        "there is no specification {}; `tessera new NAME` makes a project",
+        fs::is_directory(given) ? (given / project::file_names::specification).string() : given.string()));
   const project::Installation installation = project::Installation::find();
   server::StudioOptions studio;
   studio.spec = fs::canonical(given);
@@ -85,7 +88,7 @@ int studio_command(const StudioCommandOptions& options) {
 void add_studio(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("studio", "See, edit, verify and run a system in the browser");
   auto options = std::make_shared<StudioCommandOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
       .within(0, 65535)
       .shows_default();

@@ -21,7 +21,7 @@ namespace {
 struct TestOptions {
   std::string spec = ".", filter;
   bool debug = false;
-  Gate gate;
+  VerificationGate gate;
 };
 
 /// "Follow.SteersByTheTable" of each test that the command would run.
@@ -61,7 +61,7 @@ int test_command(const TestOptions& options) {
                                 std::filesystem::absolute(project).string()));
   const std::optional<Controller> tests =
       make_controller(options.spec, {options.debug, "tests", options.gate}, terminal());
-  if (!tests) return refused();
+  if (!tests) return exit_code_without_net();
   Command command{tests->program.string()};
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
   if (names_of_tests(command).empty()) return complain_of_no_tests(tests->program.string(), options.filter);
@@ -73,10 +73,10 @@ int test_command(const TestOptions& options) {
 void add_test(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("test", "Build and run the project's own GoogleTests of its functions");
   auto options = std::make_shared<TestOptions>();
-  command.option("spec", options->spec, "Specification, or the folder of its spec.yaml").shows_default();
+  declare_specification(command, options->spec);
   command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command.flag("--debug", options->debug, "Build the tests for gdb");
-  declare_gate(command, options->gate);
+  declare_verification_gate(command, options->gate);
   command.footer("Example: tessera test --filter 'Follow.*'");
   command.callback([options, &exit_code] { exit_code = test_command(*options); });
 }

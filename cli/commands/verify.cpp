@@ -16,6 +16,7 @@
 #include "project/verification/run_files.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
+#include "tessera/nearest.hpp"
 #include "verify/communication/abstraction.hpp"
 
 namespace tessera::cli {
@@ -93,7 +94,7 @@ std::string shown(const explore::Progress& progress) {
 
 verify::Report judge(const Judged& judged, const VerifyOptions& options, Step& step) {
   verify::ProveOptions how;
-  how.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
+  how.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
   if (options.method != "any") how.method = options.method;
   how.only = options.properties;
   for (const std::string& rule : options.without) static_cast<void>(reduce::switch_off(how.rules, rule));
@@ -136,7 +137,7 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Ver
 
 json count_states(const Judged& judged, const VerifyOptions& options, Step& step) {
   explore::Limits limits;
-  limits.time = std::chrono::duration<double>(seconds_of(options.timeout, "--timeout"));
+  limits.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
   limits.stop = &searches_stopped;
   limits.progress = [&](const explore::Progress& progress) { step.progress("states: " + shown(progress)); };
   const net::Net net = verify::possible_part(verify::abstract_net(judged.net()));
@@ -150,8 +151,7 @@ bool known(const std::vector<std::string>& asked, const std::vector<std::string>
   bool all = true;
   for (const std::string& name : asked) {
     if (std::ranges::find(names, name) != names.end()) continue;
-    const std::string hint = diagnostics::did_you_mean(name, names);
-    complain("there is no property '" + name + "'" + (hint.empty() ? "" : "; " + hint));
+    complain(with_hint("there is no property '" + name + "'", did_you_mean(name, names)));
     all = false;
   }
   return all;
@@ -171,7 +171,7 @@ int exit_code_of(const verify::Report& report) {
 
 int verify_command(const VerifyOptions& options) {
   const std::optional<Judged> judged = load(options.spec);
-  if (!judged) return refused();
+  if (!judged) return exit_code_without_net();
   if (!known(options.properties, judged->properties())) return usage;
   const Interruptible interruptible;
   json result;

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 #include <utility>
 
+#include "segment_field.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera {
@@ -53,14 +53,8 @@ GrowingRecording::File GrowingRecording::open(const std::string& file) {
     close(std::exchange(opened.descriptor, -1));
     return opened;
   }
-  constexpr std::string_view key = ",\"segment\":";
-  const std::size_t at = header->rfind(key);
-  opened.run = header->substr(0, at);
-  std::uint64_t number = 0;
-  if (at != std::string::npos &&
-      std::from_chars(header->data() + at + key.size(), header->data() + header->size(), number).ec ==
-          std::errc{})
-    opened.segment = number;
+  opened.run = without_segment(*header);
+  opened.segment = segment_in(*header);
   return opened;
 }
 

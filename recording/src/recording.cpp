@@ -10,6 +10,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "segment_field.hpp"
+
 namespace tessera {
 namespace {
 
@@ -252,11 +254,6 @@ namespace {
          last.version != 0;
 }
 
-/// What the headers of segments of one run have in common.
-[[nodiscard]] std::string_view without_segment(std::string_view header) {
-  return header.substr(0, header.rfind(",\"segment\":"));
-}
-
 /// Newest first; at least one.
 [[nodiscard]] Recording joined(std::vector<Recording> segments) {
   Recording all = std::move(segments.back());
@@ -314,19 +311,12 @@ std::optional<std::uint64_t> segment_number_in(const std::string& file) {
   if (length > longest_recording_header) return std::nullopt;
   std::string header(length, '\0');
   if (!bytes.read(header.data(), length)) return std::nullopt;
-  constexpr std::string_view key = ",\"segment\":";
-  const std::size_t at = header.rfind(key);
-  std::uint64_t number = 0;
-  if (at == std::string::npos ||
-      std::from_chars(header.data() + at + key.size(), header.data() + header.size(), number).ec !=
-          std::errc{})
-    return std::nullopt;
-  return number;
+  return segment_in(header);
 }
 
 std::optional<Recording> read_recording(const std::string& path, std::string& error) {
   const bool folder = std::filesystem::is_directory(path);
-  const std::string file = folder ? (std::filesystem::path(path) / "recording.tsr").string() : path;
+  const std::string file = folder ? (std::filesystem::path(path) / recording_file_name).string() : path;
   std::optional<Recording> newest = read_segment(file, error);
   if (newest && (!newest->segment || !without_segment_number(file).empty())) return newest;
   const bool newest_is_missing = !newest || is_full_segment(file);

@@ -33,10 +33,7 @@ std::string element_name(const spec::Model& model, const spec::Type& type,
 /// Whether copies of it had better share their elements: those of 4 KB and more, structures counted as 16
 /// bytes.
 bool is_large(const spec::Type& type) {
-  constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
-  static_assert(scalar_bytes.size() == scalar_names.size());
-  const std::uint64_t element = type.kind == spec::Type::Kind::scalar
-                                    ? scalar_bytes[static_cast<std::size_t>(type.scalar)]
+  const std::uint64_t element = type.kind == spec::Type::Kind::scalar   ? spec::bytes_of(type.scalar)
                                 : type.kind == spec::Type::Kind::string ? type.capacity
                                                                         : 16;
   return element * type.extent >= 4096;

@@ -76,11 +76,4 @@ class Diagnostics {
 /// All diagnostics as a JSON array of {severity, code, file, line, column, length, message, hint}.
 [[nodiscard]] std::string render_json(const Diagnostics& diagnostics);
 
-/// The candidate that `word` was probably meant to be (small edit distance), or "" if none is near.
-/// Of very many candidates only the first thousand are looked at.
-[[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
-
-/// "did you mean 'gripper'?", or "" if nothing is near.
-[[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
-
 }  // namespace tessera::diagnostics

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "tessera/nearest.hpp"
+
 namespace tessera::diagnostics {
 namespace {
 

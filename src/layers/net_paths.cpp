@@ -6,6 +6,8 @@
 
 #include "tessera/net_words.hpp"
 
+#include "tessera/nearest.hpp"
+
 namespace tessera::layers {
 namespace {
 
@@ -136,8 +138,7 @@ Found NetPaths::of_channel(const spec::NetPath& from, const spec::NetPath& to, D
     if (model_.channel_name(one) == channel) return state(channel, to.parts[2], out);
   std::vector<std::string> names;
   for (const spec::Channel& one : model_.channels) names.push_back(model_.channel_name(one));
-  out.error("E101", from.span, "unknown channel " + quoted(channel),
-            diagnostics::did_you_mean(channel, names));
+  out.error("E101", from.span, "unknown channel " + quoted(channel), did_you_mean(channel, names));
   return std::nullopt;
 }
 
@@ -189,7 +190,7 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);
   }
-  std::string hint = diagnostics::did_you_mean(part.name, names);
+  std::string hint = did_you_mean(part.name, names);
   if (hint.empty()) {
     hint = "here are ";
     for (const std::string& name : names) hint += (&name == &names.front() ? "" : ", ") + name;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/verification/verdicts.hpp"
 #include "sim/track.hpp"
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 
 RunFiles run_files(const LaunchOptions& options) {
   const fs::path folder = fs::absolute(options.folder);
-  return {options.record.empty() ? folder / "recording.tsr" : fs::absolute(options.record),
-          folder / "path.csv", folder / "summary.json"};
+  return {options.record.empty() ? folder / file_names::recording : fs::absolute(options.record),
+          folder / file_names::path, folder / file_names::summary};
 }
 
 namespace {
@@ -46,8 +47,8 @@ void flatten_parameters(const YAML::Node& node, const std::string& path, std::ve
 
 // PATH=VALUE of every entry; nested maps and dotted paths mean the same.
 std::vector<std::string> parameters_of(const Specification& specification, const LaunchOptions& options) {
-  const fs::path file =
-      options.parameters.empty() ? specification.project / "params.yaml" : fs::path(options.parameters);
+  const fs::path file = options.parameters.empty() ? specification.project / file_names::parameters
+                                                   : fs::path(options.parameters);
   if (options.parameters.empty() && !fs::exists(file)) return {};
   std::vector<std::string> values;
   try {
@@ -82,10 +83,8 @@ std::string pose_text(double x_m, double y_m, double heading_rad) {
 }
 
 std::string start_on_line(const Floor& floor) {
-  std::string error;
-  const std::optional<sim::Track> track =
-      sim::Track::load(floor.image.string(), floor.metres_per_pixel, error);
-  if (!track) throw std::runtime_error(error);
+  const auto track = sim::Track::load(floor.image.string(), floor.metres_per_pixel);
+  if (!track) throw std::runtime_error(track.problem());
   const std::optional<sim::Pose> start = sim::start_on(sim::skeleton(*track));
   if (!start)
     throw std::runtime_error("there is no line to start on in " + floor.image.string() + "; name --start");
@@ -179,7 +178,7 @@ std::vector<std::string> parameter_values(const Specification& specification, co
   return values;
 }
 
-bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener) {
+bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated, Listener& listener) {
   struct : Listener {
     void say(std::string_view) override {}
     void progress(std::string_view) override {}
@@ -224,7 +223,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
 
 fs::path death_note(const RunFiles& files) { return files.summary.parent_path() / "death.txt"; }
 
-Command attended(Command command, const fs::path& note) {
+Command with_death_note(Command command, const fs::path& note) {
   append(command, {"--death-note", note.string(), "--parent", std::to_string(getpid())});
   return command;
 }

@@ -24,7 +24,7 @@ struct LaunchOptions {
   std::vector<std::string> hardware;  ///< paths of what has its real drivers in a simulated run
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
-  Gate gate;
+  VerificationGate gate;
   // Of the simulated world.
   std::string world, track, start;                ///< empty: as in the specification
   double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification
@@ -56,7 +56,8 @@ inline constexpr const char* usual_record_limit = "1GB";
 /// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:
 /// of the simulated robot, but for the hardware that the options name. True, too, if the specification cannot
 /// be read, which is told elsewhere.
-[[nodiscard]] bool drivers_are_there(const LaunchOptions& options, bool simulated, Listener& listener);
+[[nodiscard]] bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated,
+                                                Listener& listener);
 
 /// The controller's command line. mode: "simulate" or "run"; simulated: of the simulated robot, in its world
 /// if it has one.
@@ -68,6 +69,6 @@ inline constexpr const char* usual_record_limit = "1GB";
 
 /// The command of a controller that this process starts and waits for: it stops when this process ends, and
 /// leaves a note if it dies.
-[[nodiscard]] Command attended(Command command, const std::filesystem::path& note);
+[[nodiscard]] Command with_death_note(Command command, const std::filesystem::path& note);
 
 }  // namespace tessera::project

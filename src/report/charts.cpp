@@ -65,7 +65,7 @@ void draw_losses(std::string& svg, const sim::Trace& trace, const TimeAxis& axis
 }
 
 /// The curve, thinned so that every column keeps its lowest and highest value.
-std::string error_curve(const Drive& drive, const TimeAxis& axis, double middle, double per_metre) {
+std::string error_curve(const DrivenPath& drive, const TimeAxis& axis, double middle, double per_metre) {
   const auto& errors = drive.metrics.error_m;
   const std::size_t per_column = std::max<std::size_t>(1, errors.size() / columns);
   std::string points;
@@ -85,15 +85,15 @@ std::string error_curve(const Drive& drive, const TimeAxis& axis, double middle,
 }
 
 /// Consecutive pieces of one colour become one polyline.
-void draw_path(std::string& svg, const Drive& drive, double height) {
+void draw_path(std::string& svg, const DrivenPath& drive, double height) {
   constexpr double levels = 15;
   const PathColours colours = path_colours(drive);
   const auto& points = drive.trace.points;
-  const auto chosen = evenly(points.size(), 4000);
+  const auto chosen = evenly_spaced_indices(points.size(), 4000);
   const auto level = [&](std::size_t i) { return std::round(colours.share[chosen[i]] * levels); };
   for (std::size_t i = 1; i < chosen.size();) {
     const double now = level(i);
-    put(svg, R"(<polyline stroke="{}" points=")", css(heat(now / levels)));
+    put(svg, R"(<polyline stroke="{}" points=")", css_colour(heat_colour(now / levels)));
     const auto add = [&](std::size_t k) {
       put(svg, "{:.3f},{:.3f} ", points[chosen[k]].eye_x_m, height - points[chosen[k]].eye_y_m);
     };
@@ -112,7 +112,7 @@ void draw_robot(std::string& svg, const sim::TracePoint& at, double height) {
 
 }  // namespace
 
-std::string path_svg(const Drive& drive) {
+std::string path_svg(const DrivenPath& drive) {
   const double w = drive.floor.width_m();
   const double h = drive.floor.height_m();
   std::string svg = svg_head(w, h, "The path of the robot over the floor");
@@ -120,7 +120,7 @@ std::string path_svg(const Drive& drive) {
       data_uri("image/png", floor_png(drive.floor)), w, h);
   if (!drive.line.points.empty()) {
     svg += drive.line.closed ? R"(<polygon class="middle" points=")" : R"(<polyline class="middle" points=")";
-    for (const std::size_t i : evenly(drive.line.points.size(), 1000))
+    for (const std::size_t i : evenly_spaced_indices(drive.line.points.size(), 1000))
       put(svg, "{:.3f},{:.3f} ", drive.line.points[i].x_m, h - drive.line.points[i].y_m);
     svg += R"("/>)";
   }
@@ -135,7 +135,7 @@ std::string path_svg(const Drive& drive) {
   return svg + "</svg>";
 }
 
-std::string error_svg(const Drive& drive) {
+std::string error_svg(const DrivenPath& drive) {
   constexpr double top = 10, bottom = 190;
   const TimeAxis axis(drive.trace.points.back().t_s);
   const double reach_mm = std::max(10.0, std::ceil(drive.metrics.max_error_m * 1000 / 10) * 10);
@@ -206,7 +206,7 @@ void draw_lane(std::string& svg, const replay::Lane& lane, const TimeAxis& axis,
         behaviour % 8, axis.x(from_s), top, std::max(0.6, axis.x(to_s) - axis.x(from_s)), bar,
         escaped(lane.behaviours[behaviour]), from_s, to_s);
   }
-  for (const std::size_t i : evenly(lane.errors_s.size(), columns)) {
+  for (const std::size_t i : evenly_spaced_indices(lane.errors_s.size(), columns)) {
     put(svg, R"(<line class="error" x1="{0:.1f}" y1="{1:.1f}" x2="{0:.1f}" y2="{2:.1f}"/>)",
         axis.x(lane.errors_s[i]), top - 4, top + 4 + bar);
   }

@@ -7,7 +7,7 @@
 
 namespace tessera::report {
 
-Colour heat(double share) {
+Colour heat_colour(double share) {
   constexpr std::array<Colour, 4> stops = {
       {{0.13, 0.36, 0.62}, {0.10, 0.62, 0.60}, {0.96, 0.70, 0.20}, {0.84, 0.18, 0.15}}};
   const double at = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
@@ -18,7 +18,7 @@ Colour heat(double share) {
   return {std::lerp(a.red, b.red, t), std::lerp(a.green, b.green, t), std::lerp(a.blue, b.blue, t)};
 }
 
-std::string css(const Colour& colour) {
+std::string css_colour(const Colour& colour) {
   const auto byte = [](double part) {
     return static_cast<unsigned>(std::lround(255 * std::clamp(part, 0.0, 1.0)));
   };

@@ -9,9 +9,9 @@ struct Colour {
 };
 
 /// From calm to alarming: 0 dark blue .. 1 red. Monotone in lightness, and told apart by the colour-blind.
-[[nodiscard]] Colour heat(double share);
+[[nodiscard]] Colour heat_colour(double share);
 
 /// "#rrggbb".
-[[nodiscard]] std::string css(const Colour& colour);
+[[nodiscard]] std::string css_colour(const Colour& colour);
 
 }  // namespace tessera::report

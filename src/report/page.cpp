@@ -51,10 +51,10 @@ void put_figures(std::string& html, const ReportInput& input) {
   html += "</div>";
 }
 
-void put_drive(std::string& html, const Drive& drive) {
+void put_drive(std::string& html, const DrivenPath& drive) {
   const PathColours colours = path_colours(drive);
   std::string ramp;
-  for (int i = 0; i <= 6; ++i) ramp += (i > 0 ? "," : "") + css(heat(i / 6.0));
+  for (int i = 0; i <= 6; ++i) ramp += (i > 0 ? "," : "") + css_colour(heat_colour(i / 6.0));
   put(html,
       R"html(<h2>Path</h2><div class="panel floor">{}<p class="note">The middle sensor's path: 0<span class="ramp" style="background:linear-gradient(90deg,{})"></span>{} )html"
       R"(The ring is the start, the robot stands where it ended.</p></div>)",
@@ -206,7 +206,7 @@ std::string page(const ReportInput& input) {
       name, style,
       headline(input) +
           (input.ended.empty() ? "" : " \u00b7 ended: " + escaped(shortened(input.ended, 200, 1))),
-      made_by);
+      generator_tag);
   put_notices(html, input);
   put_figures(html, input);
   if (input.drive && !input.drive->trace.points.empty()) put_drive(html, *input.drive);

@@ -75,7 +75,7 @@ void draw_text(cairo_t* canvas, double x, double y, double size, const std::stri
 /// Draws in metres, y up.
 class FloorCanvas {
  public:
-  FloorCanvas(cairo_t* canvas, const Drive& drive, double scale)
+  FloorCanvas(cairo_t* canvas, const DrivenPath& drive, double scale)
       : canvas_(canvas), drive_(drive), scale_(scale) {
     cairo_save(canvas_);
     cairo_translate(canvas_, margin, heading);
@@ -111,13 +111,13 @@ class FloorCanvas {
 
   void path(const PathColours& colours) {
     const auto& points = drive_.trace.points;
-    const auto chosen = evenly(points.size(), 6000);
+    const auto chosen = evenly_spaced_indices(points.size(), 6000);
     cairo_set_line_width(canvas_, 3);
     cairo_set_line_cap(canvas_, CAIRO_LINE_CAP_ROUND);
     for (std::size_t i = 1; i < chosen.size(); ++i) {
       const auto& from = points[chosen[i - 1]];
       const auto& to = points[chosen[i]];
-      set_colour(canvas_, heat(colours.share[chosen[i]]));
+      set_colour(canvas_, heat_colour(colours.share[chosen[i]]));
       cairo_move_to(canvas_, x(from.eye_x_m), y(from.eye_y_m));
       cairo_line_to(canvas_, x(to.eye_x_m), y(to.eye_y_m));
       cairo_stroke(canvas_);
@@ -164,7 +164,7 @@ class FloorCanvas {
   [[nodiscard]] double y(double metres) const { return (drive_.floor.height_m() - metres) * scale_; }
 
   cairo_t* canvas_;
-  const Drive& drive_;
+  const DrivenPath& drive_;
   double scale_;
 };
 
@@ -172,7 +172,7 @@ void draw_legend(cairo_t* canvas, double top, const PathColours& colours) {
   constexpr double width = 260, height = 12;
   const double y = top + 24;
   for (int i = 0; i < static_cast<int>(width); ++i) {
-    set_colour(canvas, heat(i / (width - 1)));
+    set_colour(canvas, heat_colour(i / (width - 1)));
     cairo_rectangle(canvas, margin + 18 + i, y, 1.5, height);
     cairo_fill(canvas);
   }
@@ -185,7 +185,7 @@ void draw_legend(cairo_t* canvas, double top, const PathColours& colours) {
 
 }  // namespace
 
-std::vector<std::size_t> evenly(std::size_t size, std::size_t count) {
+std::vector<std::size_t> evenly_spaced_indices(std::size_t size, std::size_t count) {
   std::vector<std::size_t> chosen;
   const std::size_t step = std::max<std::size_t>(1, (size + count - 1) / count);
   for (std::size_t i = 0; i < size; i += step) chosen.push_back(i);
@@ -193,7 +193,7 @@ std::vector<std::size_t> evenly(std::size_t size, std::size_t count) {
   return chosen;
 }
 
-PathColours path_colours(const Drive& drive) {
+PathColours path_colours(const DrivenPath& drive) {
   const auto& points = drive.trace.points;
   PathColours colours{.by_error = !points.empty() && drive.metrics.error_m.size() == points.size(),
                       .share = {}};
@@ -210,7 +210,7 @@ PathColours path_colours(const Drive& drive) {
 
 std::string floor_png(const sim::Track& floor) { return png_of(floor_surface(floor).get()); }
 
-std::string path_png(const Drive& drive, const std::string& title, const std::string& figures) {
+std::string path_png(const DrivenPath& drive, const std::string& title, const std::string& figures) {
   const double scale = std::min(1520 / drive.floor.width_m(), 1200 / drive.floor.height_m());
   const double bottom = heading + drive.floor.height_m() * scale;
   const double width = std::max(720.0, drive.floor.width_m() * scale + 2 * margin);

@@ -13,7 +13,7 @@
 namespace tessera::report {
 
 /// What a robot did on a floor.
-struct Drive {
+struct DrivenPath {
   sim::Track floor;
   sim::Skeleton line;  ///< may be empty: then there is no error to show
   sim::Trace trace;
@@ -34,7 +34,7 @@ struct Verdict {
 /// All that a report tells. What is not known stays empty and is left out of the page.
 struct ReportInput {
   Recording recording;
-  std::optional<Drive> drive;
+  std::optional<DrivenPath> drive;
   std::string robots;  ///< "rover, rover_2": there is no drive because several robots move; empty: one
   double simulated_s = 0, wall_s = 0;
   std::uint64_t firings = 0;
@@ -44,7 +44,7 @@ struct ReportInput {
 };
 
 /// Near the beginning of every page, so that a page of somebody else's is told from one.
-inline constexpr std::string_view made_by = R"(<meta name="generator" content="Tessera">)";
+inline constexpr std::string_view generator_tag = R"(<meta name="generator" content="Tessera">)";
 
 struct File {
   std::string name;  ///< "index.html", "path.png"

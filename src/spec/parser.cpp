@@ -50,10 +50,11 @@ Model read_model(const Document& document, Diagnostics& out) {
   types.read(file.find("types"), out);
   model.parameters = read_parameters(file.find("parameters"), types, out);
   const Entry* agents = file.require("agents", "a system is made of agents");
-  const Groups groups = read_agents(file.find("templates"), agents, {types, model.parameters}, model, out);
-  Models models;
+  const AgentGroups groups =
+      read_agents(file.find("templates"), agents, {types, model.parameters}, model, out);
+  CommunicationModels models;
   models.read(file.find("models"), model, out);
-  const Excuses excuses = read_channels(file.find("channels"), types, groups, models, model, out);
+  const WiringExcuses excuses = read_channels(file.find("channels"), types, groups, models, model, out);
   models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);

@@ -138,7 +138,7 @@ void Api::get_spec(Response& response) {
 }
 
 void Api::put_spec(const Request& request, Response& response) {
-  Body body(request, response);
+  RequestBody body(request, response);
   const std::string text = body.text("text"), revision = body.text("revision");
   if (!body.good()) return;
   const SpecFile::Outcome outcome = parts_.file.write(text, revision);
@@ -160,18 +160,18 @@ void Api::put_spec(const Request& request, Response& response) {
 }
 
 void Api::check(const Request& request, Response& response) {
-  Body body(request, response);
+  RequestBody body(request, response);
   const std::string text = body.text("text");
   if (body.good()) answer_pieces(response, {parts_.analyses.of(text)->json});
 }
 
 void Api::start_verify(const Request& request, Response& response) {
-  Body body(request, response);
+  RequestBody body(request, response);
   VerifyJobs::Request wanted{body.text("text"), body.texts("properties")};
   const std::string timeout = body.text_or("timeout", "60s");
   if (!body.good()) return;
   try {
-    wanted.seconds = std::min(project::seconds_of(timeout, "timeout"), 24 * 3600.0);
+    wanted.seconds = std::min(project::parse_seconds(timeout, "timeout"), 24 * 3600.0);
   } catch (const std::exception& error) {
     return answer_error(response, 400, error.what());
   }
@@ -196,7 +196,7 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
     answer_error(response, 400, what, hint);
     return std::nullopt;
   };
-  Body body(request, response);
+  RequestBody body(request, response);
   RunRequest wanted;
   const std::string kind = body.text_or("kind", "simulate");
   wanted.kind = kind == "run"      ? RunRequest::Kind::run
@@ -217,7 +217,7 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
   try {
     if (!wanted.duration.empty())
-      wanted.duration = fmt::format("{}s", project::seconds_of(wanted.duration, "for"));
+      wanted.duration = fmt::format("{}s", project::parse_seconds(wanted.duration, "for"));
   } catch (const std::exception& error) {
     return refuse(error.what());
   }
@@ -248,7 +248,7 @@ void Api::get_run(const Request& request, Response& response) {
 void Api::control_run(const Request& request, Response& response) {
   const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
   if (run == nullptr) return answer_error(response, 404, "there is no such run");
-  Body body(request, response);
+  RequestBody body(request, response);
   const RunControl wanted{.command = body.text("command"),
                           .subsystem = body.text_or("subsystem", ""),
                           .speed = body.number("value"),
@@ -256,8 +256,8 @@ void Api::control_run(const Request& request, Response& response) {
                           .transitions = body.indices("breakpoints", "transition"),
                           .conditions = body.indices("breakpoints", "condition")};
   if (!body.good()) return;
-  const std::string wrong = run->control(wanted);
-  if (!wrong.empty()) return answer_error(response, 409, wrong);
+  if (const std::optional<Problem> problem = run->control(wanted))
+    return answer_error(response, 409, problem->text);
   answer(response, "{}");
 }
 

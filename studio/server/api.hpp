@@ -3,7 +3,7 @@
 #include <string>
 
 #include "server/analysis/analysis.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/http/events.hpp"
 #include "server/http/http.hpp"

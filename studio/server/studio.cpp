@@ -9,7 +9,7 @@
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/file_watch.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/api.hpp"
 #include "server/http/answer.hpp"
@@ -113,7 +113,7 @@ struct Studio::Parts {
   std::string token = random_token();
   HttpServer http;
   int port;
-  Guard guard;
+  RequestGuard guard;
   std::string seen_revision = file.read().revision;
   std::optional<FileWatch> watch;
   std::thread serving;

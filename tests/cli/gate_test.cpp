@@ -6,7 +6,7 @@
 
 namespace tessera::cli_test {
 
-using Gate = Command;
+using VerificationGate = Command;
 
 /// Two agents that send to each other and wait for the acknowledgement before they listen; the first may end.
 constexpr const char* stuck =
@@ -28,7 +28,7 @@ constexpr const char* leaves =
     "channels:\n"
     "  - { from: a.control.y, to: b.control.x, send: blocking, receive: blocking }\n";
 
-TEST_F(Gate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
+TEST_F(VerificationGate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
   write(folder_ / "p/spec.yaml", stuck);
   for (const char* command : {"generate p", "simulate p", "run p"}) {
     SCOPED_TRACE(command);
@@ -44,7 +44,7 @@ TEST_F(Gate, AViolatedNetIsRefusedWithTheRunAndAWayOn) {
   EXPECT_FALSE(fs::exists(folder_ / "p/.tessera/generated"));
 }
 
-TEST_F(Gate, AnAcceptedViolationIsWrittenIntoTheController) {
+TEST_F(VerificationGate, AnAcceptedViolationIsWrittenIntoTheController) {
   write(folder_ / "p/spec.yaml", stuck);
   const project::Exit done = tessera("generate p --accept-violations --stubs --json out.json");
   EXPECT_EQ(done.code, 0) << done.text;
@@ -57,7 +57,7 @@ TEST_F(Gate, AnAcceptedViolationIsWrittenIntoTheController) {
   EXPECT_NE(system.find(result.at("verification_hash").get<std::string>()), std::string::npos);
 }
 
-TEST_F(Gate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
+TEST_F(VerificationGate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
   const fs::path project = example("01_line_follower");
   const auto kept = [&] {
     std::map<fs::path, fs::file_time_type> files;
@@ -76,7 +76,7 @@ TEST_F(Gate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
   EXPECT_EQ(kept().size(), 2U);
 }
 
-TEST_F(Gate, KeptVerdictsThatAreDamagedAreMadeAgain) {
+TEST_F(VerificationGate, KeptVerdictsThatAreDamagedAreMadeAgain) {
   write(folder_ / "p/spec.yaml", stuck);
   ASSERT_EQ(tessera("generate p").code, 1);
   for (const auto& entry : fs::directory_iterator(folder_ / "p/.tessera/verdicts"))
@@ -98,7 +98,7 @@ std::vector<std::string> marked_after(const nlohmann::json& traces, const nlohma
   return marked;
 }
 
-TEST_F(Gate, ATraceIsCompleteForAViewerThatSteps) {
+TEST_F(VerificationGate, ATraceIsCompleteForAViewerThatSteps) {
   write(folder_ / "p/spec.yaml", stuck);
   EXPECT_EQ(tessera("verify p --trace run.json").code, 1);
   const auto run = nlohmann::json::parse(content_of(folder_ / "run.json"));
@@ -115,7 +115,7 @@ TEST_F(Gate, ATraceIsCompleteForAViewerThatSteps) {
   EXPECT_GT(last.at("line"), 0);
 }
 
-TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
+TEST_F(VerificationGate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
   write(folder_ / "p/spec.yaml", leaves);
   const project::Exit verified =
       tessera("verify p --property goes_on --trace run.json --scenario stuck.json");
@@ -150,7 +150,7 @@ TEST_F(Gate, AScenarioDrivesTheControllerIntoTheMarkingOfItsRun) {
   EXPECT_EQ(marked_after(traces, fired), end);
 }
 
-TEST_F(Gate, WithoutAViolationThereIsNoScenario) {
+TEST_F(VerificationGate, WithoutAViolationThereIsNoScenario) {
   const std::string spec = std::string(TESSERA_SOURCE_DIR) + "/examples/01_line_follower/spec.yaml";
   const project::Exit done = tessera("verify " + spec + " --scenario none.json");
   EXPECT_EQ(done.code, 1);

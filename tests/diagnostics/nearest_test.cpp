@@ -1,8 +1,8 @@
+#include "tessera/nearest.hpp"
+
 #include <gtest/gtest.h>
 
-#include "diagnostics/diagnostics.hpp"
-
-namespace tessera::diagnostics {
+namespace tessera {
 namespace {
 
 struct Case {
@@ -33,5 +33,10 @@ TEST(DidYouMean, IsAQuestionOrNothing) {
   EXPECT_EQ(did_you_mean("banana", {"gripper"}), "");
 }
 
+TEST(WithHint, JoinsMessageAndHint) {
+  EXPECT_EQ(with_hint("unknown 'a'", "did you mean 'b'?"), "unknown 'a'; did you mean 'b'?");
+  EXPECT_EQ(with_hint("unknown 'a'", ""), "unknown 'a'");
+}
+
 }  // namespace
-}  // namespace tessera::diagnostics
+}  // namespace tessera

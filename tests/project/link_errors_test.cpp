@@ -30,11 +30,11 @@ TEST_F(LinkErrors, WhereAFunctionIs) {
   EXPECT_EQ(functions.presence(wanted[0]), Presence::defined);
   EXPECT_EQ(functions.presence(wanted[1]), Presence::missing);
   EXPECT_EQ(functions.presence(wanted[2]), Presence::missing);  // that of another subsystem is not it
-  EXPECT_EQ(functions.home(wanted[1]), "src/a/any.cc");
-  EXPECT_EQ(functions.home(wanted[2]), "src/motor.cpp");
+  EXPECT_EQ(functions.file_for(wanted[1]), "src/a/any.cc");
+  EXPECT_EQ(functions.file_for(wanted[2]), "src/motor.cpp");
   write("src/old.cpp", "namespace rover::car::motor { void init(Context&) {} }\n");
   EXPECT_EQ(TransitionFunctions(folder_, wanted).presence(wanted[2]), Presence::missing);
-  EXPECT_EQ(TransitionFunctions(folder_, wanted).elsewhere(wanted[2]).size(), 1U);
+  EXPECT_EQ(TransitionFunctions(folder_, wanted).definitions_elsewhere(wanted[2]).size(), 1U);
   write("src/macro.hpp", "#define FOLLOW void follow(Context&)\n");
   EXPECT_EQ(TransitionFunctions(folder_, wanted).presence(wanted[1]), Presence::unclear);
   write("shared/motor.inc", "void rover::robot::motor::init(Context& c) {}\n");

@@ -146,7 +146,7 @@ TEST_F(RunFolders, AProgramStaysWhatItIsWhileOthersAreBuilt) {
   const fs::path first = project::keep_program(folder_, folder_ / "build/controller", "controller-release");
   EXPECT_EQ(project::keep_program(folder_, folder_ / "build/controller", "controller-release"), first);
   const RunFolder run = begin();
-  const fs::path own = run.own(first);
+  const fs::path own = run.own_copy_of(first);
   write("build/next", "second");
   fs::rename(folder_ / "build/next", folder_ / "build/controller");  // as a linker does
   const fs::path second = project::keep_program(folder_, folder_ / "build/controller", "controller-release");

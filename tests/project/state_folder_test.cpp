@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "folder.hpp"
-#include "project/files/path_check.hpp"
+#include "project/files/cmake_path_check.hpp"
 
 namespace tessera::project_test {
 namespace {
@@ -55,10 +55,10 @@ TEST_F(StateFolder, ThatThereIsNoPlaceIsSaid) {
 
 TEST_F(StateFolder, PathsThatCMakeCannotHandleAreNamed) {
   for (const char* good : {"/a b", "/ążź", "/a'b&c#d%e~f(g)h", "/a*b?c", "/a$b", "/a=b:c,d@e!f{g}h+i^j<k>l"})
-    EXPECT_NO_THROW(project::check_path(good)) << good;
+    EXPECT_NO_THROW(project::check_path_for_cmake(good)) << good;
   for (const char* bad :
        {"/a;b", "/a\"b", "/a\\b", "/a[b", "/a]b", "/a|b", "/a`b", "/a${b}", "/$<a>", "/a\nb"})
-    EXPECT_THROW(project::check_path(bad), std::runtime_error) << bad;
+    EXPECT_THROW(project::check_path_for_cmake(bad), std::runtime_error) << bad;
 }
 
 }  // namespace

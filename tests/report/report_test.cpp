@@ -40,10 +40,8 @@ ReportInput run_without_a_track() {
 
 ReportInput run_on_a_track() {
   ReportInput input = run_without_a_track();
-  std::string error;
-  const auto floor =
-      tessera::sim::Track::load(TESSERA_SOURCE_DIR "/share/tessera/tracks/oval.png", 0.005, error);
-  if (!floor) throw std::runtime_error(error);
+  const auto floor = tessera::sim::Track::load(TESSERA_SOURCE_DIR "/share/tessera/tracks/oval.png", 0.005);
+  if (!floor) throw std::runtime_error(floor.problem());
   tessera::sim::Trace trace;
   for (int i = 0; i < 30'000; ++i) {
     const double angle = i * 0.002;
@@ -56,7 +54,7 @@ ReportInput run_on_a_track() {
                             .on_line = i % 1000 > 30});
   }
   const auto line = skeleton(*floor);
-  input.drive = Drive{*floor, line, trace, measure(line, trace)};
+  input.drive = DrivenPath{*floor, line, trace, measure(line, trace)};
   return input;
 }
 

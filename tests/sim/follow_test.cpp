@@ -39,9 +39,8 @@ WorldOptions world_at(const Start& start, std::uint64_t seed) {
 }
 
 LineMetrics follow(const Follower& follower, const Start& start, std::uint64_t seed, double for_s) {
-  std::string error;
-  const auto track = Track::load(start.track, 0.005, error);
-  if (!track) throw std::runtime_error(error);
+  const auto track = Track::load(start.track, 0.005);
+  if (!track) throw std::runtime_error(track.problem());
   return measure(skeleton(*track), drive(follower, world_at(start, seed), for_s));
 }
 

@@ -133,8 +133,8 @@ tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions option
     }
   }
   if (!world->finish(error)) throw std::runtime_error(error);
-  auto trace = tessera::sim::read_trace(options.trace, error);
+  auto trace = tessera::sim::read_trace(options.trace);
   std::filesystem::remove(options.trace);
-  if (!trace) throw std::runtime_error(error);
+  if (!trace) throw std::runtime_error(trace.problem());
   return *trace;
 }

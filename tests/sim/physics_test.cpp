@@ -16,9 +16,9 @@ struct Bits {
 
 /// Where a robot that turns is after five seconds.
 [[nodiscard]] Bits driven(bool read_at_every_step) {
-  std::string error;
-  const auto physics = Physics::load(line_world(), error);
-  if (!physics) throw std::runtime_error(error);
+  auto loaded = Physics::load(line_world());
+  if (!loaded) throw std::runtime_error(loaded.problem());
+  const auto physics = std::move(*loaded);
   physics->place_robot({{1, 2}, 0.5});
   const int left = *physics->actuator("wheel_left"), right = *physics->actuator("wheel_right");
   const int eye = *physics->site("eye_left");
@@ -39,10 +39,10 @@ struct Bits {
 TEST(Physics, ReadingDoesNotDisturbASingleBit) { EXPECT_EQ(driven(true), driven(false)); }
 
 TEST(Physics, DevicesAreOnTheBodyThatIsAttachedToTheWorld) {
-  std::string error;
-  const auto physics = Physics::load(line_world(), error);
-  ASSERT_TRUE(physics) << error;
-  const Physics::Root root = physics->root_of_site(*physics->site("eye_right"));
+  auto loaded = Physics::load(line_world());
+  ASSERT_TRUE(loaded) << loaded.problem();
+  const auto physics = std::move(*loaded);
+  const Physics::RootBody root = physics->root_of_site(*physics->site("eye_right"));
   EXPECT_EQ(physics->name(root), "robot");
   EXPECT_EQ(physics->root_of_actuator(*physics->actuator("wheel_left")), root);
 }

@@ -17,10 +17,9 @@ namespace {
 Skeleton of(const std::vector<std::uint8_t>& grey, std::size_t width_px, double metres_per_pixel) {
   static int count = 0;
   const std::string png = write_png(grey, width_px, "skeleton" + std::to_string(count++));
-  std::string error;
-  const auto track = Track::load(png, metres_per_pixel, error);
+  const auto track = Track::load(png, metres_per_pixel);
   std::filesystem::remove(png);
-  if (!track) throw std::runtime_error(error);
+  if (!track) throw std::runtime_error(track.problem());
   return skeleton(*track);
 }
 
@@ -66,8 +65,7 @@ TEST(Skeleton, OfTheShippedTracksHasTheirLength) {
   };
   for (const Case& c : {Case{"oval.png", 2.8 + 0.6 * M_PI}, Case{"curves.png", 2.4 + 1.2 * M_PI},
                         Case{"gap.png", 1.6 + 0.8 * M_PI}}) {
-    std::string error;
-    const Skeleton line = skeleton(*Track::load(shipped_track(c.name), 0.005, error));
+    const Skeleton line = skeleton(*Track::load(shipped_track(c.name), 0.005));
     EXPECT_TRUE(line.closed) << c.name;
     EXPECT_NEAR(line.length_m(), c.length_m, 0.02) << c.name;
   }

@@ -20,10 +20,9 @@ std::string file_with(const std::string& text) {
 }
 
 TEST(Trace, IsReadBack) {
-  std::string error;
   const auto trace =
-      read_trace(file_with(std::string(head) + "0.010,1.5,-2,0.25,1.6,-2.1,1\n0.020,0,0,0,0,0,0\n"), error);
-  ASSERT_TRUE(trace) << error;
+      read_trace(file_with(std::string(head) + "0.010,1.5,-2,0.25,1.6,-2.1,1\n0.020,0,0,0,0,0,0\n"));
+  ASSERT_TRUE(trace) << trace.problem();
   ASSERT_EQ(trace->points.size(), 2U);
   EXPECT_EQ(trace->points[0].t_s, 0.01);
   EXPECT_EQ(trace->points[0].y_m, -2);
@@ -40,13 +39,11 @@ TEST(Trace, WhatIsNoneIsRefusedWithTheLine) {
        {Case{"", "no trace"}, Case{"a,b\n", "no trace"}, Case{std::string(head) + "1,2,3\n", ":2: not seven"},
         Case{std::string(head) + "1,2,3,4,5,6,1\n1,2,3,4,5,6,x\n", ":3: not seven"},
         Case{std::string(head) + "1,2,3,4,5,6,1,8\n", ":2: not seven"}}) {
-    std::string error;
-    EXPECT_FALSE(read_trace(file_with(c.text), error)) << c.text;
-    EXPECT_NE(error.find(c.part), std::string::npos) << error;
+    const auto trace = read_trace(file_with(c.text));
+    EXPECT_FALSE(trace) << c.text;
+    EXPECT_NE(trace.problem().find(c.part), std::string::npos) << trace.problem();
   }
-  std::string error;
-  EXPECT_FALSE(read_trace("/nowhere/trace.csv", error));
-  EXPECT_NE(error.find("/nowhere/trace.csv"), std::string::npos);
+  EXPECT_NE(read_trace("/nowhere/trace.csv").problem().find("/nowhere/trace.csv"), std::string::npos);
 }
 
 }  // namespace

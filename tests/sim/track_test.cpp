@@ -18,9 +18,8 @@ using tessera::sim::Track;
 namespace {
 
 Track load(const std::string& png, double metres_per_pixel) {
-  std::string error;
-  auto track = Track::load(png, metres_per_pixel, error);
-  if (!track) throw std::runtime_error(error);
+  auto track = Track::load(png, metres_per_pixel);
+  if (!track) throw std::runtime_error(track.problem());
   return *track;
 }
 
@@ -141,9 +140,9 @@ TEST(Track, SaysWhyAPictureDoesNotLoad) {
                         Case{text, 0.005, "PNG"}, Case{std::filesystem::temp_directory_path(), 0.005, ": "},
                         Case{shipped_track("oval.png"), 0, "positive"},
                         Case{shipped_track("oval.png"), std::nan(""), "positive"}}) {
-    std::string error;
-    EXPECT_FALSE(Track::load(c.file, c.scale, error)) << c.file;
-    EXPECT_NE(error.find(c.part), std::string::npos) << error;
+    const auto track = Track::load(c.file, c.scale);
+    EXPECT_FALSE(track) << c.file;
+    EXPECT_NE(track.problem().find(c.part), std::string::npos) << track.problem();
   }
   std::filesystem::remove(text);
 }

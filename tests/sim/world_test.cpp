@@ -49,21 +49,19 @@ std::string driven(double left, double right, std::chrono::milliseconds time, co
 }
 
 TEST(World, WheelSpeedsMoveTheRobotAsTheyShould) {
-  std::string error;
-  const auto straight = sim::read_trace(driven(5, 5, 10s, "straight.csv"), error);
-  ASSERT_TRUE(straight) << error;
+  const auto straight = sim::read_trace(driven(5, 5, 10s, "straight.csv"));
+  ASSERT_TRUE(straight) << straight.problem();
   const auto& last = straight->points.back();
   EXPECT_NEAR(std::hypot(last.x_m - 1, last.y_m - 2), 5 * 0.03 * 10, 0.02);
   EXPECT_NEAR(last.heading_rad, 0.5, 0.01);
-  const auto turning = sim::read_trace(driven(-2, 2, 1s, "turning.csv"), error);
-  ASSERT_TRUE(turning) << error;
+  const auto turning = sim::read_trace(driven(-2, 2, 1s, "turning.csv"));
+  ASSERT_TRUE(turning) << turning.problem();
   EXPECT_NEAR(turning->points.back().heading_rad, 0.5 + 2 * 2 * 0.03 / 0.16, 0.05);
 }
 
 TEST(World, TheTraceStartsAtTheStartAndHasAPointEveryTenMilliseconds) {
-  std::string error;
-  const auto trace = sim::read_trace(driven(0, 0, 1s, "start.csv"), error);
-  ASSERT_TRUE(trace) << error;
+  const auto trace = sim::read_trace(driven(0, 0, 1s, "start.csv"));
+  ASSERT_TRUE(trace) << trace.problem();
   ASSERT_EQ(trace->points.size(), 101U);
   EXPECT_NEAR(trace->points[0].x_m, 1, 1e-6);
   EXPECT_NEAR(trace->points[0].y_m, 2, 1e-6);
@@ -126,8 +124,8 @@ TEST(World, OfSeveralRobotsNoPathIsShownAsThatOfTheRobot) {
     const auto other = both ? world->receptor(eye_request, error) : nullptr;
     world->advance_to(Time(100ms));
     ASSERT_TRUE(world->finish(error)) << error;
-    const auto trace = sim::read_trace(options.trace, error);
-    ASSERT_TRUE(trace) << error;
+    const auto trace = sim::read_trace(options.trace);
+    ASSERT_TRUE(trace) << trace.problem();
     EXPECT_EQ(trace->robots, both ? "robot, robot_2" : "");
     EXPECT_EQ(trace->points.size(), both ? 0U : 11U);
   }
@@ -139,7 +137,7 @@ TEST(World, AStartPoseSaidInPartKeepsTheRest) {
   world->advance_to(Time(10ms));
   std::string error;
   ASSERT_TRUE(world->finish(error));
-  const auto trace = sim::read_trace(options.trace, error);
+  const auto trace = sim::read_trace(options.trace);
   EXPECT_NEAR(trace->points[0].x_m, 0, 1e-6);
   EXPECT_NEAR(trace->points[0].y_m, 3, 1e-6);
 }

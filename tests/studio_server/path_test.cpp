@@ -1,15 +1,15 @@
-#include "server/http/path.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "server/recordings/robot_path.hpp"
 
 namespace tessera::server_test {
 namespace {
 
 using server::PathPoint;
 using server::PathReader;
-using server::ThinPath;
+using server::ThinnedPath;
 
 TEST(PathReader, ReadsLinesThatComeInPieces) {
   PathReader reader;
@@ -33,9 +33,9 @@ TEST(PathReader, PassesOverWhatIsNoPoint) {
   EXPECT_EQ(reader.feed("1,2,3,4,5\n").size(), 1U);
 }
 
-TEST(ThinPath, KeepsItsBoundTheFirstAndTheLastAndIsEven) {
+TEST(ThinnedPath, KeepsItsBoundTheFirstAndTheLastAndIsEven) {
   for (const int count : {0, 1, 2, 9, 10, 11, 19, 20, 1000, 12345}) {
-    ThinPath path(10);
+    ThinnedPath path(10);
     for (int point = 0; point < count; ++point) path.add({.time_ns = point});
     const nlohmann::json rows = path.rows();
     ASSERT_LE(rows.size(), 10U);

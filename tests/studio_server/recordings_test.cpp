@@ -5,8 +5,8 @@
 
 #include "served.hpp"
 #include "server/analysis/analysis.hpp"
-#include "server/recordings/tail.hpp"
-#include "server/recordings/tokens.hpp"
+#include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/recording_tail.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server_test {
@@ -118,7 +118,7 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
   EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
   const json part = get("/api/recordings/run.tsr?from=40&to=60").json();
   EXPECT_EQ(part.at("firings"), json({{40, second}}));
-  server::Tokens tokens(*analysis_.net);
+  server::MarkingTracker tokens(*analysis_.net);
   tokens.fire(first);
   EXPECT_EQ(part.at("marking"), json(tokens.marked()));
   EXPECT_EQ(part.at("values").at("robot.control.line.left"), json({{40, true}}));

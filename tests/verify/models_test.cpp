@@ -101,9 +101,9 @@ std::vector<Pair> pairs() {
   };
 }
 
-class LoneModels : public testing::TestWithParam<Pair> {};
+class ModelSoundness : public testing::TestWithParam<Pair> {};
 
-TEST_P(LoneModels, AreSoundOrNameTheRun) {
+TEST_P(ModelSoundness, AreSoundOrNameTheRun) {
   const std::string text =
       system(models(GetParam()),
              std::string(GetParam().send).find("elapsed") == std::string::npos ? "" : ", timeout: 20 ms");
@@ -112,7 +112,8 @@ TEST_P(LoneModels, AreSoundOrNameTheRun) {
   const layers::ClosedPair pair = layers::closed_pair(model.models[0]);
   diagnostics::Diagnostics out("own.yaml", text);
   const spec::CommunicationModel& own = model.models[0];
-  const bool sound = judge_model({pair.net, pair.sends_again, pair.receives_again, own.name, own.span}, out);
+  const bool sound =
+      judge_soundness({pair.net, pair.sends_again, pair.receives_again, own.name, own.span}, out);
   EXPECT_EQ(sound, std::string(GetParam().complaint).empty());
   std::string said;
   for (const diagnostics::Diagnostic& one : out.sorted()) {
@@ -123,7 +124,7 @@ TEST_P(LoneModels, AreSoundOrNameTheRun) {
   EXPECT_EQ(said, GetParam().complaint);
 }
 
-INSTANTIATE_TEST_SUITE_P(Judged, LoneModels, testing::ValuesIn(pairs()),
+INSTANTIATE_TEST_SUITE_P(Judged, ModelSoundness, testing::ValuesIn(pairs()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST(BuiltInModels, AreSoundByThemselves) {
@@ -140,7 +141,7 @@ TEST(BuiltInModels, AreSoundByThemselves) {
         const spec::CommunicationModel& model = layers::model_of({}, channel);
         const layers::ClosedPair pair = layers::closed_pair(model);
         diagnostics::Diagnostics out("", "");
-        EXPECT_TRUE(judge_model({pair.net, pair.sends_again, pair.receives_again, "built-in", {}}, out))
+        EXPECT_TRUE(judge_soundness({pair.net, pair.sends_again, pair.receives_again, "built-in", {}}, out))
             << render(out);
       }
 }

@@ -33,6 +33,8 @@ enum class SafeEvent : std::uint8_t {
 /// "not finite"; empty: no fault of this version.
 [[nodiscard]] std::string_view name_of(Fault fault);
 
+/// Of a recording in a folder.
+inline constexpr const char* recording_file_name = "recording.tsr";
 inline constexpr std::string_view recording_magic = "TESSREC1";
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
@@ -179,7 +181,7 @@ class RecordingReader {
 /// The number in the header of a file; nullopt: it is no segment of a recording with a limit.
 [[nodiscard]] std::optional<std::uint64_t> segment_number_in(const std::string& file);
 
-/// A folder stands for the `recording.tsr` in it. Of a recording with a limit, all segments that are left
+/// A folder stands for the recording_file_name in it. Of a recording with a limit, all segments that are left
 /// before the file that is named, and also when that file itself is not there or not begun; of one named by
 /// its number, that one alone. nullopt and `error` when it is no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);

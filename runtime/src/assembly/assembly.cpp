@@ -194,7 +194,7 @@ class Assembler {
   bool make_channels() {
     for (const Channel& channel : system_.channels) {
       std::uint32_t marking = 0;
-      for (std::size_t place = 0; place < channel.places.size() && place < SharedChannel::max_places; ++place)
+      for (std::size_t place = 0; place < channel.places.size() && place < most_shared_places; ++place)
         if (channel.places[place].tokens > 0) marking |= 1U << place;
       const std::size_t sent = value_size(channel.from, Side::send),
                         received = value_size(channel.to, Side::receive);

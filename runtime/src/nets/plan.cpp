@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "nets/shared_channel.hpp"
+#include "tessera/channel_limits.hpp"
 #include "tessera/net_words.hpp"
 
 namespace tessera {
@@ -64,9 +65,9 @@ class Compilation {
   void check_ports() {
     for (std::size_t port = 0; port < net_.ports.size(); ++port) {
       if (fused_[port].empty()) fail(fmt::format("port '{}' has no channel", net_.ports[port].name));
-      if (fused_[port].size() > SharedChannel::max_places)
+      if (fused_[port].size() > most_shared_places)
         fail(fmt::format("the channel of port '{}' has more than {} places", net_.ports[port].name,
-                         SharedChannel::max_places));
+                         most_shared_places));
     }
   }
 
@@ -158,9 +159,8 @@ class Compilation {
     std::vector<std::uint16_t>& needs = plan_.ports[port].needs;
     const auto found = std::find(needs.begin(), needs.end(), taken);
     if (found != needs.end()) return static_cast<std::uint8_t>(found - needs.begin());
-    if (needs.size() == SharedChannel::max_needs)
-      fail(fmt::format("'{}': its port takes in more than {} different ways", transition.name,
-                       SharedChannel::max_needs));
+    if (needs.size() == most_needs)
+      fail(fmt::format("'{}': its port takes in more than {} different ways", transition.name, most_needs));
     needs.push_back(taken);
     return static_cast<std::uint8_t>(needs.size() - 1);
   }

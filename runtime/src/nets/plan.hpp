@@ -80,7 +80,7 @@ struct Plan {
 ///
 /// Errors: a name that the tables do not declare, a transition that touches two channels or takes from no
 /// place of the
-///         subsystem, more than SharedChannel::max_places fused places: nullopt and `error`.
+///         subsystem, more than most_shared_places fused places: nullopt and `error`.
 [[nodiscard]] std::optional<Plan> compile(const SubsystemNet& net,
                                           std::span<const std::span<const FusedPlace>> fused,
                                           std::string& error);

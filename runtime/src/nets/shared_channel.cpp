@@ -36,7 +36,7 @@ SharedChannel::~SharedChannel() {
 
 void SharedChannel::connect(Side side, Waker* waker, std::uint32_t instance,
                             std::vector<std::uint16_t> needs) {
-  assert(needs.size() <= max_needs);
+  assert(needs.size() <= most_needs);
   Party& party = parties_[static_cast<std::size_t>(side)];
   party.seen = word_.load();
   party.waker = waker;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "system/waker.hpp"
+#include "tessera/channel_limits.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {
@@ -48,9 +49,6 @@ namespace tessera {
 ///         `connect` before they start.
 class alignas(64) SharedChannel {
  public:
-  static constexpr std::size_t max_places = 10;
-  static constexpr std::size_t max_needs = 10;  ///< different ones, per side
-
   /// type: of the values, if they are more than their bytes.
   SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1,
                 const ValueType* type = nullptr);
@@ -107,7 +105,7 @@ class alignas(64) SharedChannel {
   struct Word {
     std::uint64_t bits = 0;
 
-    static constexpr std::uint64_t field = (1U << max_places) - 1;
+    static constexpr std::uint64_t field = (1U << most_shared_places) - 1;
     static constexpr std::uint64_t receiver_last = 1U << 30, insisting = 1U << 31;
     static constexpr std::uint64_t one_version = std::uint64_t{1} << 32;
     [[nodiscard]] static constexpr unsigned wants_shift(Side side) { return side == Side::send ? 10 : 20; }

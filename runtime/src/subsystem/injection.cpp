@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "system/nearest.hpp"
 #include "tessera/given_values.hpp"
+#include "tessera/nearest.hpp"
 #include "tessera/signals.hpp"
 
 namespace tessera {
@@ -30,41 +30,48 @@ void Injection::announce() {
 
 namespace {
 
-/// Reads one `--inject`. Throws std::invalid_argument with what is wrong.
-class Reader {
+/// Reads one `--inject`. Its functions return false after they have kept what is wrong.
+class InjectionReader {
  public:
-  Reader(const System& system, std::uint64_t seed, std::optional<Duration> duration)
+  InjectionReader(const System& system, std::uint64_t seed, std::optional<Duration> duration)
       : system_(system), seed_(seed), duration_(duration) {}
 
-  Injection read(const std::string& text) {
+  [[nodiscard]] std::optional<Injection> read(const std::string& text) {
+    return parse(text) ? std::optional(fault_) : std::nullopt;
+  }
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+
+ private:
+  bool fail(std::string problem) {
+    problem_ = std::move(problem);
+    return false;
+  }
+
+  bool parse(const std::string& text) {
     fault_.text = text;
     const std::size_t at = text.rfind('@');
     const std::size_t colon = text.find(':');
     if (at == std::string::npos || colon == std::string::npos || colon > at)
-      throw std::invalid_argument("expected FAULT@WHEN, for example robot.control:throw@2.5s");
+      return fail("expected FAULT@WHEN, for example robot.control:throw@2.5s");
     const std::string front = text.substr(0, colon), back = text.substr(colon + 1, at - colon - 1);
-    if (front == "signal")
-      signal(back);
-    else if (front == "device" || front == "silent")
-      device(front, back);
-    else
-      function(front, back);
-    when(text.substr(at + 1));
-    return fault_;
+    const bool known = front == "signal"                        ? signal(back)
+                       : front == "device" || front == "silent" ? device(front, back)
+                                                                : function(front, back);
+    return known && when(text.substr(at + 1));
   }
 
- private:
-  void signal(const std::string& name) {
+  bool signal(const std::string& name) {
     fault_.kind = Injection::Kind::signal;
     for (const HandledSignal& one : handled_signals)
       if (one.use == SignalUse::stop && one.name == name) fault_.signal = one.number;
     if (fault_.signal == 0)
-      throw std::invalid_argument("'" + name + "' is no signal that stops a run, such as SIGINT or SIGHUP");
+      return fail("'" + name + "' is no signal that stops a run, such as SIGINT or SIGHUP");
+    return true;
   }
 
-  void device(const std::string& kind, const std::string& path) {
+  bool device(const std::string& kind, const std::string& path) {
     fault_.kind = kind == "device" ? Injection::Kind::device : Injection::Kind::silence;
-    find(path, [&](const Instance& instance) {
+    return find(path, [&](const Instance& instance) {
       std::vector<std::string> names;
       Bindings bindings;
       instance.make()->bind(bindings);
@@ -75,25 +82,25 @@ class Reader {
     });
   }
 
-  void function(const std::string& path, const std::string& what) {
+  bool function(const std::string& path, const std::string& what) {
     const std::size_t equals = what.find('=');
     const std::string name = what.substr(0, equals);
     const std::vector<std::string> known{"throw", "stall", "nan", "inf"};
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument(fmt::format(
-          "unknown fault '{}'{}; there are throw, stall=TIME, nan, inf, and the prefixes device:, "
-          "silent:, signal:",
-          name, did_you_mean(name, known)));
+      return fail(with_hint("unknown fault '" + name +
+                                "'; there are throw, stall=TIME, nan, inf, and the prefixes "
+                                "device:, silent:, signal:",
+                            did_you_mean(name, known)));
     if ((name == "stall") != (equals != std::string::npos))
-      throw std::invalid_argument(name == "stall" ? "stall needs a time, for example stall=200ms"
-                                                  : "'" + name + "' takes no value");
+      return fail(name == "stall" ? "stall needs a time, for example stall=200ms"
+                                  : "'" + name + "' takes no value");
     fault_.kind = name == "throw"   ? Injection::Kind::exception
                   : name == "stall" ? Injection::Kind::stall
                                     : Injection::Kind::number;
     fault_.number =
         name == "inf" ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
-    if (name == "stall") fault_.delay = time(what.substr(equals + 1));
-    find(path, [](const Instance& instance) {
+    if (name == "stall" && !read_time(what.substr(equals + 1), fault_.delay)) return false;
+    return find(path, [](const Instance& instance) {
       std::vector<std::string> names;
       for (const Behaviour& behaviour : instance.net->behaviours) names.emplace_back(behaviour.name);
       return names;
@@ -102,7 +109,7 @@ class Reader {
 
   /// The subsystem at `path`, or the part of one that parts_of names.
   template <class PartsOf>
-  void find(const std::string& path, PartsOf parts_of) {
+  bool find(const std::string& path, PartsOf parts_of) {
     std::vector<std::string> known;
     for (std::uint32_t index = 0; index < system_.instances.size(); ++index) {
       const Instance& instance = system_.instances[index];
@@ -111,59 +118,64 @@ class Reader {
       fault_.instance = index;
       const std::vector<std::string> parts = parts_of(instance);
       if (path == its) {
-        if (parts.empty()) throw std::invalid_argument("'" + path + "' has no such device");
-        return;
+        if (parts.empty()) return fail("'" + path + "' has no such device");
+        return true;
       }
       for (const std::string& part : parts) {
         fault_.part = part;
         known.push_back(fmt::format("{}.{}", its, part));
-        if (path == known.back()) return;
+        if (path == known.back()) return true;
       }
       fault_.part.clear();
     }
-    throw std::invalid_argument(fmt::format("unknown '{}'{}", path, did_you_mean(path, known)));
+    return fail(with_hint("unknown '" + path + "'", did_you_mean(path, known)));
   }
 
-  void when(const std::string& text) {
+  bool when(const std::string& text) {
     const std::size_t dots = text.find("..");
     if (text == "any") {
-      if (!duration_) throw std::invalid_argument("'any' needs a run with a duration");
+      if (!duration_) return fail("'any' needs a run with a duration");
       std::uint64_t mixed = seed_;  // several in one run come at several times
       for (const char letter : fault_.text)
         mixed = (mixed ^ static_cast<unsigned char>(letter)) * 1099511628211U;
       std::mt19937_64 random(mixed);
       fault_.from = Time(Duration(
           static_cast<Duration::rep>(random() % static_cast<std::uint64_t>(duration_->count() + 1))));
-      return;
+      return true;
     }
-    fault_.from = Time(time(text.substr(0, dots)));
-    if (dots == std::string::npos) return;
+    if (!read_time(text.substr(0, dots), fault_.from)) return false;
+    if (dots == std::string::npos) return true;
     fault_.once = false;
     const std::string end = text.substr(dots + 2);
-    if (!end.empty()) fault_.until = Time(time(end));
-    if (fault_.until <= fault_.from) throw std::invalid_argument("'" + text + "' ends before it begins");
+    if (!end.empty() && !read_time(end, fault_.until)) return false;
+    if (fault_.until <= fault_.from) return fail("'" + text + "' ends before it begins");
+    return true;
   }
 
-  [[nodiscard]] static Duration time(const std::string& text) {
+  /// into: a duration or a time.
+  template <class Into>
+  bool read_time(const std::string& text, Into& into) {
     const std::optional<Duration> read = parse_duration(text);
-    if (!read) throw std::invalid_argument("'" + text + "' is no time such as 2.5s or 200ms");
-    return *read;
+    if (!read) return fail("'" + text + "' is no time such as 2.5s or 200ms");
+    into = Into(*read);
+    return true;
   }
 
   const System& system_;
   std::uint64_t seed_;
   std::optional<Duration> duration_;
   Injection fault_;
+  std::string problem_;
 };
 
 }  // namespace
 
 std::optional<Injection> read_injection(const std::string& text, const System& system, std::uint64_t seed,
-                                        std::optional<Duration> duration, std::string& error) try {
-  return Reader(system, seed, duration).read(text);
-} catch (const std::invalid_argument& wrong) {
-  error = fmt::format("--inject {}: {}", text, wrong.what());
-  return std::nullopt;
+                                        std::optional<Duration> duration, std::string& error) {
+  InjectionReader reader(system, seed, duration);
+  std::optional<Injection> read = reader.read(text);
+  if (!read) error = fmt::format("--inject {}: {}", text, reader.problem());
+  return read;
 }
 
 // ------------------------------------------------------------------------------------------------ planting

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "system/nearest.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera {
 namespace {
@@ -139,7 +139,7 @@ std::string check_parameter(std::span<const ParameterOwner> owners, const std::s
     }
   }
   if (found.empty())
-    return fmt::format("unknown parameter '{}'{}", path, did_you_mean(path, names_of(owners)));
+    return with_hint("unknown parameter '" + path + "'", did_you_mean(path, names_of(owners)));
   std::ranges::move(found, std::back_inserter(checked));
   return "";
 }

@@ -4,9 +4,9 @@
 
 #include "project/build/controller.hpp"
 #include "project/build/programs.hpp"
+#include "project/files/cmake_path_check.hpp"
 #include "project/files/files.hpp"
 #include "project/files/installation.hpp"
-#include "project/files/path_check.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/process/listener.hpp"
 #include "project/process/process.hpp"
@@ -107,7 +107,7 @@ fs::path compile(const Specification& specification, const Generated& generated,
   const fs::path build = state / "build" / kind;
   for (const fs::path& path :
        {specification.project, generated.folder, build, Installation::find().cmake_package})
-    check_path(path);
+    check_path_for_cmake(path);
   if (!configure(specification, generated, build, options, listener)) return {};
   Step step(listener, "compiling");
   const Exit done = build_step({"cmake", "--build", build.string(), "--target", options.target}, options,

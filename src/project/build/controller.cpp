@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "project/build/generated_folder.hpp"
+#include "project/files/cmake_path_check.hpp"
 #include "project/files/files.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/lock_file.hpp"
-#include "project/files/path_check.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/process/listener.hpp"
 
@@ -129,7 +129,7 @@ std::optional<Controller> make_controller(const fs::path& given, const BuildOpti
   std::optional<Verified> verified = run_pipeline(given, options.gate, listener);
   if (!verified) return std::nullopt;
   const fs::path project = verified->specification.project, state = state_folder(project);
-  check_path(project);
+  check_path_for_cmake(project);
   fs::path program;
   if (state != own_folder(project)) program = built_before(*verified, options);
   if (program.empty()) {

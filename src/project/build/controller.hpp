@@ -45,7 +45,7 @@ bool report_missing(const Generated& generated, Listener& listener);
 struct BuildOptions {
   bool debug = false;  ///< for gdb: -O0 -g in a build folder of its own
   std::string target = "controller";
-  Gate gate = {};
+  VerificationGate gate = {};
   const std::atomic<bool>* stop = nullptr;  ///< true: give up. nullptr: Ctrl-C ends what is compiling
 };
 
@@ -59,8 +59,8 @@ struct BuildOptions {
 [[nodiscard]] std::filesystem::path compile(const Specification& specification, const Generated& generated,
                                             const BuildOptions& options, Listener& listener);
 
-/// walk, generate and compile in one, one at a time for a project; nullopt when anything failed and was said,
-/// or `stop` became true. Where nothing can be written in the project, a program that was built there from
+/// read_and_verify, generate and compile in one, one at a time for a project; nullopt when anything failed
+/// and was said, or `stop` became true. Where nothing can be written in the project, a program that was built there from
 /// the same files is taken as it is.
 struct Controller {
   std::filesystem::path program;

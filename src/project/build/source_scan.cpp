@@ -12,7 +12,7 @@ bool in_name(char character) {
   return std::isalnum(byte) != 0 || character == '_' || byte >= 0x80;
 }
 
-/// Replaces comments and literals by blanks; ends of lines stay, so that places keep their numbers.
+/// Replaces comments and literals by blanks; ends of lines stay, so that positions stay the same.
 class Blanker {
  public:
   explicit Blanker(const std::string& text) : in_(text), out_(text) {}
@@ -248,8 +248,9 @@ class Walk {
            token(end) != "=")
       ++end;
     if (token(end) != "{") return;
-    const std::size_t place = tokens_[next - 1].at;
-    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(place), '\n');
+    const std::size_t position = tokens_[next - 1].at;
+    const auto line =
+        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(position), '\n');
     scan_.functions.push_back({name, joined(space(), path), static_cast<std::uint32_t>(line)});
   }
   [[nodiscard]] bool takes_context(std::size_t index) const {

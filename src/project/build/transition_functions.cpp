@@ -62,7 +62,7 @@ fs::path TransitionFunctions::shown(const fs::path& file) const {
 }
 
 TransitionFunctions::Presence TransitionFunctions::presence(const codegen::Stub& stub) const {
-  if (!places(stub).empty()) return Presence::defined;
+  if (!definitions(stub).empty()) return Presence::defined;
   const bool possible = std::ranges::any_of(scans_, [&](const auto& one) {
     const SourceScan& scan = one.second;
     const auto word = scan.words.find(stub.function);
@@ -83,8 +83,9 @@ bool TransitionFunctions::is_wanted(const ScannedFunction& function) const {
   });
 }
 
-std::vector<TransitionFunctions::Place> TransitionFunctions::places(const codegen::Stub& stub) const {
-  std::vector<Place> found;
+std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions(
+    const codegen::Stub& stub) const {
+  std::vector<Definition> found;
   for (const auto& [file, scan] : scans_)
     for (const ScannedFunction& function : scan.functions)
       if (function.name == stub.function && function.space == stub.space)
@@ -92,8 +93,9 @@ std::vector<TransitionFunctions::Place> TransitionFunctions::places(const codege
   return found;
 }
 
-std::vector<TransitionFunctions::Place> TransitionFunctions::elsewhere(const codegen::Stub& stub) const {
-  std::vector<Place> found;
+std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_elsewhere(
+    const codegen::Stub& stub) const {
+  std::vector<Definition> found;
   for (const auto& [file, scan] : scans_)
     for (const ScannedFunction& function : scan.functions)
       if (function.name == stub.function && !is_wanted(function))
@@ -101,7 +103,7 @@ std::vector<TransitionFunctions::Place> TransitionFunctions::elsewhere(const cod
   return found;
 }
 
-fs::path TransitionFunctions::home(const codegen::Stub& stub) const {
+fs::path TransitionFunctions::file_for(const codegen::Stub& stub) const {
   for (const auto& [file, scan] : scans_) {
     if (!is_compiled(file)) continue;
     for (const ScannedFunction& function : scan.functions)
@@ -121,7 +123,7 @@ std::string TransitionFunctions::identity() const {
 }
 
 fs::path TransitionFunctions::add(const codegen::Stub& stub) {
-  const fs::path file = project_ / home(stub);
+  const fs::path file = project_ / file_for(stub);
   std::string text = content_of(file);
   const SourceScan before = scan_source(text);
   const auto end = before.ends.find(stub.space);
@@ -139,13 +141,15 @@ fs::path TransitionFunctions::add(const codegen::Stub& stub) {
 
 namespace {
 
-std::string notes_of(const std::vector<TransitionFunctions::Place>& places, const codegen::Stub& stub) {
+std::string notes_of(const std::vector<TransitionFunctions::Definition>& definitions,
+                     const codegen::Stub& stub) {
   std::string text;
-  for (const auto& place : places)
-    text += fmt::format(
-        "{}:{}: note: a function '{}' is here in {}; that of {} belongs in the namespace {}\n",
-        place.file.string(), place.line, stub.function,
-        place.space.empty() ? "no namespace" : "the namespace " + place.space, stub.subsystem, stub.space);
+  for (const auto& definition : definitions)
+    text +=
+        fmt::format("{}:{}: note: a function '{}' is here in {}; that of {} belongs in the namespace {}\n",
+                    definition.file.string(), definition.line, stub.function,
+                    definition.space.empty() ? "no namespace" : "the namespace " + definition.space,
+                    stub.subsystem, stub.space);
   return text;
 }
 
@@ -172,12 +176,12 @@ bool is_double(std::string_view line) {
 
 std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
   std::string text;
-  for (const auto& place : functions.places(stub)) {
+  for (const auto& definition : functions.definitions(stub)) {
     if (text.empty())
       text = fmt::format("{}:{}: error: the function '{}' of {} is defined more than once\n",
-                         place.file.string(), place.line, stub.function, stub.subsystem);
+                         definition.file.string(), definition.line, stub.function, stub.subsystem);
     else
-      text += fmt::format("{}:{}: note: here too\n", place.file.string(), place.line);
+      text += fmt::format("{}:{}: note: here too\n", definition.file.string(), definition.line);
   }
   if (text.empty())
     text = fmt::format("error: the function '{}' of {} is defined more than once\n", stub.function,
@@ -188,11 +192,11 @@ std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& fun
 }  // namespace
 
 std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
-  const fs::path home = functions.home(stub);
+  const fs::path home = functions.file_for(stub);
   const bool is_new = !functions.knows(home);
   return fmt::format(
       "{}: error: {} has no function '{}'\n{}hint: add it (or run `tessera generate --stubs`):\n\n{}\n",
-      home.string(), stub.subsystem, stub.function, notes_of(functions.elsewhere(stub), stub),
+      home.string(), stub.subsystem, stub.function, notes_of(functions.definitions_elsewhere(stub), stub),
       is_new ? whole_file(stub) : stub.body);
 }
 
@@ -220,7 +224,8 @@ std::string explain_build_errors(const std::string& text, const TransitionFuncti
   std::string explanation;
   if (missing.empty() && twice.empty()) {
     for (const codegen::Stub& stub : all)
-      if (functions.places(stub).empty()) explanation += notes_of(functions.elsewhere(stub), stub);
+      if (functions.definitions(stub).empty())
+        explanation += notes_of(functions.definitions_elsewhere(stub), stub);
     return text + explanation;
   }
   for (const std::size_t stub : missing) explanation += missing_text(all[stub], functions);

@@ -28,17 +28,17 @@ class TransitionFunctions {
   };
   [[nodiscard]] Presence presence(const codegen::Stub& stub) const;
 
-  struct Place {
+  struct Definition {
     std::filesystem::path file;  ///< relative to the project, where it is in it
     std::uint32_t line = 0;
     std::string space;
   };
   /// Where it is defined.
-  [[nodiscard]] std::vector<Place> places(const codegen::Stub& stub) const;
+  [[nodiscard]] std::vector<Definition> definitions(const codegen::Stub& stub) const;
   /// Where functions of its name are defined in namespaces that are nobody's: most likely it was meant there.
-  [[nodiscard]] std::vector<Place> elsewhere(const codegen::Stub& stub) const;
+  [[nodiscard]] std::vector<Definition> definitions_elsewhere(const codegen::Stub& stub) const;
   /// The file where it would be added: where the others of its subsystem are, else that of the stub.
-  [[nodiscard]] std::filesystem::path home(const codegen::Stub& stub) const;
+  [[nodiscard]] std::filesystem::path file_for(const codegen::Stub& stub) const;
   /// It is one of the sources.
   [[nodiscard]] bool knows(const std::filesystem::path& file) const;
 

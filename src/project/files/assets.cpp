@@ -9,6 +9,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "project/files/installation.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::project {
 
@@ -29,7 +30,7 @@ std::string what_is_there(const fs::path& name, const fs::path& project, const f
   add_alike(project, name, found);
   add_alike(shipped, name, found);
   const std::vector<std::string> names(found.begin(), found.end());
-  if (std::string near = diagnostics::did_you_mean(name.string(), names); !near.empty()) return near;
+  if (std::string near = did_you_mean(name.string(), names); !near.empty()) return near;
   constexpr std::size_t shown = 6;
   std::string list;
   for (std::size_t at = 0; at < std::min(shown, names.size()); ++at)
@@ -50,7 +51,8 @@ bool check_file(const std::string& name, std::string_view what, const std::strin
 
 }  // namespace
 
-bool check_files(const spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
+bool check_simulation_files(const spec::Model& model, const fs::path& project,
+                            diagnostics::Diagnostics& out) {
   if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
   bool found = simulation.world.empty() ||  // its drivers are C++ classes

@@ -11,7 +11,7 @@ namespace tessera::project {
 ///
 /// project: the folder of the specification.
 /// Errors: E310 a file is neither in that folder nor among the shipped ones.
-bool check_files(const spec::Model& model, const std::filesystem::path& project,
-                 diagnostics::Diagnostics& out);
+bool check_simulation_files(const spec::Model& model, const std::filesystem::path& project,
+                            diagnostics::Diagnostics& out);
 
 }  // namespace tessera::project

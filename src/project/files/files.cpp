@@ -24,18 +24,17 @@ namespace {
   throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), std::strerror(problem)));
 }
 
-/// 0, or why it failed.
-int write_all(int descriptor, std::string_view text) {
+}  // namespace
+
+bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = write(descriptor, text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
+    if (count < 0) return false;
     text.remove_prefix(static_cast<std::size_t>(count));
   }
-  return 0;
+  return true;
 }
-
-}  // namespace
 
 std::string content_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -55,7 +54,7 @@ void write_file(const fs::path& file, std::string_view text) {
   unlink(beside.c_str());  // of an earlier process with our number
   const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(file, errno);
-  int wrong = write_all(descriptor, text);
+  int wrong = write_all(descriptor, text) ? 0 : errno;
   if (wrong == 0 && exists && fchmod(descriptor, status.st_mode & 07777U) != 0) wrong = errno;
   if (close(descriptor) != 0 && wrong == 0) wrong = errno;
   if (wrong == 0 && rename(beside.c_str(), target.c_str()) != 0) wrong = errno;

@@ -17,6 +17,9 @@ namespace tessera::project {
 /// Threads: any.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
+/// All of it. false: errno says why.
+[[nodiscard]] bool write_all(int descriptor, std::string_view text);
+
 /// The identity of a text: 32 hexadecimal digits.
 [[nodiscard]] std::string hash_of(std::string_view text);
 

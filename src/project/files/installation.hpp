@@ -7,7 +7,7 @@
 namespace tessera::project {
 
 /// Where this installation keeps its parts. The command is relocatable: everything is found from its own
-/// place, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
+/// path, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
 struct Installation {
   std::filesystem::path share;          ///< worlds/, tracks/, examples/, spec.schema.json
   std::filesystem::path cmake_package;  ///< folder of tesseraConfig.cmake

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::project {
@@ -32,7 +33,7 @@ constexpr std::uint64_t most_runs = 100, most_bytes = 4'000'000'000;
 std::uint64_t limit_of(const char* variable, std::uint64_t usual) {
   const char* value = std::getenv(variable);
   if (value == nullptr || *value == '\0') return usual;
-  const std::uint64_t limit = bytes_of(value, variable);
+  const std::uint64_t limit = parse_size(value, variable);
   return limit == 0 ? UINT64_MAX : limit;
 }
 
@@ -172,7 +173,8 @@ fs::path shown_instead(const fs::path& state, const fs::path& before) {
   std::error_code problem;
   if (!before.empty() && fs::is_directory(state / before, problem)) return state / before;
   std::vector<OldRun> runs = runs_in(state / "runs");
-  std::erase_if(runs, [&](const OldRun& run) { return !fs::exists(run.folder / "recording.tsr", problem); });
+  std::erase_if(runs,
+                [&](const OldRun& run) { return !fs::exists(run.folder / file_names::recording, problem); });
   return runs.empty() ? fs::path() : runs.back().folder;
 }
 
@@ -221,7 +223,7 @@ void RunFolder::withdraw() const {
     fs::remove(state / "last");
 }
 
-fs::path RunFolder::own(const fs::path& program) const {
+fs::path RunFolder::own_copy_of(const fs::path& program) const {
   const fs::path own = path_ / "controller";
   std::error_code problem;
   fs::create_hard_link(program, own, problem);
@@ -229,7 +231,7 @@ fs::path RunFolder::own(const fs::path& program) const {
   return own;
 }
 
-std::uint64_t bytes_of(const std::string& text, const std::string& what) {
+std::uint64_t parse_size(const std::string& text, const std::string& what) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const std::string unit(end, text.data() + text.size());

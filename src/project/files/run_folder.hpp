@@ -27,7 +27,7 @@ class RunFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// The program under a name in this folder, where it stays what it is.
-  [[nodiscard]] std::filesystem::path own(const std::filesystem::path& program) const;
+  [[nodiscard]] std::filesystem::path own_copy_of(const std::filesystem::path& program) const;
   /// Programs that are started from now on keep it in use too.
   void goes_to_children() const { in_use_.goes_to_children(); }
   /// The controller is over and has not begun to run: what it has left goes, and STATE/last shows the run
@@ -42,6 +42,6 @@ class RunFolder {
 };
 
 /// "500MB", "2GB", "1000" (bytes); as `--record-limit` has it. Throws std::runtime_error, which names `what`.
-[[nodiscard]] std::uint64_t bytes_of(const std::string& text, const std::string& what);
+[[nodiscard]] std::uint64_t parse_size(const std::string& text, const std::string& what);
 
 }  // namespace tessera::project

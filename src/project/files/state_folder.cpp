@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::project {
@@ -36,7 +37,7 @@ std::string value_of(const char* variable) {
 
 }  // namespace
 
-fs::path own_folder(const fs::path& project) { return project / ".tessera"; }
+fs::path own_folder(const fs::path& project) { return project / file_names::state_folder; }
 
 fs::path state_folder(const fs::path& project) {
   const std::string name =

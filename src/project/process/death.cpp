@@ -9,10 +9,10 @@ namespace tessera::project {
 
 std::string describe_death(const Exit& exit, const std::filesystem::path& note) {
   std::ifstream stream(note);
-  std::string place, what;
-  if (std::getline(stream, place) && std::getline(stream, what))
-    return what.starts_with("killed") ? fmt::format("the controller was {} in {}", what, place)
-                                      : fmt::format("the controller has ended: {} {}", place, what);
+  std::string where, what;
+  if (std::getline(stream, where) && std::getline(stream, what))
+    return what.starts_with("killed") ? fmt::format("the controller was {} in {}", what, where)
+                                      : fmt::format("the controller has ended: {} {}", where, what);
   if (exit.code == 0)
     return "the controller has ended without a word: something in it has called _exit, or replaced the "
            "program";

@@ -10,6 +10,7 @@
 #include "layers/properties.hpp"
 #include "net/flatten.hpp"
 #include "project/files/assets.hpp"
+#include "project/files/file_names.hpp"
 #include "project/process/listener.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
@@ -21,7 +22,7 @@ namespace tessera::project {
 namespace fs = std::filesystem;
 
 fs::path spec_file(const fs::path& given) {
-  fs::path inside = given / "spec.yaml";
+  fs::path inside = given / file_names::specification;
   return fs::exists(inside) ? inside : given;
 }
 
@@ -88,8 +89,9 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
   bool sound = true;
   for (const spec::CommunicationModel& one : model.models) {
     const layers::ClosedPair pair = layers::closed_pair(one);
-    sound = verify::judge_model({pair.net, pair.sends_again, pair.receives_again, one.name, one.span}, out) &&
-            sound;
+    sound =
+        verify::judge_soundness({pair.net, pair.sends_again, pair.receives_again, one.name, one.span}, out) &&
+        sound;
   }
   return sound;
 }
@@ -101,9 +103,9 @@ bool models_are_sound(const Specification& specification, Listener& listener) {
   return sound;
 }
 
-bool files_are_there(const Specification& specification, Listener& listener) {
+bool simulation_files_exist(const Specification& specification, Listener& listener) {
   diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
-  const bool there = check_files(specification.model, specification.project, found);
+  const bool there = check_simulation_files(specification.model, specification.project, found);
   listener.say(found);
   return there;
 }
@@ -138,8 +140,8 @@ std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& re
 }
 
 /// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
-bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given,
-            Listener& listener) {
+bool passes(const Nets& nets, const verify::Report& report, const VerificationGate& gate,
+            const fs::path& given, Listener& listener) {
   for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))
     listener.warn(fmt::format("{} is unknown: {}", property->name, property->why));
   const auto violated = with_verdict(report, verify::Verdict::violated);
@@ -159,12 +161,13 @@ bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, co
 
 }  // namespace
 
-std::optional<Verified> run_pipeline(const fs::path& given, const Gate& gate, Listener& listener) {
+std::optional<Verified> run_pipeline(const fs::path& given, const VerificationGate& gate,
+                                     Listener& listener) {
   std::optional<Specification> specification = read(given, listener);
   if (!specification || !models_are_sound(*specification, listener)) return std::nullopt;
   std::optional<Nets> nets = build(*specification, listener);
   if (!nets) return std::nullopt;
-  verify::Report report = verdicts(*specification, *nets, gate, listener);
+  verify::Report report = verify_or_recall(*specification, *nets, gate, listener);
   if (!passes(*nets, report, gate, given, listener)) return std::nullopt;
   std::optional<verify::VerifiedNet> verified = verify::accept(
       std::move(nets->flat), std::move(report), {.unknown = true, .violated = gate.accept_violations});

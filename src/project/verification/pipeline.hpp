@@ -36,8 +36,8 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
 /// The same, told.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
-/// check_files, told (src/project/files/assets.hpp).
-[[nodiscard]] bool files_are_there(const Specification& specification, Listener& listener);
+/// check_simulation_files, told (src/project/files/assets.hpp).
+[[nodiscard]] bool simulation_files_exist(const Specification& specification, Listener& listener);
 
 /// The nets of a model, as far as the stages got: an error is reported, and what
 /// follows from it is missing.
@@ -75,7 +75,7 @@ struct Nets {
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
 /// What may pass on to generation.
-struct Gate {
+struct VerificationGate {
   std::string timeout = "10s";     ///< for the verdicts
   bool accept_violations = false;  ///< a violated net too
 };
@@ -86,7 +86,7 @@ struct Verified {
 };
 /// The whole pipeline: read, models_are_sound, build, verdicts. Only a net without violations gets through,
 /// unless the gate is open. What is unknown is told of and gets through.
-[[nodiscard]] std::optional<Verified> run_pipeline(const std::filesystem::path& given, const Gate& gate,
-                                                   Listener& listener);
+[[nodiscard]] std::optional<Verified> run_pipeline(const std::filesystem::path& given,
+                                                   const VerificationGate& gate, Listener& listener);
 
 }  // namespace tessera::project

@@ -115,7 +115,7 @@ std::string shown(const explore::Progress& progress) {
 
 }  // namespace
 
-double seconds_of(const std::string& text, const std::string& option) {
+double parse_seconds(const std::string& text, const std::string& option) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
@@ -125,9 +125,9 @@ double seconds_of(const std::string& text, const std::string& option) {
   return value * scale;
 }
 
-verify::Report verdicts(const Specification& specification, const Nets& nets, const Gate& gate,
-                        Listener& listener) {
-  const double seconds = seconds_of(gate.timeout, "--verify-timeout");
+verify::Report verify_or_recall(const Specification& specification, const Nets& nets,
+                                const VerificationGate& gate, Listener& listener) {
+  const double seconds = parse_seconds(gate.timeout, "--verify-timeout");
   const std::vector<net::Invariant> invariants =
       layers::invariants(specification.model, nets.pages, nets.flat);
   const verify::Subject subject{nets.flat, &nets.pages, invariants, nets.properties};

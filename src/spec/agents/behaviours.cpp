@@ -9,6 +9,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -127,7 +128,7 @@ class BehaviourReader {
     for (const auto& [name, index] : by_name_) names.push_back(name);
     std::sort(names.begin(), names.end());
     out_.error("E101", text->span, "unknown behaviour " + quoted(text->text),
-               diagnostics::did_you_mean(text->text, names));
+               did_you_mean(text->text, names));
   }
 
   std::optional<std::vector<Index>> read_buffers(const Entry* entry, const std::vector<Field>& buffers,
@@ -162,7 +163,7 @@ class BehaviourReader {
     out_.error("E101", text.span,
                other ? quoted(text.text) + " is no " + what : "unknown " + what + " " + quoted(text.text),
                other ? std::string("list it under '") + (is_output ? "receive" : "send") + "'"
-                     : diagnostics::did_you_mean(text.text, names));
+                     : did_you_mean(text.text, names));
   }
 
   Transfer read_transfer(const Entry* entry) {
@@ -171,7 +172,7 @@ class BehaviourReader {
     if (text == nullptr || text->text == "sequential") return Transfer::sequential;
     if (text->text != "parallel") {
       out_.error("E104", text->span, "transfer must be sequential or parallel, not " + quoted(text->text),
-                 diagnostics::did_you_mean(text->text, {"sequential", "parallel"}));
+                 did_you_mean(text->text, {"sequential", "parallel"}));
     }
     return Transfer::parallel;
   }

@@ -7,6 +7,7 @@
 #include "spec/document/expression_text.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -73,7 +74,7 @@ void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
   }
 }
 
-std::optional<Index> place(const Condition& condition, std::string_view name) {
+std::optional<Index> expression_index(const Condition& condition, std::string_view name) {
   for (Index i = 0; i < condition.expressions.size(); ++i) {
     if (condition.expressions[i].name == name) return i;
   }
@@ -90,7 +91,7 @@ std::string hint_for(const std::string& word, const Behaviour& of) {
       if (!one.name.empty()) names.push_back(one.name);
     }
   }
-  const std::string guess = diagnostics::did_you_mean(word, names);
+  const std::string guess = did_you_mean(word, names);
   return guess.empty() ? "name it under 'terminal' or 'error', or write an expression such as in.line.left"
                        : guess;
 }
@@ -124,10 +125,10 @@ When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
     when.kind = *known ? When::Kind::always : When::Kind::never;
   } else if (word == "error") {
     when.kind = When::Kind::error;
-  } else if (const auto terminal = place(of.terminal, word); terminal && !word.empty()) {
+  } else if (const auto terminal = expression_index(of.terminal, word); terminal && !word.empty()) {
     when.kind = When::Kind::terminal;
     when.expression = *terminal;
-  } else if (const auto error = place(of.error, word); error && !word.empty()) {
+  } else if (const auto error = expression_index(of.error, word); error && !word.empty()) {
     when.kind = When::Kind::named_error;
     when.expression = *error;
   } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {

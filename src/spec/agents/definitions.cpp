@@ -5,13 +5,14 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
 
 using diagnostics::quoted;
 
-void read_group(const Entry* section, SubsystemKind kind, const Surroundings& around, Definition& definition,
+void read_group(const Entry* section, SubsystemKind kind, const SystemScope& around, Definition& definition,
                 Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, section->key, out)) {
@@ -31,7 +32,7 @@ void read_group(const Entry* section, SubsystemKind kind, const Surroundings& ar
 
 }  // namespace
 
-Definition read_definition(const Entry& entry, bool is_template, const Surroundings& around,
+Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
                            Diagnostics& out) {
   const Section section(*entry.value, entry.span, is_template ? "a template" : "an agent",
                         {"control", "receptors", "effectors", "use", "count", "ring"}, out);
@@ -50,7 +51,7 @@ Definition read_definition(const Entry& entry, bool is_template, const Surroundi
   return definition;
 }
 
-void Templates::read(const Entry* section, const Surroundings& around, Model& model, Diagnostics& out) {
+void Templates::read(const Entry* section, const SystemScope& around, Model& model, Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, "templates", out)) {
     check_name(entry.key, entry.span, "template", out);
@@ -115,8 +116,7 @@ Index Templates::find(const Node& name, Diagnostics& out) {
     return found->second.definition;
   }
   one_is_unknown_ = true;
-  out.error("E101", name.span, "unknown template " + quoted(name.text),
-            diagnostics::did_you_mean(name.text, order_));
+  out.error("E101", name.span, "unknown template " + quoted(name.text), did_you_mean(name.text, order_));
   return none;
 }
 

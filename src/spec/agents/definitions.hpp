@@ -7,14 +7,14 @@ namespace tessera::spec {
 /// The body of an agent or template: control, receptors, effectors.
 ///
 /// Errors: E103 no control subsystem; E107 two subsystems of one name; those of subsystems.
-[[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const Surroundings& around,
+[[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
                                          Diagnostics& out);
 
 /// The templates of a file. A template may be another name for a template (`b: { use: a }`).
 class Templates {
  public:
   /// Reads the section into model.definitions. section may be null.
-  void read(const Entry* section, const Surroundings& around, Model& model, Diagnostics& out);
+  void read(const Entry* section, const SystemScope& around, Model& model, Diagnostics& out);
   /// The definition behind a name, none after an error. Errors: E101 unknown template.
   [[nodiscard]] Index find(const Node& name, Diagnostics& out);
   /// Warnings: W319.

@@ -31,7 +31,7 @@ Index read_count(const Entry& entry, Diagnostics& out) {
 /// Builds agents from the entries of the file, one by one.
 class Builder {
  public:
-  Builder(const Surroundings& around, Model& model, Diagnostics& out)
+  Builder(const SystemScope& around, Model& model, Diagnostics& out)
       : around_(around), model_(model), out_(out) {}
 
   void read_templates(const Entry* section) { templates_.read(section, around_, model_, out_); }
@@ -40,7 +40,7 @@ class Builder {
     check_name(entry.key, entry.span, "agent", out_);
     const bool uses = std::any_of(entry.value->entries.begin(), entry.value->entries.end(),
                                   [](const Entry& key) { return key.key == "use"; });
-    Group group;
+    AgentGroup group;
     group.name = entry.key;
     group.first_agent = static_cast<Index>(model_.agents.size());
     if (uses) {
@@ -53,13 +53,13 @@ class Builder {
     groups_.emplace(entry.key, group);
   }
 
-  Groups finish() {
+  AgentGroups finish() {
     templates_.complain_about_unused(out_);
     return std::move(groups_);
   }
 
  private:
-  void read_use(const Entry& entry, Group& group) {
+  void read_use(const Entry& entry, AgentGroup& group) {
     const Section section(*entry.value, entry.span, "an agent with 'use'", {"use", "count", "ring"}, out_);
     const Entry* use = section.find("use");
     if (const Node* name = text_of(*use->value, use->span, "use", out_, "name a template")) {
@@ -75,7 +75,7 @@ class Builder {
     }
   }
 
-  void create(const Group& group, Span span) {
+  void create(const AgentGroup& group, Span span) {
     const std::size_t subsystems = model_.definitions[group.definition].subsystems.size();
     const Index fleet = group.fleet ? fleets_++ : none;
     for (Index number = 0; number < group.count; ++number) {
@@ -92,11 +92,11 @@ class Builder {
     }
   }
 
-  const Surroundings& around_;
+  const SystemScope& around_;
   Model& model_;
   Diagnostics& out_;
   Templates templates_;
-  Groups groups_;
+  AgentGroups groups_;
   Index fleets_ = 0;
 };
 
@@ -134,8 +134,8 @@ void check_definitions(const Model& model, Diagnostics& out) {
 
 }  // namespace
 
-Groups read_agents(const Entry* templates, const Entry* agents, const Surroundings& around, Model& model,
-                   Diagnostics& out) {
+AgentGroups read_agents(const Entry* templates, const Entry* agents, const SystemScope& around, Model& model,
+                        Diagnostics& out) {
   Builder builder(around, model, out);
   builder.read_templates(templates);
   if (agents != nullptr) {
@@ -145,7 +145,7 @@ Groups read_agents(const Entry* templates, const Entry* agents, const Surroundin
     }
     for (const Entry& entry : entries) builder.read_agent(entry);
   }
-  Groups groups = builder.finish();
+  AgentGroups groups = builder.finish();
   check_clashes(model, around.types.structures(), out);
   check_definitions(model, out);
   return groups;

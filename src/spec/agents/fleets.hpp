@@ -11,7 +11,7 @@
 namespace tessera::spec {
 
 /// The agents that one entry of `agents` stands for.
-struct Group {
+struct AgentGroup {
   std::string name;
   Index first_agent = 0;  ///< into Model::agents
   Index count = 1;
@@ -21,13 +21,13 @@ struct Group {
 };
 
 /// Agents by the name under which the file knows them.
-using Groups = std::unordered_map<std::string, Group>;
+using AgentGroups = std::unordered_map<std::string, AgentGroup>;
 
 /// Reads `templates` and `agents` into model.definitions, .agents and .instances. Either entry may be null.
 ///
 /// Errors: E101 unknown template; E103 nothing to build; E105-E107 names; E109 a cycle of templates; E206
 /// count. Warnings: W319 a template nobody uses.
-[[nodiscard]] Groups read_agents(const Entry* templates, const Entry* agents, const Surroundings& around,
-                                 Model& model, Diagnostics& out);
+[[nodiscard]] AgentGroups read_agents(const Entry* templates, const Entry* agents, const SystemScope& around,
+                                      Model& model, Diagnostics& out);
 
 }  // namespace tessera::spec

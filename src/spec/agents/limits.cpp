@@ -8,6 +8,7 @@
 #include "spec/document/section.hpp"
 #include "spec/values/literals.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -99,8 +100,7 @@ class LimitReader {
                                 const std::vector<Field>& known) {
     std::vector<std::string> names;
     for (const Field& one : known) names.push_back(one.name);
-    out_.error("E101", entry.span, "unknown " + what + " " + quoted(name),
-               diagnostics::did_you_mean(name, names));
+    out_.error("E101", entry.span, "unknown " + what + " " + quoted(name), did_you_mean(name, names));
     return std::nullopt;
   }
 
@@ -138,7 +138,7 @@ class LimitReader {
     limit.fault = text->text == "fault";
     if (limit.fault || text->text == "clamp") return;
     out_.error("E104", text->span, "beyond must be clamp or fault, not " + quoted(text->text),
-               diagnostics::did_you_mean(text->text, {"clamp", "fault"}));
+               did_you_mean(text->text, {"clamp", "fault"}));
   }
 
   bool check(const Entry& entry, const Section& section, const Limit& limit) {

@@ -6,6 +6,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -45,7 +46,7 @@ std::optional<Selector> read_index(std::string_view text) {
   return Selector{Selector::Kind::constant, *number};
 }
 
-Index agent_number(const Selector& selector, const Group& group, std::int64_t i) {
+Index agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i) {
   if (selector.kind == Selector::Kind::plain) return 0;
   if (selector.kind == Selector::Kind::constant) return static_cast<Index>(selector.number);
   const std::int64_t count = group.count;
@@ -113,20 +114,20 @@ std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out) 
   return split(text, 0, text.text.size(), /*needs_buffer=*/false, out);
 }
 
-Lookup::Lookup(const Model& model, const Groups& groups) : model_(model), groups_(groups) {
+PathLookup::PathLookup(const Model& model, const AgentGroups& groups) : model_(model), groups_(groups) {
   for (const auto& [name, group] : groups) names_.push_back(name);
   std::sort(names_.begin(), names_.end());
 }
 
-const Group* Lookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
+const AgentGroup* PathLookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
   const auto group = groups_.find(agent);
   if (group != groups_.end()) return &group->second;
-  out.error("E101", span, "unknown agent " + quoted(agent), diagnostics::did_you_mean(agent, names_));
+  out.error("E101", span, "unknown agent " + quoted(agent), did_you_mean(agent, names_));
   return nullptr;
 }
 
-bool Lookup::check_index(const Selector& selector, const Group& group, Span agent_span, Span index_span,
-                         Diagnostics& out) {
+bool PathLookup::check_index(const Selector& selector, const AgentGroup& group, Span agent_span,
+                             Span index_span, Diagnostics& out) {
   if (group.fleet && selector.kind == Selector::Kind::plain) {
     out.error("E112", agent_span,
               quoted(group.name) + " is a fleet of " + std::to_string(group.count) + " agents",
@@ -147,34 +148,35 @@ bool Lookup::check_index(const Selector& selector, const Group& group, Span agen
   return true;
 }
 
-bool Lookup::find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const {
-  known = Known::nothing;
-  place.group = find_group(path.agent, path.agent_span, out);
-  if (place.group == nullptr) return false;
-  known = Known::agent;
-  if (place.group->definition == none) return false;  // complained about already
-  const auto& subsystems = model_.definitions[place.group->definition].subsystems;
+bool PathLookup::find(const BufferPath& path, PathTarget& target, KnownUpTo& known, Diagnostics& out) const {
+  known = KnownUpTo::nothing;
+  target.group = find_group(path.agent, path.agent_span, out);
+  if (target.group == nullptr) return false;
+  known = KnownUpTo::agent;
+  if (target.group->definition == none) return false;  // complained about already
+  const auto& subsystems = model_.definitions[target.group->definition].subsystems;
   const auto subsystem = std::find_if(subsystems.begin(), subsystems.end(),
                                       [&path](const Subsystem& one) { return one.name == path.subsystem; });
-  const bool good_index = check_index(path.selector, *place.group, path.agent_span, path.index_span, out);
+  const bool good_index = check_index(path.selector, *target.group, path.agent_span, path.index_span, out);
   if (subsystem == subsystems.end()) {
     std::vector<std::string> names;
     for (const Subsystem& one : subsystems) names.push_back(one.name);
     out.error("E101", path.subsystem_span, "unknown subsystem " + quoted(path.subsystem),
-              diagnostics::did_you_mean(path.subsystem, names));
+              did_you_mean(path.subsystem, names));
     return false;
   }
-  place.subsystem = static_cast<Index>(subsystem - subsystems.begin());
-  known = Known::subsystem;
+  target.subsystem = static_cast<Index>(subsystem - subsystems.begin());
+  known = KnownUpTo::subsystem;
   return good_index;
 }
 
-Index Lookup::find_buffer(const BufferPath& path, const Place& place, const std::vector<Field>& buffers,
-                          const std::string& what, Diagnostics& out) const {
+Index PathLookup::find_buffer(const BufferPath& path, const PathTarget& target,
+                              const std::vector<Field>& buffers, const std::string& what,
+                              Diagnostics& out) const {
   const auto found = std::find_if(buffers.begin(), buffers.end(),
                                   [&path](const Field& one) { return one.name == path.buffer; });
   if (found != buffers.end()) return static_cast<Index>(found - buffers.begin());
-  const Subsystem& owner = subsystem(place);
+  const Subsystem& owner = subsystem(target);
   struct Other {
     const std::vector<Field>& fields;
     std::string_view is;
@@ -193,16 +195,16 @@ Index Lookup::find_buffer(const BufferPath& path, const Place& place, const std:
   std::vector<std::string> names;
   for (const Field& field : buffers) names.push_back(field.name);
   out.error("E101", path.buffer_span, "unknown " + what + " " + quoted(path.buffer),
-            diagnostics::did_you_mean(path.buffer, names));
+            did_you_mean(path.buffer, names));
   return none;
 }
 
-const Subsystem& Lookup::subsystem(const Place& place) const {
-  return model_.definitions[place.group->definition].subsystems[place.subsystem];
+const Subsystem& PathLookup::subsystem(const PathTarget& target) const {
+  return model_.definitions[target.group->definition].subsystems[target.subsystem];
 }
 
-Index Lookup::instance(const Place& place, Index number) const {
-  return model_.agents[place.group->first_agent + number].first_instance + place.subsystem;
+Index PathLookup::instance(const PathTarget& target, Index number) const {
+  return model_.agents[target.group->first_agent + number].first_instance + target.subsystem;
 }
 
 }  // namespace tessera::spec

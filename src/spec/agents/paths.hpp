@@ -26,7 +26,7 @@ inline constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or 
 
 /// The number of the agent that a selector means for i (which `*` counts too); none past the end of a group
 /// that is no ring.
-[[nodiscard]] Index agent_number(const Selector& selector, const Group& group, std::int64_t i);
+[[nodiscard]] Index agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i);
 
 /// A path, taken apart but not looked up.
 struct BufferPath {
@@ -45,49 +45,50 @@ struct BufferPath {
 [[nodiscard]] std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out);
 
 /// A path whose agent and subsystem exist.
-struct Place {
-  const Group* group = nullptr;
+struct PathTarget {
+  const AgentGroup* group = nullptr;
   Index subsystem = none;  ///< into Definition::subsystems
 };
 
 /// How far a path could be followed before it named something unknown.
-enum class Known : std::uint8_t { nothing, agent, subsystem };
+enum class KnownUpTo : std::uint8_t { nothing, agent, subsystem };
 
 /// Looks paths up.
-class Lookup {
+class PathLookup {
  public:
-  Lookup(const Model& model, const Groups& groups);
+  PathLookup(const Model& model, const AgentGroups& groups);
 
   /// Errors: E101 unknown agent or subsystem; E303 index out of range; E112 an index where none belongs or
-  /// none where one does. place and known tell how far it came; true if all is well.
-  [[nodiscard]] bool find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const;
+  /// none where one does. target and known tell how far it came; true if all is well.
+  [[nodiscard]] bool find(const BufferPath& path, PathTarget& target, KnownUpTo& known,
+                          Diagnostics& out) const;
 
   /// The agents of that name, or null.
   ///
   /// Errors: E101 unknown agent.
-  [[nodiscard]] const Group* find_group(const std::string& agent, Span span, Diagnostics& out) const;
+  [[nodiscard]] const AgentGroup* find_group(const std::string& agent, Span span, Diagnostics& out) const;
 
   /// Whether the index fits the group.
   ///
   /// Errors: E112, E303 as for find.
-  [[nodiscard]] static bool check_index(const Selector& selector, const Group& group, Span agent_span,
+  [[nodiscard]] static bool check_index(const Selector& selector, const AgentGroup& group, Span agent_span,
                                         Span index_span, Diagnostics& out);
 
   /// The buffer's index in `buffers`; none and E101 if it is not there. what: "output", "input", "real
   /// buffer".
-  [[nodiscard]] Index find_buffer(const BufferPath& path, const Place& place,
+  [[nodiscard]] Index find_buffer(const BufferPath& path, const PathTarget& target,
                                   const std::vector<Field>& buffers, const std::string& what,
                                   Diagnostics& out) const;
 
-  [[nodiscard]] const Subsystem& subsystem(const Place& place) const;
-  /// The instance of the place in agent `number` of its group.
-  [[nodiscard]] Index instance(const Place& place, Index number) const;
+  [[nodiscard]] const Subsystem& subsystem(const PathTarget& target) const;
+  /// The instance of the target in agent `number` of its group.
+  [[nodiscard]] Index instance(const PathTarget& target, Index number) const;
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const Groups& groups() const { return groups_; }
+  [[nodiscard]] const AgentGroups& groups() const { return groups_; }
 
  private:
   const Model& model_;
-  const Groups& groups_;
+  const AgentGroups& groups_;
   std::vector<std::string> names_;  ///< of the groups, sorted, to guess from
 };
 

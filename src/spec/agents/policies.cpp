@@ -8,6 +8,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -26,7 +27,7 @@ std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_vi
   const auto found = std::ranges::find(words, text->text);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   out.error("E104", text->span, entry.key + " must be " + either + ", not " + quoted(text->text),
-            diagnostics::did_you_mean(text->text, words));
+            did_you_mean(text->text, words));
   return 0;
 }
 

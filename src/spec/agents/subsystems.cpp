@@ -9,9 +9,10 @@
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/document/section.hpp"
-#include "spec/model/flow.hpp"
+#include "spec/model/behaviour_flow.hpp"
 #include "spec/values/literals.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -52,7 +53,7 @@ std::vector<std::string> read_safe(const Entry* entry, const std::vector<Field>&
       std::vector<std::string> names;
       for (const Field& one : real) names.push_back(one.name);
       out.error("E101", value.span, "unknown real buffer " + quoted(value.key),
-                diagnostics::did_you_mean(value.key, names));
+                did_you_mean(value.key, names));
       continue;
     }
     safe[static_cast<std::size_t>(buffer - real.begin())] =
@@ -69,8 +70,7 @@ Index read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, D
   for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
   const auto found = std::find(names.begin(), names.end(), text->text);
   if (found != names.end()) return static_cast<Index>(found - names.begin());
-  out.error("E101", text->span, "unknown behaviour " + quoted(text->text),
-            diagnostics::did_you_mean(text->text, names));
+  out.error("E101", text->span, "unknown behaviour " + quoted(text->text), did_you_mean(text->text, names));
   return 0;
 }
 
@@ -114,7 +114,7 @@ std::string_view name_of(SubsystemKind kind) {
   return "effector";
 }
 
-Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
+Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemScope& around,
                          Diagnostics& out) {
   const Section section(
       *entry.value, entry.span, "a subsystem",
@@ -147,7 +147,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundi
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
     subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
-    check_flow(subsystem, out);
+    check_behaviour_flow(subsystem, out);
   }
   return subsystem;
 }

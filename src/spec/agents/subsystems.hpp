@@ -7,7 +7,7 @@
 namespace tessera::spec {
 
 /// What every subsystem sees.
-struct Surroundings {
+struct SystemScope {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system
 };
@@ -17,7 +17,7 @@ struct Surroundings {
 /// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
 /// those of
 ///         buffers, parameters and behaviours.
-[[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
+[[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemScope& around,
                                        Diagnostics& out);
 
 /// "receptor"

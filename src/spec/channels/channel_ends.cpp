@@ -7,25 +7,25 @@ namespace {
 
 using Kind = Selector::Kind;
 
-Index number_at(const End& end, std::int64_t i) {
-  return agent_number(end.path.selector, *end.place.group, i);
+Index number_at(const WrittenEnd& end, std::int64_t i) {
+  return agent_number(end.path.selector, *end.target.group, i);
 }
 
-bool ranges(const End& end) {
+bool ranges(const WrittenEnd& end) {
   return end.path.selector.kind == Kind::variable || end.path.selector.kind == Kind::all;
 }
 
-bool check(const End& from, const End& to, Diagnostics& out) {
+bool check(const WrittenEnd& from, const WrittenEnd& to, Diagnostics& out) {
   if (!ranges(from) || !ranges(to)) return true;
   if (from.path.selector.kind == Kind::all || to.path.selector.kind == Kind::all) {
     out.error("E307", to.path.index_span, "'*' stands for every agent and may stand at one end only",
               "write [i] at both ends to join agents pair by pair");
     return false;
   }
-  if (from.place.group->count != to.place.group->count) {
+  if (from.target.group->count != to.target.group->count) {
     out.error("E307", to.path.index_span,
-              "i counts over fleets of different sizes: " + std::to_string(from.place.group->count) +
-                  " and " + std::to_string(to.place.group->count),
+              "i counts over fleets of different sizes: " + std::to_string(from.target.group->count) +
+                  " and " + std::to_string(to.target.group->count),
               "give both fleets the same count, or name the agents by number");
     return false;
   }
@@ -34,10 +34,12 @@ bool check(const End& from, const End& to, Diagnostics& out) {
 
 }  // namespace
 
-bool expand(const End& from, const End& to, Expansion& into, Diagnostics& out) {
+bool expand_channel(const WrittenEnd& from, const WrittenEnd& to, ChannelExpansion& into, Diagnostics& out) {
   if (!check(from, to, out)) return false;
-  const std::int64_t count = ranges(from) ? from.place.group->count : ranges(to) ? to.place.group->count : 1;
-  std::vector<bool> fed(to.place.group->count, false);
+  const std::int64_t count = ranges(from) ? from.target.group->count
+                             : ranges(to) ? to.target.group->count
+                                          : 1;
+  std::vector<bool> fed(to.target.group->count, false);
   for (std::int64_t i = 0; i < count; ++i) {
     const Index source = number_at(from, i);
     const Index target = number_at(to, i);

@@ -7,20 +7,21 @@
 
 namespace tessera::spec {
 
-/// One end of a channel as written: the place, the buffer, and which agents.
-struct End {
+/// One end of a channel as written: the subsystem, the buffer, and which agents.
+struct WrittenEnd {
   BufferPath path;
-  Place place;
+  PathTarget target;
   Index buffer = none;
 };
 
 /// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
-struct Expansion {
+struct ChannelExpansion {
   std::vector<std::pair<Index, Index>> pairs;
   std::vector<Index> dropped;  ///< numbers of agents it would lead to, had the fleet not ended
 };
 
 /// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.
-[[nodiscard]] bool expand(const End& from, const End& to, Expansion& into, Diagnostics& out);
+[[nodiscard]] bool expand_channel(const WrittenEnd& from, const WrittenEnd& to, ChannelExpansion& into,
+                                  Diagnostics& out);
 
 }  // namespace tessera::spec

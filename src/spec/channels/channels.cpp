@@ -6,6 +6,7 @@
 #include "spec/channels/channel_ends.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -31,7 +32,8 @@ bool is_usual(SubsystemKind from, SubsystemKind to, bool same_agent) {
 
 class ChannelReader {
  public:
-  ChannelReader(const Types& types, const Groups& groups, Models& models, Model& model, Diagnostics& out)
+  ChannelReader(const Types& types, const AgentGroups& groups, CommunicationModels& models, Model& model,
+                Diagnostics& out)
       : types_(types), lookup_(model, groups), models_(models), model_(model), out_(out) {}
 
   void read(const Entry& section) {
@@ -44,7 +46,7 @@ class ChannelReader {
     }
   }
 
-  Excuses take_excuses() { return std::move(excuses_); }
+  WiringExcuses take_excuses() { return std::move(excuses_); }
 
  private:
   void read_arrow(const Node& item, Span at) {
@@ -102,7 +104,7 @@ class ChannelReader {
     if (text->text != "blocking") {
       out_.error("E104", text->span,
                  quoted(entry->key) + " must be blocking or non_blocking, not " + quoted(text->text),
-                 diagnostics::did_you_mean(text->text, {"blocking", "non_blocking"}));
+                 did_you_mean(text->text, {"blocking", "non_blocking"}));
     }
     return Mode::blocking;
   }
@@ -174,63 +176,63 @@ class ChannelReader {
   void excuse_all() { excuses_.everything = excuses_.outputs = true; }
 
   /// One end, looked up. is_output: the end that channels begin at.
-  std::optional<End> find_end(const std::optional<BufferPath>& path, bool is_output, Known& known,
-                              Place& place) {
+  std::optional<WrittenEnd> find_end(const std::optional<BufferPath>& path, bool is_output, KnownUpTo& known,
+                                     PathTarget& target) {
     if (!path) return std::nullopt;
-    const bool good = lookup_.find(*path, place, known, out_);
-    if (known != Known::subsystem) return std::nullopt;
-    const Subsystem& subsystem = lookup_.subsystem(place);
-    const Index buffer = lookup_.find_buffer(*path, place, is_output ? subsystem.outputs : subsystem.inputs,
+    const bool good = lookup_.find(*path, target, known, out_);
+    if (known != KnownUpTo::subsystem) return std::nullopt;
+    const Subsystem& subsystem = lookup_.subsystem(target);
+    const Index buffer = lookup_.find_buffer(*path, target, is_output ? subsystem.outputs : subsystem.inputs,
                                              is_output ? "output" : "input", out_);
     if (!good || buffer == none) return std::nullopt;
-    return End{*path, place, buffer};
+    return WrittenEnd{*path, target, buffer};
   }
 
   /// A mistake in a channel must not also count as an input without source.
-  void excuse(const std::optional<End>& to, Known known, const Place& place) {
+  void excuse(const std::optional<WrittenEnd>& to, KnownUpTo known, const PathTarget& target) {
     excuses_.outputs = true;
-    if (known == Known::nothing) {
+    if (known == KnownUpTo::nothing) {
       excuses_.everything = true;
       return;
     }
-    for (Index number = 0; number < place.group->count && place.group->definition != none; ++number) {
-      if (known == Known::agent) {
-        excuses_.agents.insert(place.group->first_agent + number);
+    for (Index number = 0; number < target.group->count && target.group->definition != none; ++number) {
+      if (known == KnownUpTo::agent) {
+        excuses_.agents.insert(target.group->first_agent + number);
       } else if (to) {
-        excuses_.inputs.emplace(lookup_.instance(place, number), to->buffer);
+        excuses_.inputs.emplace(lookup_.instance(target, number), to->buffer);
       } else {
-        excuses_.instances.insert(lookup_.instance(place, number));
+        excuses_.instances.insert(lookup_.instance(target, number));
       }
     }
   }
 
   void join(const std::optional<BufferPath>& from_path, const std::optional<BufferPath>& to_path,
             const Channel& channel) {
-    Known from_known = Known::nothing;
-    Known to_known = Known::nothing;
-    Place from_place;
-    Place to_place;
-    const auto from = find_end(from_path, true, from_known, from_place);
-    const auto to = find_end(to_path, false, to_known, to_place);
-    Expansion expansion;
-    if (!from || !to || !expand(*from, *to, expansion, out_)) {
-      excuse(to, to_known, to_place);
+    KnownUpTo from_known = KnownUpTo::nothing;
+    KnownUpTo to_known = KnownUpTo::nothing;
+    PathTarget from_target;
+    PathTarget to_target;
+    const auto from = find_end(from_path, true, from_known, from_target);
+    const auto to = find_end(to_path, false, to_known, to_target);
+    ChannelExpansion expansion;
+    if (!from || !to || !expand_channel(*from, *to, expansion, out_)) {
+      excuse(to, to_known, to_target);
       return;
     }
     check_types(*from, *to);
     for (const Index number : expansion.dropped)
-      excuses_.inputs.emplace(lookup_.instance(to->place, number), to->buffer);
+      excuses_.inputs.emplace(lookup_.instance(to->target, number), to->buffer);
     for (const auto& [source, target] : expansion.pairs) {
       Channel one = channel;
-      one.from = {lookup_.instance(from->place, source), from->buffer};
-      one.to = {lookup_.instance(to->place, target), to->buffer};
+      one.from = {lookup_.instance(from->target, source), from->buffer};
+      one.to = {lookup_.instance(to->target, target), to->buffer};
       if (!add(one, to->path)) return;
     }
   }
 
-  void check_types(const End& from, const End& to) {
-    const Field& output = lookup_.subsystem(from.place).outputs[from.buffer];
-    const Field& input = lookup_.subsystem(to.place).inputs[to.buffer];
+  void check_types(const WrittenEnd& from, const WrittenEnd& to) {
+    const Field& output = lookup_.subsystem(from.target).outputs[from.buffer];
+    const Field& input = lookup_.subsystem(to.target).inputs[to.buffer];
     if (Types::is_unknown(output.type) || Types::is_unknown(input.type)) return;
     const std::string both = types_.spelled(output.type) + " -> " + types_.spelled(input.type);
     const std::string where = "the output is declared on line " + std::to_string(output.span.line) +
@@ -280,18 +282,18 @@ class ChannelReader {
   }
 
   const Types& types_;
-  Lookup lookup_;
-  Models& models_;
+  PathLookup lookup_;
+  CommunicationModels& models_;
   Model& model_;
   Diagnostics& out_;
-  Excuses excuses_;
+  WiringExcuses excuses_;
   std::map<std::pair<Index, Index>, Index> sources_;  ///< (instance, input) -> channel
 };
 
 }  // namespace
 
-Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups, Models& models,
-                      Model& model, Diagnostics& out) {
+WiringExcuses read_channels(const Entry* entry, const Types& types, const AgentGroups& groups,
+                            CommunicationModels& models, Model& model, Diagnostics& out) {
   if (entry == nullptr) return {};
   ChannelReader reader(types, groups, models, model, out);
   reader.read(*entry);

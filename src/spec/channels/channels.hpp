@@ -12,7 +12,7 @@
 namespace tessera::spec {
 
 /// What the checks of the wiring must know besides the channels themselves.
-struct Excuses {
+struct WiringExcuses {
   std::set<std::pair<Index, Index>> inputs;  ///< (instance, input) left without a source by the end of a
                                              ///< fleet, or by a channel with a mistake in it
   std::set<Index> instances;                 ///< a channel with a mistake leads to some input of it
@@ -28,7 +28,7 @@ struct Excuses {
 ///         E304 the wrong end; E306 timeouts where nothing blocks; E307 index forms that do not go together;
 ///         E309 `send` or `receive` beside `model`, a model without its timeout.
 /// Warnings: W310 an unusual direction.
-[[nodiscard]] Excuses read_channels(const Entry* entry, const Types& types, const Groups& groups,
-                                    Models& models, Model& model, Diagnostics& out);
+[[nodiscard]] WiringExcuses read_channels(const Entry* entry, const Types& types, const AgentGroups& groups,
+                                          CommunicationModels& models, Model& model, Diagnostics& out);
 
 }  // namespace tessera::spec

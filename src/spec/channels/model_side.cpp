@@ -5,6 +5,7 @@
 #include "spec/channels/models.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -119,7 +120,7 @@ class ModelSideReader {
   bool read_when(const Entry& when) {
     const Node* text = text_of(*when.value, when.span, "'when'", out_, "write when: elapsed");
     if (text == nullptr || text->text == "elapsed") return true;
-    std::string hint = diagnostics::did_you_mean(text->text, {"elapsed"});
+    std::string hint = did_you_mean(text->text, {"elapsed"});
     if (hint.empty()) hint = "elapsed: the timeout of the channel has passed";
     out_.error("E104", text->span, "'when' must be elapsed, not " + quoted(text->text), hint);
     return true;
@@ -176,7 +177,7 @@ class ModelSideReader {
     out_.error("E101", text.span,
                "unknown place " + quoted(text.text) + " in " + quoted(entry_.key) + " of model " +
                    quoted(around_.name),
-               diagnostics::did_you_mean(text.text, known));
+               did_you_mean(text.text, known));
   }
 
   // ------------------------------------------------------------------------------------------- ways

@@ -9,6 +9,8 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "tessera/channel_limits.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -96,13 +98,13 @@ CommunicationModel read_model(const Entry& entry, Diagnostics& out) {
   }
   if (out.error_count() != before) return model;
   warn_of_unused_places(model, out);
-  for (ModelSide* side : {&model.send, &model.receive}) side->waits = comes_to_a_stand(model, *side);
+  for (ModelSide* side : {&model.send, &model.receive}) side->waits = waits_without_peer(model, *side);
   return model;
 }
 
 }  // namespace
 
-void Models::read(const Entry* section, Model& model, Diagnostics& out) {
+void CommunicationModels::read(const Entry* section, Model& model, Diagnostics& out) {
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, "models", out)) {
     const std::size_t before = out.error_count();
@@ -114,7 +116,7 @@ void Models::read(const Entry* section, Model& model, Diagnostics& out) {
   }
 }
 
-Index Models::find(const Node& name, Diagnostics& out) {
+Index CommunicationModels::find(const Node& name, Diagnostics& out) {
   const auto found = std::ranges::find(known_, name.text, &Known::name);
   if (found != known_.end()) {
     found->used = true;
@@ -123,7 +125,7 @@ Index Models::find(const Node& name, Diagnostics& out) {
   one_is_unknown_ = true;
   std::vector<std::string> names;
   for (const Known& one : known_) names.push_back(one.name);
-  const std::string hint = diagnostics::did_you_mean(name.text, names);
+  const std::string hint = did_you_mean(name.text, names);
   out.error("E101", name.span, "unknown model " + quoted(name.text),
             hint.empty()
                 ? "models of your own stand under 'models'; the others are chosen by send and receive"
@@ -131,7 +133,7 @@ Index Models::find(const Node& name, Diagnostics& out) {
   return none;
 }
 
-void Models::complain_about_unused(const Model& model, Diagnostics& out) const {
+void CommunicationModels::complain_about_unused(const Model& model, Diagnostics& out) const {
   if (one_is_unknown_) return;
   for (const Known& one : known_)
     if (!one.used && one.index != none)

@@ -9,7 +9,7 @@
 namespace tessera::spec {
 
 /// The section `models` of a file: communication models of the author.
-class Models {
+class CommunicationModels {
  public:
   /// Reads the section into model.models. section may be null.
   ///

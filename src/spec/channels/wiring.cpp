@@ -4,7 +4,7 @@
 #include <map>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/model/standstill.hpp"
+#include "spec/model/timeless_cycles.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using diagnostics::quoted;
 using Indices = std::vector<Index>;
 
-/// Instances that share a complaint about one place of the file.
+/// Instances that share a complaint about one line of the file.
 struct Shared {
   Index first = none;
   std::size_t count = 0;
@@ -34,7 +34,7 @@ bool is_listed(const std::optional<Indices>& list, Index buffer) {
 
 class Check {
  public:
-  Check(const Model& model, const Excuses& excuses, Diagnostics& out)
+  Check(const Model& model, const WiringExcuses& excuses, Diagnostics& out)
       : model_(model),
         excuses_(excuses),
         out_(out),
@@ -93,7 +93,7 @@ class Check {
     if (subsystem.period) return;
     std::vector<bool> waits;
     for (const Behaviour& behaviour : subsystem.behaviours) waits.push_back(can_wait(behaviour, instance));
-    for (const Index behaviour : standing_still(subsystem, waits)) {
+    for (const Index behaviour : timeless_cycles(subsystem, waits)) {
       standstill_[&subsystem.behaviours[behaviour]].add(instance);
     }
   }
@@ -168,7 +168,7 @@ class Check {
   }
 
   const Model& model_;
-  const Excuses& excuses_;
+  const WiringExcuses& excuses_;
   Diagnostics& out_;
   std::vector<Indices> in_, out_of_;  ///< channels by instance
   std::map<const Field*, Shared> unfed_;
@@ -178,7 +178,7 @@ class Check {
 
 }  // namespace
 
-void check_wiring(const Model& model, const Excuses& excuses, Diagnostics& out) {
+void check_wiring(const Model& model, const WiringExcuses& excuses, Diagnostics& out) {
   Check(model, excuses, out).run();
 }
 

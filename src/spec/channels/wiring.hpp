@@ -9,6 +9,6 @@ namespace tessera::spec {
 ///
 /// Errors:   E302 an input without source; E305 time would stand still.
 /// Warnings: W316 an output nobody reads; W317 an input no behaviour receives, an output no behaviour sends.
-void check_wiring(const Model& model, const Excuses& excuses, Diagnostics& out);
+void check_wiring(const Model& model, const WiringExcuses& excuses, Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -72,7 +72,7 @@ std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& o
   return DriverOption{*value, ""};
 }
 
-std::string with_number(std::string text, Index number) {
+std::string with_agent_number(std::string text, Index number) {
   constexpr std::string_view mark = "{i}";
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
     text.replace(at, mark.size(), std::to_string(number));

@@ -11,6 +11,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -54,7 +55,7 @@ bool is_class_name(std::string_view text) {
 
 class DriverReader {
  public:
-  DriverReader(Devices devices, const Model& model, const Groups& groups, Diagnostics& out)
+  DriverReader(Devices devices, const Model& model, const AgentGroups& groups, Diagnostics& out)
       : devices_(devices), lookup_(model, groups), out_(out) {}
 
   std::vector<Driver> read(const Entry& section) {
@@ -73,18 +74,18 @@ class DriverReader {
     key.text = entry.key;
     key.verbatim = entry.span.length == entry.key.size();
     const auto path = split_device_path(key, out_);
-    Place place;
-    Known known = Known::nothing;
-    if (!path || !lookup_.find(*path, place, known, out_)) return;
-    if (!find_real(*path, place, driver) || kind == nullptr || !fits(*kind, place, driver)) return;
-    add(*path, place, driver);
+    PathTarget target;
+    KnownUpTo known = KnownUpTo::nothing;
+    if (!path || !lookup_.find(*path, target, known, out_)) return;
+    if (!find_real(*path, target, driver) || kind == nullptr || !fits(*kind, target, driver)) return;
+    add(*path, target, driver);
   }
 
   /// Which buffer, or all of them.
-  bool find_real(const BufferPath& path, const Place& place, Driver& driver) {
-    const Subsystem& subsystem = lookup_.subsystem(place);
+  bool find_real(const BufferPath& path, const PathTarget& target, Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(target);
     if (!path.buffer.empty()) {
-      driver.real = lookup_.find_buffer(path, place, subsystem.real, "real buffer", out_);
+      driver.real = lookup_.find_buffer(path, target, subsystem.real, "real buffer", out_);
       return driver.real != none;
     }
     driver.real = none;
@@ -133,7 +134,7 @@ class DriverReader {
     }
     std::vector<std::string> names;
     for (const DriverKind& kind : driver_kinds) names.emplace_back(kind.name);
-    const std::string guess = diagnostics::did_you_mean(stranger->key, names);
+    const std::string guess = did_you_mean(stranger->key, names);
     out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
                guess.empty() ? "there are cpp, reflectance and velocity" : guess);
   }
@@ -150,8 +151,8 @@ class DriverReader {
     }
   }
 
-  bool fits(const DriverKind& kind, const Place& place, const Driver& driver) {
-    const Subsystem& subsystem = lookup_.subsystem(place);
+  bool fits(const DriverKind& kind, const PathTarget& target, const Driver& driver) {
+    const Subsystem& subsystem = lookup_.subsystem(target);
     std::string problem;
     const bool right_side = subsystem.kind == SubsystemKind::effector ? kind.effectors : kind.receptors;
     if (devices_ == Devices::real && kind.simulated_only) {
@@ -173,7 +174,7 @@ class DriverReader {
     return false;
   }
 
-  void add(const BufferPath& path, const Place& place, const Driver& driver) {
+  void add(const BufferPath& path, const PathTarget& target, const Driver& driver) {
     using Kind = Selector::Kind;
     if (path.selector.kind == Kind::variable) {
       out_.error("E112", path.index_span, "a driver stands behind one agent or all", "write [3] or [*]");
@@ -181,20 +182,21 @@ class DriverReader {
     }
     const bool all = path.selector.kind == Kind::all;
     const Index first = path.selector.kind == Kind::constant ? static_cast<Index>(path.selector.number) : 0;
-    const Index last = all ? place.group->count : first + 1;
+    const Index last = all ? target.group->count : first + 1;
     for (Index number = first; number < last; ++number) {
       Driver one = driver;
-      one.instance = lookup_.instance(place, number);
-      if (place.group->fleet) put_number(one, number);
+      one.instance = lookup_.instance(target, number);
+      if (target.group->fleet) put_number(one, number);
       if (!is_first(one)) return;
       drivers_.push_back(std::move(one));
     }
   }
 
   static void put_number(Driver& driver, Index number) {
-    driver.target = with_number(driver.target, number);
+    driver.target = with_agent_number(driver.target, number);
     for (auto& [name, option] : driver.options)
-      if (auto* const text = std::get_if<std::string>(&option.value)) *text = with_number(*text, number);
+      if (auto* const text = std::get_if<std::string>(&option.value))
+        *text = with_agent_number(*text, number);
   }
 
   /// Each real buffer has one driver, its own or that of the whole subsystem.
@@ -215,7 +217,7 @@ class DriverReader {
   }
 
   Devices devices_;
-  Lookup lookup_;
+  PathLookup lookup_;
   Diagnostics& out_;
   std::vector<Driver> drivers_;
   std::map<std::pair<Index, Index>, std::uint32_t> lines_;  ///< (instance, real buffer) -> line of its driver
@@ -224,7 +226,7 @@ class DriverReader {
 }  // namespace
 
 std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
-                                 const Groups& groups, Diagnostics& out) {
+                                 const AgentGroups& groups, Diagnostics& out) {
   return entry == nullptr ? std::vector<Driver>() : DriverReader(devices, model, groups, out).read(*entry);
 }
 

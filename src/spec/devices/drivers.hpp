@@ -19,6 +19,6 @@ enum class Devices : std::uint8_t { real, simulated };
 /// buffer;
 ///         E308 two drivers for one real buffer.
 [[nodiscard]] std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
-                                               const Groups& groups, Diagnostics& out);
+                                               const AgentGroups& groups, Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -67,7 +67,7 @@ void require_world(const Section& section, const Simulation& simulation) {
 
 }  // namespace
 
-std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const Groups& groups,
+std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const AgentGroups& groups,
                                           Diagnostics& out) {
   if (entry == nullptr) return std::nullopt;
   const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "drivers"}, out);

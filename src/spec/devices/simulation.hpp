@@ -12,6 +12,6 @@ namespace tessera::spec {
 ///
 /// Errors: E103 no world, though a driver or a track needs one; E104-E206 the track; those of drivers.
 [[nodiscard]] std::optional<Simulation> read_simulation(const Entry* entry, const Model& model,
-                                                        const Groups& groups, Diagnostics& out);
+                                                        const AgentGroups& groups, Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -55,15 +55,15 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node& node = make(Node::Kind::null, mark, anchor);
-    const Span at = behind_properties(node.span, out_);
+    const Span at = behind_anchor_and_tag(node.span, out_);
     const bool written = out_.line(at.line)
                              .substr(std::min<std::size_t>(at.column - 1, out_.line(at.line).size()))
                              .find_first_of("~nN") == 0;
-    // An empty value has no place of its own (yaml-cpp gives that of the next token): complain about its key.
+    // An empty value has no position of its own (yaml-cpp gives that of the next token): complain about its key.
     if (!written && awaits_value()) {
       node.span = open_.back().pending.span;
     }
-    place(node);
+    locate(node);
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -75,7 +75,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     if (open_.size() + node.height > deepest) too_deep(span(mark));
     count(node.size, span(mark));
-    place(node);
+    locate(node);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -83,11 +83,11 @@ class TreeBuilder final : public YAML::EventHandler {
     Node& node = make(Node::Kind::scalar, mark, anchor);
     node.text = value;
     node.quoted = tag == "!";
-    if (!place_scalar(node, node.span, out_)) {
+    if (!locate_scalar(node, node.span, out_)) {
       fail("E005", node.span, "the quote that opens here is never closed");
     }
     complain_about_tag(tag, node.span);
-    place(node);
+    locate(node);
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -165,10 +165,10 @@ class TreeBuilder final : public YAML::EventHandler {
   void finish() {
     Node& node = *open_.back().node;
     open_.pop_back();
-    place(node);
+    locate(node);
   }
 
-  void place(Node& node) {
+  void locate(Node& node) {
     if (open_.empty()) {
       document_.root_ = &node;
       return;

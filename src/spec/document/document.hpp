@@ -8,7 +8,7 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// YAML as a tree whose every part knows its place in the text. Internal to the room.
+/// YAML as a tree whose every part knows its position in the text. Internal to the room.
 namespace tessera::spec {
 
 using diagnostics::Diagnostics;

@@ -8,7 +8,7 @@
 namespace tessera::spec {
 namespace {
 
-/// A mistake and its place in the text.
+/// A mistake and its position in the text.
 struct Mistake {
   std::size_t position = 0;
   std::string message;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/document/words_of_cpp.hpp"
+#include "spec/document/cpp_names.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -55,7 +55,7 @@ std::string repaired(std::string_view name) {
   return is_identifier(result) && result.size() <= longest_name ? result : std::string();
 }
 
-std::string with_number(std::string_view name) { return "for example '" + std::string(name) + "_1'"; }
+std::string with_agent_number(std::string_view name) { return "for example '" + std::string(name) + "_1'"; }
 
 std::string write_it(std::string_view name) {
   const std::string better = repaired(name);
@@ -83,14 +83,14 @@ bool check_name(std::string_view name, diagnostics::Span span, std::string_view 
     out.error("E105", span, subject + ": leading and double underscores belong to the compiler",
               write_it(name));
   } else if (contains(keywords, name)) {
-    out.error("E106", span, subject + " is a keyword of C++", with_number(name));
+    out.error("E106", span, subject + " is a keyword of C++", with_agent_number(name));
   } else if (contains(taken, name)) {
-    out.error("E106", span, subject + " is taken by the generated code", with_number(name));
+    out.error("E106", span, subject + " is taken by the generated code", with_agent_number(name));
   } else if (std::ranges::any_of(our_prefixes, [&](auto prefix) { return name.starts_with(prefix); })) {
     out.error("E106", span, subject + ": names that begin with 'tessera_' belong to the generated code",
               "choose another beginning");
   } else if (is_macro(name)) {
-    out.error("E106", span, subject + " is a macro of the C or C++ library", with_number(name));
+    out.error("E106", span, subject + " is a macro of the C or C++ library", with_agent_number(name));
   } else {
     return true;
   }
@@ -101,7 +101,7 @@ bool check_system_name(std::string_view name, diagnostics::Span span, diagnostic
   if (!check_name(name, span, "system", out)) return false;
   if (!is_global_name(name)) return true;
   out.error("E106", span, "system name " + diagnostics::quoted(name) + " is taken by the C or C++ library",
-            with_number(name));
+            with_agent_number(name));
   return false;
 }
 

@@ -21,7 +21,7 @@ std::string_view trim_right(std::string_view text) {
   return last == std::string_view::npos ? std::string_view() : text.substr(0, last + 1);
 }
 
-/// The place of the quote that ends the text from `start` on, or npos.
+/// The position of the quote that ends the text from `start` on, or npos.
 std::size_t closing_quote(std::string_view text, std::size_t start, char quote) {
   for (std::size_t i = start; i < text.size(); ++i) {
     const bool doubled = quote == '\'' && text.substr(i, 2) == "''";
@@ -35,7 +35,7 @@ std::size_t closing_quote(std::string_view text, std::size_t start, char quote) 
 }
 
 /// A quoted scalar: the span of what is between the quotes, on its first line.
-bool place_quoted(Node& node, const Span& begin, const Diagnostics& source) {
+bool locate_quoted(Node& node, const Span& begin, const Diagnostics& source) {
   const std::string_view text = source.text();
   const std::string_view opening = rest_of_line(begin, source);
   const std::size_t start = static_cast<std::size_t>(opening.data() - text.data()) + 1;
@@ -49,7 +49,7 @@ bool place_quoted(Node& node, const Span& begin, const Diagnostics& source) {
 }
 
 /// A block scalar (| or >): the span of its first line that is not blank.
-void place_block(Node& node, const Span& begin, const Diagnostics& source) {
+void locate_block(Node& node, const Span& begin, const Diagnostics& source) {
   const std::size_t lines =
       static_cast<std::size_t>(std::count(node.text.begin(), node.text.end(), '\n')) + 1;
   node.span = begin;
@@ -62,7 +62,7 @@ void place_block(Node& node, const Span& begin, const Diagnostics& source) {
   }
 }
 
-void place_plain(Node& node, const Span& begin, const Diagnostics& source) {
+void locate_plain(Node& node, const Span& begin, const Diagnostics& source) {
   const std::string_view rest = rest_of_line(begin, source);
   node.verbatim = rest.starts_with(node.text);
   const std::size_t length =
@@ -72,7 +72,7 @@ void place_plain(Node& node, const Span& begin, const Diagnostics& source) {
 
 }  // namespace
 
-Span behind_properties(const Span& begin, const Diagnostics& source) {
+Span behind_anchor_and_tag(const Span& begin, const Diagnostics& source) {
   Span span = begin;
   for (;;) {
     const std::string_view rest = rest_of_line(span, source);
@@ -85,15 +85,15 @@ Span behind_properties(const Span& begin, const Diagnostics& source) {
   }
 }
 
-bool place_scalar(Node& node, const Span& begin, const Diagnostics& source) {
-  const Span span = behind_properties(begin, source);
+bool locate_scalar(Node& node, const Span& begin, const Diagnostics& source) {
+  const Span span = behind_anchor_and_tag(begin, source);
   const std::string_view rest = rest_of_line(span, source);
   const char first = rest.empty() ? ' ' : rest.front();
-  if (node.quoted && (first == '"' || first == '\'')) return place_quoted(node, span, source);
+  if (node.quoted && (first == '"' || first == '\'')) return locate_quoted(node, span, source);
   if (node.quoted && (first == '|' || first == '>')) {
-    place_block(node, span, source);
+    locate_block(node, span, source);
   } else {
-    place_plain(node, span, source);
+    locate_plain(node, span, source);
   }
   return true;
 }

@@ -7,11 +7,11 @@ namespace tessera::spec {
 /// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file
 /// verbatim. yaml-cpp only says where a node begins, its anchor and quotes included.
 ///
-/// begin:   the place that yaml-cpp gives.
+/// begin:   the position that yaml-cpp gives.
 /// Returns: false if the scalar opens a quote that nothing closes.
-[[nodiscard]] bool place_scalar(Node& node, const Span& begin, const Diagnostics& source);
+[[nodiscard]] bool locate_scalar(Node& node, const Span& begin, const Diagnostics& source);
 
 /// The span that begins at `begin`, behind the anchor and the tag that may stand there.
-[[nodiscard]] Span behind_properties(const Span& begin, const Diagnostics& source);
+[[nodiscard]] Span behind_anchor_and_tag(const Span& begin, const Diagnostics& source);
 
 }  // namespace tessera::spec

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "diagnostics/utf8.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using diagnostics::quoted;
 
 /// Where to complain about a value: at itself if it is text, else at its key.
-Span place(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
+Span span_of(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
 
 std::string found(const Node& node) {
   switch (node.kind) {
@@ -29,7 +30,7 @@ std::string found(const Node& node) {
 
 void complain(const Node& node, Span at, std::string_view what, std::string_view wanted, std::string hint,
               Diagnostics& out) {
-  out.error("E104", place(node, at),
+  out.error("E104", span_of(node, at),
             std::string(what) + " must be " + std::string(wanted) + ", not " + found(node), std::move(hint));
 }
 
@@ -58,8 +59,8 @@ Section::Section(const Node& node, Span at, std::string what, std::initializer_l
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
     unknown_keys_ = true;
-    guesses_.push_back(diagnostics::nearest(entry.key, known));
-    std::string hint = diagnostics::did_you_mean(entry.key, known);
+    guesses_.push_back(nearest(entry.key, known));
+    std::string hint = did_you_mean(entry.key, known);
     if (entry.key == "<<") hint = "merge keys are not read; use a template of agents or an alias";
     if (hint.empty()) hint = what_ + " has " + list_of(known);
     out.error("E102", entry.span, "unknown key " + quoted(entry.key), hint);

@@ -43,8 +43,8 @@ bool indented_by_tab(std::string_view line) {
   return line.substr(0, text).find('\t') != std::string_view::npos;
 }
 
-/// The place of the error, moved to the last line with text if it is the end of the file.
-Span place(const YAML::Mark& mark, const Diagnostics& out) {
+/// The span of the error, moved to the last line with text if it is the end of the file.
+Span span_of(const YAML::Mark& mark, const Diagnostics& out) {
   Span span{1, 1, 1};
   if (mark.line >= 0) {
     span = {static_cast<std::uint32_t>(mark.line) + 1,
@@ -60,7 +60,7 @@ Span place(const YAML::Mark& mark, const Diagnostics& out) {
 }  // namespace
 
 void report_syntax_error(const YAML::Exception& problem, Diagnostics& out) {
-  const Span span = place(problem.mark, out);
+  const Span span = span_of(problem.mark, out);
   if (dynamic_cast<const YAML::DeepRecursion*>(&problem) != nullptr) {
     out.error("E007", span, "nested more than " + std::to_string(deepest) + " levels deep");
     return;

@@ -13,7 +13,7 @@ bool is_forbidden(char c) {
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
 }
 
-diagnostics::Span place(const std::string& text, std::size_t position) {
+diagnostics::Span span_at(const std::string& text, std::size_t position) {
   const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
   const std::size_t start = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
   const std::size_t column = start == std::string::npos ? position : position - start - 1;
@@ -41,11 +41,11 @@ bool check_text(diagnostics::Diagnostics& out) {
   const auto control = std::find_if(text.begin(), text.end(), is_forbidden);
   if (control != text.end()) {
     const auto position = static_cast<std::size_t>(control - text.begin());
-    out.error("E003", place(text, position), "a control character: this is not a text file");
+    out.error("E003", span_at(text, position), "a control character: this is not a text file");
     return false;
   }
   if (const auto position = diagnostics::first_invalid_byte(text)) {
-    out.error("E004", place(text, *position), "this byte is not UTF-8",
+    out.error("E004", span_at(text, *position), "this byte is not UTF-8",
               "save the file in the encoding UTF-8");
     return false;
   }

@@ -50,7 +50,7 @@ class Rounds {
 
 bool ModelSide::has_timeout() const { return std::ranges::any_of(transitions, &Transition::elapsed); }
 
-bool comes_to_a_stand(const CommunicationModel& model, const ModelSide& side) {
+bool waits_without_peer(const CommunicationModel& model, const ModelSide& side) {
   return !Rounds(model, side).possible();
 }
 

@@ -10,11 +10,6 @@
 /// IV-E).
 namespace tessera::spec {
 
-/// What the controller's channel word has room for; tessera::SharedChannel says why.
-inline constexpr std::size_t most_shared_places = 10;
-inline constexpr std::size_t most_needs = 10;  ///< different sets of shared places that one side takes
-inline constexpr std::uint32_t most_slots = 16;
-
 /// A place that both sides see. It belongs to the channel, whatever behaviours use it.
 struct SharedPlace {
   std::string name;
@@ -59,8 +54,8 @@ struct CommunicationModel {
   diagnostics::Span span;
 };
 
-/// What ModelSide::waits says. Precondition: at most most_shared_places shared places. O(2^shared *
+/// What ModelSide::waits says. Precondition: at most `most_shared_places` of them. O(2^shared *
 /// transitions).
-[[nodiscard]] bool comes_to_a_stand(const CommunicationModel& model, const ModelSide& side);
+[[nodiscard]] bool waits_without_peer(const CommunicationModel& model, const ModelSide& side);
 
 }  // namespace tessera::spec

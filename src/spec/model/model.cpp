@@ -12,6 +12,11 @@ std::string_view name_of(Property::Kind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
+std::uint64_t bytes_of(Scalar scalar) {
+  constexpr std::array<std::uint64_t, 11> bytes{1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8};
+  return bytes.at(static_cast<std::size_t>(scalar));
+}
+
 const Subsystem& Model::subsystem(Index instance) const {
   const Instance& one = instances[instance];
   return definition_of(agents[one.agent]).subsystems[one.subsystem];

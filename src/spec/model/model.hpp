@@ -37,6 +37,8 @@ enum class Scalar : std::uint8_t {
   float64
 };
 
+[[nodiscard]] std::uint64_t bytes_of(Scalar scalar);
+
 /// The type of a buffer, field or parameter.
 struct Type {
   enum class Kind : std::uint8_t { scalar, string, structure } kind = Kind::scalar;
@@ -49,7 +51,7 @@ struct Type {
   bool operator==(const Type&) const = default;
 };
 
-/// A named, typed place for data: field of a structure, buffer, memory cell.
+/// A named and typed piece of data: field of a structure, buffer, memory cell.
 struct Field {
   std::string name;
   Type type;

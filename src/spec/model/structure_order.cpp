@@ -63,16 +63,16 @@ StructureOrder order_structures(const std::vector<Structure>& structures) {
 }
 
 std::vector<Structure> reordered(std::vector<Structure> structures, const std::vector<Index>& sorted) {
-  std::vector<Index> place(structures.size(), none);
+  std::vector<Index> new_index(structures.size(), none);
   std::vector<Structure> result;
   result.reserve(structures.size());
   for (const Index old : sorted) {
-    place[old] = static_cast<Index>(result.size());
+    new_index[old] = static_cast<Index>(result.size());
     result.push_back(std::move(structures[old]));
   }
   for (Structure& structure : result) {
     for (Field& field : structure.fields) {
-      if (uses_structure(field, place.size())) field.type.structure = place[field.type.structure];
+      if (uses_structure(field, new_index.size())) field.type.structure = new_index[field.type.structure];
     }
   }
   return result;

@@ -59,7 +59,7 @@ Text read_text(const Entry& entry, Diagnostics& out) {
   return {text == nullptr ? std::string() : text->text, whole(text, out), {}};
 }
 
-std::optional<Property> read_property(const Node& node, Span at, const Lookup& lookup, Diagnostics& out) {
+std::optional<Property> read_property(const Node& node, Span at, const PathLookup& lookup, Diagnostics& out) {
   const Section section(node, at, "a property",
                         {"name", "never", "always", "reachable", "always_reachable", "leads_to"}, out);
   std::optional<Property> property;
@@ -89,11 +89,11 @@ std::optional<Property> read_property(const Node& node, Span at, const Lookup& l
 
 }  // namespace
 
-std::vector<Property> read_properties(const Entry* entry, const Model& model, const Groups& groups,
+std::vector<Property> read_properties(const Entry* entry, const Model& model, const AgentGroups& groups,
                                       Diagnostics& out) {
   std::vector<Property> properties;
   if (entry == nullptr) return properties;
-  const Lookup lookup(model, groups);
+  const PathLookup lookup(model, groups);
   std::unordered_map<std::string, std::uint32_t> lines;
   for (const Node* item : items_of(*entry->value, entry->span, "properties", out)) {
     std::optional<Property> property =

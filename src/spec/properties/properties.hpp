@@ -14,6 +14,6 @@ namespace tessera::spec {
 /// Errors: E103 no kind; E104 form; E107 two kinds, or two properties of one name; those of read_formula and
 /// read_claims.
 [[nodiscard]] std::vector<Property> read_properties(const Entry* entry, const Model& model,
-                                                    const Groups& groups, Diagnostics& out);
+                                                    const AgentGroups& groups, Diagnostics& out);
 
 }  // namespace tessera::spec

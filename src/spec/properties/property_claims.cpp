@@ -11,7 +11,7 @@ constexpr std::size_t most_paths = 1'000'000;
 
 /// A fleet that an index counts over; null: none does.
 struct Range {
-  const Group* group = nullptr;
+  const AgentGroup* group = nullptr;
 
   [[nodiscard]] std::int64_t count() const { return group == nullptr ? 1 : group->count; }
 };
@@ -22,7 +22,7 @@ bool is_quantifier(const Formula& formula) {
 
 class ClaimReader {
  public:
-  ClaimReader(const Lookup& lookup, Diagnostics& out) : lookup_(lookup), out_(out) {}
+  ClaimReader(const PathLookup& lookup, Diagnostics& out) : lookup_(lookup), out_(out) {}
 
   std::vector<Claim> read(const Formula& what, const std::optional<Formula>& then) {
     Range range;
@@ -48,11 +48,11 @@ class ClaimReader {
   }
 
  private:
-  [[nodiscard]] std::string agent_of(const Group& group, std::int64_t number) const {
+  [[nodiscard]] std::string agent_of(const AgentGroup& group, std::int64_t number) const {
     return lookup_.model().agents[group.first_agent + static_cast<Index>(number)].path;
   }
 
-  [[nodiscard]] const Group* group_of(const WrittenPath& path) const {
+  [[nodiscard]] const AgentGroup* group_of(const WrittenPath& path) const {
     const auto group = lookup_.groups().find(path.agent);
     return group == lookup_.groups().end() ? nullptr : &group->second;
   }
@@ -86,9 +86,9 @@ class ClaimReader {
 
   bool gather(const WrittenPath& path, Range& range, bool quantified) {
     if (of_system(path)) return true;
-    const Group* group = lookup_.find_group(path.agent, path.agent_span, out_);
+    const AgentGroup* group = lookup_.find_group(path.agent, path.agent_span, out_);
     if (group == nullptr || group->definition == none) return false;  // complained about
-    if (!Lookup::check_index(path.selector, *group, path.agent_span, path.index_span, out_)) return false;
+    if (!PathLookup::check_index(path.selector, *group, path.agent_span, path.index_span, out_)) return false;
     const Kind kind = path.selector.kind;
     const bool counts = kind == Kind::all || (kind == Kind::variable && !quantified);
     return !counts || widen(range, *group, path);
@@ -108,7 +108,7 @@ class ClaimReader {
     return true;
   }
 
-  bool widen(Range& range, const Group& group, const WrittenPath& path) {
+  bool widen(Range& range, const AgentGroup& group, const WrittenPath& path) {
     if (range.group == nullptr) range.group = &group;
     if (range.group->count == group.count) return true;
     out_.error("E307", path.index_span,
@@ -176,13 +176,13 @@ class ClaimReader {
   [[nodiscard]] std::optional<NetPath> net_path(const WrittenPath& path, std::int64_t i,
                                                 std::int64_t star) const {
     if (of_system(path)) return NetPath{path.agent, {}, path.whole};
-    const Group& group = *group_of(path);
+    const AgentGroup& group = *group_of(path);
     const Index number = agent_number(path.selector, group, path.selector.kind == Kind::all ? star : i);
     if (number == none) return std::nullopt;
     return NetPath{agent_of(group, number), path.parts, path.whole};
   }
 
-  const Lookup& lookup_;
+  const PathLookup& lookup_;
   Diagnostics& out_;
   std::size_t paths_ = 0;
   bool too_many_ = false;
@@ -190,8 +190,8 @@ class ClaimReader {
 
 }  // namespace
 
-std::vector<Claim> read_claims(const Formula& what, const std::optional<Formula>& then, const Lookup& lookup,
-                               Diagnostics& out) {
+std::vector<Claim> read_claims(const Formula& what, const std::optional<Formula>& then,
+                               const PathLookup& lookup, Diagnostics& out) {
   return ClaimReader(lookup, out).read(what, then);
 }
 

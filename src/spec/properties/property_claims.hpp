@@ -16,6 +16,6 @@ namespace tessera::spec {
 /// Errors: E101 unknown agent; E112 and E303 indices; E307 i over fleets of different sizes; E114 any or all
 /// without [*], or more than a million paths. Empty after an error.
 [[nodiscard]] std::vector<Claim> read_claims(const Formula& what, const std::optional<Formula>& then,
-                                             const Lookup& lookup, Diagnostics& out);
+                                             const PathLookup& lookup, Diagnostics& out);
 
 }  // namespace tessera::spec

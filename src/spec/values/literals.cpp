@@ -9,6 +9,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -132,7 +133,7 @@ class Writer {
     for (const Entry& entry : node.entries) {
       if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
       out_.error("E101", entry.span, "type " + quoted(shape.name) + " has no field " + quoted(entry.key),
-                 diagnostics::did_you_mean(entry.key, names));
+                 did_you_mean(entry.key, names));
     }
   }
 

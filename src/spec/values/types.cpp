@@ -8,6 +8,7 @@
 #include "spec/document/section.hpp"
 #include "spec/document/type_text.hpp"
 #include "spec/model/structure_order.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -16,7 +17,6 @@ using diagnostics::quoted;
 
 constexpr std::array scalars = std::to_array<std::string_view>(
     {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
-constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
 
 /// What other languages call our types.
 struct Synonym {
@@ -37,20 +37,20 @@ constexpr std::array generated_types =
 constexpr std::uint64_t largest_type = std::uint64_t{256} * 1024 * 1024;
 
 template <std::size_t N>
-std::optional<std::size_t> place(const std::array<std::string_view, N>& words, std::string_view word) {
+std::optional<std::size_t> index_of(const std::array<std::string_view, N>& words, std::string_view word) {
   const auto* const found = std::find(words.begin(), words.end(), word);
   return found == words.end() ? std::nullopt
                               : std::optional<std::size_t>(static_cast<std::size_t>(found - words.begin()));
 }
 
-bool is_built_in(std::string_view name) { return name == "string" || place(scalars, name).has_value(); }
+bool is_built_in(std::string_view name) { return name == "string" || index_of(scalars, name).has_value(); }
 
 bool has_unit(const Type& type) { return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean; }
 
 /// Saturates well above the limit.
 std::uint64_t bytes_of(const Type& type, const std::vector<std::uint64_t>& structures) {
   std::uint64_t one = std::uint64_t{type.capacity} + 4;
-  if (type.kind == Type::Kind::scalar) one = scalar_bytes[static_cast<std::size_t>(type.scalar)];
+  if (type.kind == Type::Kind::scalar) one = bytes_of(type.scalar);
   if (type.kind == Type::Kind::structure)
     one = type.structure < structures.size() ? structures[type.structure] : 0;
   const std::uint64_t extent = std::max<std::uint64_t>(type.extent, 1);
@@ -80,7 +80,7 @@ void Types::read(const Entry* section, Diagnostics& out) {
     check_name(entry.key, entry.span, "type", out);
     if (is_built_in(entry.key)) {
       out.error("E107", entry.span, "type " + quoted(entry.key) + " is built in");
-    } else if (place(generated_types, entry.key)) {
+    } else if (index_of(generated_types, entry.key)) {
       out.error("E106", entry.span, "type name " + quoted(entry.key) + " is taken by the generated code");
     }
     by_name_.emplace(entry.key, static_cast<Index>(structures_.size()));
@@ -98,7 +98,7 @@ void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& o
     out.error("E104", entry.span, what + " needs at least one field", "for example { value: float64 }");
   }
   for (const Entry& field : fields) {
-    if (place(status_names, field.key)) {
+    if (index_of(status_names, field.key)) {
       out.error("E106", field.span,
                 "field name " + quoted(field.key) + " is reserved for the status of a buffer",
                 "for example '" + field.key + "_value'");
@@ -150,7 +150,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   Type type;
   type.extent = parts->extent;
   type.unit = parts->unit;
-  if (const auto scalar = place(scalars, parts->name)) {
+  if (const auto scalar = index_of(scalars, parts->name)) {
     type.scalar = static_cast<Scalar>(*scalar);
   } else if (parts->name == "string") {
     type.kind = Type::Kind::string;
@@ -163,7 +163,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
                                                [&](const Synonym& one) { return one.theirs == parts->name; });
       out.error("E101", parts->name_span, "unknown type " + quoted(parts->name),
                 synonym != synonyms.end() ? "here it is called " + std::string(synonym->ours)
-                                          : diagnostics::did_you_mean(parts->name, known_names_));
+                                          : did_you_mean(parts->name, known_names_));
       return unknown();
     }
     type.structure = found->second;

@@ -17,7 +17,7 @@ using net::TransitionId;
 
 class ModelJudgement {
  public:
-  ModelJudgement(const LoneModel& model, diagnostics::Diagnostics& out)
+  ModelJudgement(const ClosedModel& model, diagnostics::Diagnostics& out)
       : model_(model), net_(model.net), explored_(model.net), out_(out) {
     limits_.time = std::chrono::seconds(20);
     limits_.bytes = std::uint64_t{1} << 28U;
@@ -116,7 +116,7 @@ class ModelJudgement {
     return false;
   }
 
-  const LoneModel& model_;
+  const ClosedModel& model_;
   const net::Net& net_;
   explore::PtNet explored_;
   explore::Limits limits_;
@@ -125,7 +125,7 @@ class ModelJudgement {
 
 }  // namespace
 
-bool judge_model(const LoneModel& model, diagnostics::Diagnostics& out) {
+bool judge_soundness(const ClosedModel& model, diagnostics::Diagnostics& out) {
   return ModelJudgement(model, out).result();
 }
 

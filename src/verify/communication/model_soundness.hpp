@@ -9,7 +9,7 @@ namespace tessera::verify {
 
 /// A communication model as a net by itself: two sides that share the fused places, each used by somebody who
 /// takes a token from its `out` to its `in` again and again.
-struct LoneModel {
+struct ClosedModel {
   const net::Net& net;
   net::TransitionId sends_again, receives_again;
   std::string name;
@@ -26,6 +26,6 @@ struct LoneModel {
 /// Source: van der Aalst, *The application of Petri nets to workflow management*, 1998 (soundness), for two
 /// nets
 ///         that share places.
-[[nodiscard]] bool judge_model(const LoneModel& model, diagnostics::Diagnostics& out);
+[[nodiscard]] bool judge_soundness(const ClosedModel& model, diagnostics::Diagnostics& out);
 
 }  // namespace tessera::verify

@@ -9,7 +9,7 @@
 #include "diagnostics/utf8.hpp"
 #include "drawing/drawing.hpp"
 #include "project/verification/pipeline.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 #include "server/analysis/structure.hpp"
 #include "server/http/json_text.hpp"
 #include "verify/hashes.hpp"

@@ -34,34 +34,34 @@ void answer_error(httplib::Response& response, int status, std::string_view erro
   response.set_content(text_of(json{{"error", error}, {"hint", hint}}), "application/json");
 }
 
-Body::Body(const httplib::Request& request, httplib::Response& response)
+RequestBody::RequestBody(const httplib::Request& request, httplib::Response& response)
     : response_(response), json_(json::parse(request.body, nullptr, /*allow_exceptions=*/false)) {
   if (!json_.is_object()) complain("the body is no JSON object");
 }
 
-void Body::complain(const std::string& what) {
+void RequestBody::complain(const std::string& what) {
   if (good_) answer_error(response_, 400, what);
   good_ = false;
 }
 
-const json* Body::find(const char* name) const {
+const json* RequestBody::find(const char* name) const {
   if (!json_.is_object()) return nullptr;
   const auto found = json_.find(name);
   return found == json_.end() || found->is_null() ? nullptr : &*found;
 }
 
-std::string Body::text(const char* name) {
+std::string RequestBody::text(const char* name) {
   const json* member = find(name);
   if (member != nullptr && member->is_string()) return member->get<std::string>();
   complain(std::string("'") + name + "' has to be a text");
   return {};
 }
 
-std::string Body::text_or(const char* name, std::string otherwise) {
+std::string RequestBody::text_or(const char* name, std::string otherwise) {
   return find(name) == nullptr ? std::move(otherwise) : text(name);
 }
 
-std::optional<double> Body::number(const char* name) {
+std::optional<double> RequestBody::number(const char* name) {
   const json* member = find(name);
   if (member == nullptr) return std::nullopt;
   if (member->is_number()) return member->get<double>();
@@ -69,7 +69,7 @@ std::optional<double> Body::number(const char* name) {
   return std::nullopt;
 }
 
-bool Body::flag(const char* name) {
+bool RequestBody::flag(const char* name) {
   const json* member = find(name);
   if (member == nullptr) return false;
   if (member->is_boolean()) return member->get<bool>();
@@ -77,7 +77,7 @@ bool Body::flag(const char* name) {
   return false;
 }
 
-std::vector<std::uint32_t> Body::indices(const char* list, const char* member) {
+std::vector<std::uint32_t> RequestBody::indices(const char* list, const char* member) {
   constexpr std::size_t most = 10'000;
   std::vector<std::uint32_t> numbers;
   const json* given = find(list);
@@ -98,7 +98,7 @@ std::vector<std::uint32_t> Body::indices(const char* list, const char* member) {
   return numbers;
 }
 
-std::vector<std::string> Body::texts(const char* name) {
+std::vector<std::string> RequestBody::texts(const char* name) {
   const json* member = find(name);
   std::vector<std::string> texts;
   if (member == nullptr) return texts;

@@ -25,9 +25,9 @@ void answer_error(httplib::Response& response, int status, std::string_view erro
 
 /// The body of a request: an object with members of known types. What is wrong with it goes into the
 /// response.
-class Body {
+class RequestBody {
  public:
-  Body(const httplib::Request& request, httplib::Response& response);
+  RequestBody(const httplib::Request& request, httplib::Response& response);
   /// false: it is no object, or a member asked for was missing or of another type; the response says so.
   [[nodiscard]] bool good() const { return good_; }
 

@@ -39,7 +39,7 @@ std::string random_token() {
   return digits;
 }
 
-std::optional<Refusal> Guard::refuse(const httplib::Request& request) const {
+std::optional<Refusal> RequestGuard::refuse(const httplib::Request& request) const {
   if (request.path.size() > longest_path) return Refusal{414, "the address is too long", ""};
   if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
     return Refusal{403, "this address is not the studio's",
@@ -55,11 +55,11 @@ std::optional<Refusal> Guard::refuse(const httplib::Request& request) const {
   return std::nullopt;
 }
 
-bool Guard::is_here(std::string_view authority) const {
+bool RequestGuard::is_here(std::string_view authority) const {
   return authority == "127.0.0.1:" + port_ || authority == "localhost:" + port_;
 }
 
-bool Guard::comes_from_here(const httplib::Request& request) const {
+bool RequestGuard::comes_from_here(const httplib::Request& request) const {
   constexpr std::string_view scheme = "http://";
   if (request.has_header("Origin")) {
     const std::string origin = request.get_header_value("Origin");
@@ -72,7 +72,7 @@ bool Guard::comes_from_here(const httplib::Request& request) const {
   return !is_api(request) || site.empty() || site == "same-origin" || site == "none";
 }
 
-bool Guard::has_token(const httplib::Request& request) const {
+bool RequestGuard::has_token(const httplib::Request& request) const {
   const std::string header = request.get_header_value("Authorization");
   if (header.starts_with(bearer)) return same(std::string_view(header).substr(bearer.size()), token_);
   // EventSource can set no header.

@@ -22,9 +22,9 @@ struct Refusal {
 /// resolves to this machine by the Host.
 ///
 /// Threads: any.
-class Guard {
+class RequestGuard {
  public:
-  Guard(int port, std::string token) : port_(std::to_string(port)), token_(std::move(token)) {}
+  RequestGuard(int port, std::string token) : port_(std::to_string(port)), token_(std::move(token)) {}
   /// nullopt: it may pass.
   [[nodiscard]] std::optional<Refusal> refuse(const httplib::Request& request) const;
 

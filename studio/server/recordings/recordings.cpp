@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
 #include "replay/values.hpp"
 #include "server/http/json_text.hpp"
-#include "server/http/path.hpp"
 #include "server/recordings/growing_file.hpp"
-#include "server/recordings/tail.hpp"
-#include "server/recordings/tokens.hpp"
+#include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/recording_tail.hpp"
+#include "server/recordings/robot_path.hpp"
 #include "server/recordings/value_json.hpp"
 #include "tessera/recording.hpp"
 
@@ -25,8 +26,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-constexpr const char* recording_of_a_run = "recording.tsr";
 
 bool is_plain(const fs::path& path, fs::file_type type) {
   std::error_code ignored;
@@ -191,7 +190,7 @@ class Content {
 
   const Recordings::Span span_;
   std::optional<NetNames> names_;
-  std::optional<Tokens> tokens_;
+  std::optional<MarkingTracker> tokens_;
   std::vector<std::uint32_t> transitions_;  // of the recording: indices of the net
   ValueSeries values_;
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
@@ -205,7 +204,7 @@ class Content {
 json path_of(const fs::path& file, Recordings::Span span) {
   GrowingFile bytes(file);
   PathReader reader;
-  ThinPath path(Recordings::most_points);
+  ThinnedPath path(Recordings::most_points);
   for (std::string some; !(some = bytes.more()).empty();)
     for (const PathPoint& point : reader.feed(some))
       if (point.time_ns >= span.from_ns && point.time_ns <= span.to_ns) path.add(point);
@@ -223,7 +222,7 @@ json track_of(const fs::path& summary) {
 
 std::map<std::string, fs::path> Recordings::files() const {
   std::map<std::string, fs::path> found;
-  const fs::path folder = file_.folder(), kept = folder / ".tessera";
+  const fs::path folder = file_.folder(), kept = project::own_folder(folder);
   const auto add = [&](const std::string& name, const fs::path& file) {
     if (is_plain(file, fs::file_type::regular)) found.emplace(name, file);
   };
@@ -233,12 +232,14 @@ std::map<std::string, fs::path> Recordings::files() const {
     if (file.extension() == ".tsr" && !is_part) add(file.filename().string(), file);
   }
   const fs::path state = project::state_folder(folder), elsewhere = state == kept ? fs::path() : state;
-  for (const fs::path& place : {kept, elsewhere}) {
-    if (place.empty() || !is_plain(place, fs::file_type::directory)) continue;
-    for (const fs::path& run : entries_of(place / "runs"))
-      if (is_plain(run, fs::file_type::directory)) add(run.filename().string(), run / recording_of_a_run);
+  for (const fs::path& root : {kept, elsewhere}) {
+    if (root.empty() || !is_plain(root, fs::file_type::directory)) continue;
+    for (const fs::path& run : entries_of(root / "runs"))
+      if (is_plain(run, fs::file_type::directory))
+        add(run.filename().string(), run / project::file_names::recording);
     // A link to one of the runs, or the folder of a version before this.
-    if (is_plain(place / "last", fs::file_type::directory)) add("last", place / "last" / recording_of_a_run);
+    if (is_plain(root / "last", fs::file_type::directory))
+      add("last", root / "last" / project::file_names::recording);
   }
   return found;
 }
@@ -291,9 +292,9 @@ std::optional<std::string> Recordings::content(const std::string& name, Span spa
   }
   if (!stream.recording()) throw std::runtime_error(name + " is no recording");
   json whole = content.take(stream.is_cut());
-  const bool has_files = file.filename() == recording_of_a_run;  // beside it
-  whole["path"] = has_files ? path_of(file.parent_path() / "path.csv", span) : json::array();
-  whole["track"] = has_files ? track_of(file.parent_path() / "summary.json") : json();
+  const bool has_files = file.filename() == project::file_names::recording;  // beside it
+  whole["path"] = has_files ? path_of(file.parent_path() / project::file_names::path, span) : json::array();
+  whole["track"] = has_files ? track_of(file.parent_path() / project::file_names::summary) : json();
   return text_of(whole);
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "server/analysis/analysis.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 
 namespace tessera::server {
 
@@ -40,12 +40,12 @@ class Recordings {
   [[nodiscard]] nlohmann::json known_summary_of(const std::filesystem::path& file) const;
   SpecFile& file_;
   Analyses& analyses_;
-  struct Known {
+  struct KnownSummary {
     std::int64_t bytes = 0, modified_ns = 0;  ///< of the newest file
     nlohmann::json summary;
   };
   mutable std::mutex mutex_;  ///< of what follows
-  mutable std::map<std::filesystem::path, Known> known_;
+  mutable std::map<std::filesystem::path, KnownSummary> known_;
 };
 
 }  // namespace tessera::server

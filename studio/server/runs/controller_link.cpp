@@ -148,17 +148,20 @@ std::optional<project::Snapshot> ControllerLink::snapshot() {
   return std::exchange(snapshot_, std::nullopt);
 }
 
-std::string ControllerLink::command(const project::ControlCommand& command) {
+std::optional<Problem> ControllerLink::command(const project::ControlCommand& command) {
   constexpr auto patience = std::chrono::seconds(5);
   std::unique_lock lock(mutex_);
   if (!answered_.wait_for(lock, patience, [&] { return open_ || over_; }) || over_)
-    return over_ ? "the controller has ended" : "the controller does not listen yet";
+    return Problem{over_ ? "the controller has ended" : "the controller does not listen yet"};
   const std::int64_t id = ++last_;
-  if (!say(project::line_of(command, id))) return "the controller takes no commands";
+  if (!say(project::line_of(command, id))) return Problem{"the controller takes no commands"};
   if (!answered_.wait_for(lock, patience, [&] { return !open_ || answers_.contains(id); }))
-    return "the controller does not answer";
+    return Problem{"the controller does not answer"};
   const auto answer = answers_.find(id);
-  return answer == answers_.end() ? "the controller has ended" : answers_.extract(answer).mapped();
+  if (answer == answers_.end()) return Problem{"the controller has ended"};
+  std::string problem = answers_.extract(answer).mapped();
+  if (problem.empty()) return std::nullopt;
+  return Problem{std::move(problem)};
 }
 
 void ControllerLink::close() {

@@ -11,6 +11,7 @@
 
 #include "project/process/control_messages.hpp"
 #include "tessera/growing_recording.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::server {
 
@@ -34,9 +35,9 @@ class ControllerLink {
   /// What the controller's recording holds besides what was asked for before, as it was after the last
   /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
-  /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
+  /// nullopt: done. Waits for the connection and the answer, at most five
   /// seconds each. Meanwhile somebody has to call connect and snapshot.
-  [[nodiscard]] std::string command(const project::ControlCommand& command);
+  [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();
   /// It has said that its run is over. Otherwise, when it is over, the connection was lost.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "project/files/file_names.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/launch.hpp"
@@ -93,9 +94,9 @@ json read_summary(const std::filesystem::path& file) {
 }  // namespace
 
 /// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
-class Run::Teller final : public project::Listener {
+class Run::RunListener final : public project::Listener {
  public:
-  explicit Teller(const Run& run) : run_(run) {}
+  explicit RunListener(const Run& run) : run_(run) {}
   void say(std::string_view text) override {
     for (std::size_t start = 0; start < text.size();) {
       const std::size_t end = std::min(text.find('\n', start), text.size());
@@ -172,12 +173,12 @@ void Run::make_and_run() {
 }
 
 std::optional<project::Controller> Run::make() {
-  Teller teller(*this);
+  RunListener teller(*this);
   set_state(State::building);
   project::LaunchOptions launch;
   launch.spec = spec_.string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate || !request_.world.empty();
-  if (!project::drivers_are_there(launch, simulated, teller)) {
+  if (!project::every_real_buffer_has_driver(launch, simulated, teller)) {
     set_state(State::failed, teller.error());
     return std::nullopt;
   }
@@ -193,10 +194,10 @@ std::optional<project::Controller> Run::make() {
 }
 
 void Run::execute(project::Controller controller) {
-  Teller teller(*this);
+  RunListener teller(*this);
   const project::RunFolder folder(project::state_folder(controller.specification.project),
                                   name_of(request_.kind), project::RunFolder::Shown::as_last, teller);
-  controller.program = folder.own(controller.program);
+  controller.program = folder.own_copy_of(controller.program);
   {
     const std::lock_guard lock(mutex_);
     verdicts_ = json::object();
@@ -220,7 +221,7 @@ void Run::execute(project::Controller controller) {
   set_state(request_.paused && simulated ? State::paused : State::running);
   const std::filesystem::path note = folder.path() / "death.txt";
   const project::Exit exit = project::capture_apart(
-      project::attended(command, note), stop_,
+      project::with_death_note(command, note), stop_,
       [this](std::string_view line) {
         publish("log", {{"line", line}});
       },
@@ -231,7 +232,7 @@ void Run::execute(project::Controller controller) {
       });
   process_over_ = true;
   if (follower_.joinable()) follower_.join();
-  json summary = read_summary(folder.path() / "summary.json");
+  json summary = read_summary(folder.path() / project::file_names::summary);
   const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
   std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
   if (!summary.is_object()) {
@@ -247,21 +248,22 @@ void Run::execute(project::Controller controller) {
 }
 
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
-  Follower follower(RecordingStream::of_file(folder / "recording.tsr", GrowingRecording::From::newest),
-                    folder / "path.csv", *analysis_);
+  RunFollower follower(
+      RecordingStream::of_file(folder / project::file_names::recording, GrowingRecording::From::newest),
+      folder / project::file_names::path, *analysis_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
     const bool more = tell(follower, connected ? link_.snapshot() : std::nullopt, last);
     if (last && !more) break;
-    if (!more) Follower::rest();
+    if (!more) RunFollower::rest();
   }
   link_.close();
 }
 
 /// true: there is more to tell at once.
-bool Run::tell(Follower& follower, std::optional<project::Snapshot> snapshot, bool last) {
-  Follower::News news = follower.look(std::move(snapshot), last);
+bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last) {
+  RunFollower::News news = follower.poll(std::move(snapshot), last);
   std::optional<State> changed;
   {
     const std::lock_guard lock(mutex_);
@@ -283,16 +285,16 @@ bool Run::tell(Follower& follower, std::optional<project::Snapshot> snapshot, bo
   return news.more;
 }
 
-/// Why what runs there cannot be shown on this net; empty: it can.
-std::string Run::refused(const project::Snapshot& snapshot) const {
-  if (snapshot.net_hash == analysis_->net_hash) return {};
-  return fmt::format("the controller runs another net (of the system {}) than the specification here",
-                     snapshot.system);
+/// Why what runs there cannot be shown on this net; nullopt: it can.
+std::optional<Problem> Run::why_not_attachable(const project::Snapshot& snapshot) const {
+  if (snapshot.net_hash == analysis_->net_hash) return std::nullopt;
+  return Problem{fmt::format("the controller runs another net (of the system {}) than the specification here",
+                             snapshot.system)};
 }
 
 /// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
 /// names a file of another machine, where this one may have an old one.
-std::filesystem::path Run::readable(const project::Snapshot& snapshot) {
+std::filesystem::path Run::readable_recording(const project::Snapshot& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.recording.value_or(""), missing);
   const std::filesystem::path folder = spec_.parent_path();
@@ -307,17 +309,18 @@ void Run::attach() {
   std::optional<project::Snapshot> snapshot;
   while (!snapshot && !stop_ && !link_.is_over()) {
     snapshot = link_.snapshot();
-    if (!snapshot) Follower::rest();
+    if (!snapshot) RunFollower::rest();
   }
   if (!snapshot) return set_state(State::ended, "it has ended");
-  if (const std::string why = refused(*snapshot); !why.empty()) return set_state(State::failed, why);
-  const std::filesystem::path file = readable(*snapshot);
-  Follower follower(file.empty() ? [this] { return link_.recording(); }
-                                 : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                    file.empty() ? file : file.parent_path() / "path.csv", *analysis_);
+  if (const std::optional<Problem> why = why_not_attachable(*snapshot))
+    return set_state(State::failed, why->text);
+  const std::filesystem::path file = readable_recording(*snapshot);
+  RunFollower follower(file.empty() ? [this] { return link_.recording(); }
+                                    : RecordingStream::of_file(file, GrowingRecording::From::newest),
+                       file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
-    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) Follower::rest();
+    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();
     snapshot = link_.snapshot();
   }
   while (!stop_ && tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/true)) continue;
@@ -343,21 +346,21 @@ json Run::info(bool all) const {
   return info;
 }
 
-std::string Run::control(const RunControl& wanted) {
-  if (over()) return "the run is over";
+std::optional<Problem> Run::control(const RunControl& wanted) {
+  if (over()) return Problem{"the run is over"};
   if (wanted.command == "stop") {
     stop_ = true;
-    return {};
+    return std::nullopt;
   }
-  if (request_.kind == RunRequest::Kind::run) return "a controller in real time can only be stopped";
-  if (is_building()) return "the controller is still being made";
+  if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
+  if (is_building()) return Problem{"the controller is still being made"};
   if (request_.kind == RunRequest::Kind::attach && !controllable_)
-    return "this controller can only be watched: it runs in real time";
+    return Problem{"this controller can only be watched: it runs in real time"};
   const bool of_breakpoints = wanted.command == "breakpoints";
   const std::optional<project::ControlCommand> command =
       of_breakpoints ? breakpoints_of(wanted, *analysis_->net) : plain_command_of(wanted);
   if (!command)
-    return of_breakpoints ? "the net has no such place or transition" : "there is no such command";
+    return Problem{of_breakpoints ? "the net has no such place or transition" : "there is no such command"};
   return link_.command(*command);
 }
 

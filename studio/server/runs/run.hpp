@@ -13,9 +13,10 @@
 #include "project/build/controller.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/http/events.hpp"
-#include "server/http/path.hpp"
-#include "server/recordings/follower.hpp"
+#include "server/recordings/robot_path.hpp"
+#include "server/recordings/run_follower.hpp"
 #include "server/runs/controller_link.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::server {
 
@@ -58,21 +59,21 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
-  /// What is wrong with it; empty: done.
-  [[nodiscard]] std::string control(const RunControl& wanted);
+  /// nullopt: done.
+  [[nodiscard]] std::optional<Problem> control(const RunControl& wanted);
   void stop() { stop_ = true; }
 
  private:
-  class Teller;
+  class RunListener;
   [[nodiscard]] bool is_building() const;
   void make_and_run();
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
   void attach();
-  [[nodiscard]] std::string refused(const project::Snapshot& snapshot) const;
-  [[nodiscard]] std::filesystem::path readable(const project::Snapshot& snapshot);
+  [[nodiscard]] std::optional<Problem> why_not_attachable(const project::Snapshot& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable_recording(const project::Snapshot& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
-  [[nodiscard]] bool tell(Follower& follower, std::optional<project::Snapshot> snapshot, bool last);
+  [[nodiscard]] bool tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last);
   void set_state(State state, const std::string& why = {});
   void publish(const char* event, nlohmann::json data) const;
 
@@ -89,7 +90,7 @@ class Run {
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
-  ThinPath path_{5000};
+  ThinnedPath path_{5000};
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
 };

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "server/analysis/analysis.hpp"
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 #include "server/http/events.hpp"
 #include "server/runs/run.hpp"
 

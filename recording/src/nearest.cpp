@@ -1,3 +1,5 @@
+#include "tessera/nearest.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -7,9 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "diagnostics/diagnostics.hpp"
-
-namespace tessera::diagnostics {
+namespace tessera {
 namespace {
 
 constexpr std::size_t longest_word = 80;
@@ -97,4 +97,9 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return found.empty() ? std::string() : "did you mean '" + found + "'?";
 }
 
-}  // namespace tessera::diagnostics
+std::string with_hint(std::string message, std::string_view hint) {
+  if (!hint.empty()) message.append("; ").append(hint);
+  return message;
+}
+
+}  // namespace tessera

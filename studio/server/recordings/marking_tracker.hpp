@@ -9,10 +9,10 @@
 namespace tessera::server {
 
 /// Where the tokens of a net are while a recorded run goes on.
-class Tokens {
+class MarkingTracker {
  public:
   /// The initial marking. net: must outlive it.
-  explicit Tokens(const net::Net& net);
+  explicit MarkingTracker(const net::Net& net);
   void fire(std::uint32_t transition);
   /// One in each of these places, and no others.
   void set(std::span<const std::uint32_t> places);

@@ -1,4 +1,4 @@
-#include "server/http/path.hpp"
+#include "server/recordings/robot_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ std::vector<PathPoint> PathReader::feed(std::string_view bytes) {
   return points;
 }
 
-void ThinPath::add(const PathPoint& point) {
+void ThinnedPath::add(const PathPoint& point) {
   last_ = point;
   if (count_++ % every_ != 0) return;
   points_.push_back(point);
@@ -50,7 +50,7 @@ void ThinPath::add(const PathPoint& point) {
   every_ *= 2;
 }
 
-nlohmann::json ThinPath::rows() const {
+nlohmann::json ThinnedPath::rows() const {
   nlohmann::json rows = nlohmann::json::array();
   const auto add_row = [&](const PathPoint& point) {
     rows.push_back({point.time_ns, point.x_m, point.y_m, point.heading_rad});

@@ -1,14 +1,14 @@
-#include "server/recordings/tokens.hpp"
+#include "server/recordings/marking_tracker.hpp"
 
 #include <algorithm>
 
 namespace tessera::server {
 
-Tokens::Tokens(const net::Net& net) : net_(net) {
+MarkingTracker::MarkingTracker(const net::Net& net) : net_(net) {
   for (const net::Place& place : net.places()) tokens_.push_back(static_cast<std::int32_t>(place.tokens));
 }
 
-void Tokens::fire(std::uint32_t transition) {
+void MarkingTracker::fire(std::uint32_t transition) {
   const net::TransitionId id{transition};
   for (const net::Arc& arc : net_.preset(id))
     tokens_[arc.place.value] -= static_cast<std::int32_t>(arc.weight);
@@ -16,12 +16,12 @@ void Tokens::fire(std::uint32_t transition) {
     tokens_[arc.place.value] += static_cast<std::int32_t>(arc.weight);
 }
 
-void Tokens::set(std::span<const std::uint32_t> places) {
+void MarkingTracker::set(std::span<const std::uint32_t> places) {
   std::ranges::fill(tokens_, 0);
   for (const std::uint32_t place : places) tokens_[place] = 1;
 }
 
-std::vector<std::uint32_t> Tokens::marked() const {
+std::vector<std::uint32_t> MarkingTracker::marked() const {
   std::vector<std::uint32_t> marked;
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0) marked.push_back(place);

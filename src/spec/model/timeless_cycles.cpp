@@ -1,4 +1,4 @@
-#include "spec/model/standstill.hpp"
+#include "spec/model/timeless_cycles.hpp"
 
 #include <algorithm>
 
@@ -41,7 +41,7 @@ std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& w
 
 }  // namespace
 
-std::vector<Index> standing_still(const Subsystem& subsystem, const std::vector<bool>& waits) {
+std::vector<Index> timeless_cycles(const Subsystem& subsystem, const std::vector<bool>& waits) {
   const std::vector<bool> left = endless(subsystem, waits);
   std::vector<Index> found;
   bool circle_found = false;

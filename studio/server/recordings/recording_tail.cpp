@@ -1,4 +1,4 @@
-#include "server/recordings/tail.hpp"
+#include "server/recordings/recording_tail.hpp"
 
 #include <algorithm>
 #include <chrono>

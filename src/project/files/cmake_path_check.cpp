@@ -1,7 +1,8 @@
-#include "project/files/path_check.hpp"
+#include "project/files/cmake_path_check.hpp"
 
 #include <fmt/core.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -9,8 +10,8 @@ namespace tessera::project {
 
 namespace {
 
-/// "the character ';'"; empty: CMake can handle the path.
-std::string trouble_in(std::string_view path) {
+/// "the character ';'"; nullopt: CMake can handle the path.
+std::optional<std::string> trouble_in(std::string_view path) {
   for (std::size_t at = 0; at < path.size(); ++at) {
     const auto byte = static_cast<unsigned char>(path[at]);
     if (byte < 0x20 || byte == 0x7f) return fmt::format("a control character (code {})", byte);
@@ -19,7 +20,7 @@ std::string trouble_in(std::string_view path) {
     if (path[at] == '$' && path.find_first_of("{<", at) != std::string_view::npos)
       return fmt::format("the character $ before {}", path[path.find_first_of("{<", at)]);
   }
-  return {};
+  return std::nullopt;
 }
 
 /// As it may be printed.
@@ -34,11 +35,11 @@ std::string shown(std::string_view path) {
 
 }  // namespace
 
-void check_path(const std::filesystem::path& path) {
-  const std::string trouble = trouble_in(path.native());
-  if (!trouble.empty())
+void check_path_for_cmake(const std::filesystem::path& path) {
+  const std::optional<std::string> trouble = trouble_in(path.native());
+  if (trouble)
     throw std::runtime_error(fmt::format("the path {} has {}, which CMake cannot handle: rename that folder",
-                                         shown(path.native()), trouble));
+                                         shown(path.native()), *trouble));
 }
 
 }  // namespace tessera::project

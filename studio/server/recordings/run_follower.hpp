@@ -10,18 +10,18 @@
 
 #include "project/process/control_messages.hpp"
 #include "server/analysis/analysis.hpp"
-#include "server/http/path.hpp"
 #include "server/recordings/growing_file.hpp"
-#include "server/recordings/tail.hpp"
+#include "server/recordings/recording_tail.hpp"
+#include "server/recordings/robot_path.hpp"
 
 namespace tessera::server {
 
 /// Puts together what is known of a running controller: firings and values from its recording, the robot's
 /// path, and the snapshots of its control socket. Ready to be sent.
-class Follower {
+class RunFollower {
  public:
   /// path: file that the run writes; empty: none that can be read.
-  Follower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
+  RunFollower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
 
   struct News {
     nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
@@ -36,7 +36,7 @@ class Follower {
   /// snapshot: of the control socket, if there is a new one. What it says is told when everything that the
   /// run had recorded by then has been read.
   /// last: nothing is kept for later.
-  [[nodiscard]] News look(std::optional<project::Snapshot> snapshot, bool last);
+  [[nodiscard]] News poll(std::optional<project::Snapshot> snapshot, bool last);
   /// Until it is worth while to look again.
   static void rest();
 

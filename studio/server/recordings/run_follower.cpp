@@ -1,4 +1,4 @@
-#include "server/recordings/follower.hpp"
+#include "server/recordings/run_follower.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -26,13 +26,13 @@ std::int64_t nanoseconds(double seconds) {
 
 }  // namespace
 
-Follower::Follower(RecordingStream::Source recording, const std::filesystem::path& path,
-                   const Analysis& analysis)
+RunFollower::RunFollower(RecordingStream::Source recording, const std::filesystem::path& path,
+                         const Analysis& analysis)
     : recording_(std::move(recording), *analysis.net), path_(path) {}
 
-void Follower::rest() { std::this_thread::sleep_for(between_looks); }
+void RunFollower::rest() { std::this_thread::sleep_for(between_looks); }
 
-Follower::News Follower::look(std::optional<project::Snapshot> snapshot, bool last) {
+RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
   add_firings(news);
@@ -43,7 +43,7 @@ Follower::News Follower::look(std::optional<project::Snapshot> snapshot, bool la
   return news;
 }
 
-void Follower::add_firings(News& news) {
+void RunFollower::add_firings(News& news) {
   const RecordingTail::Batch batch = recording_.next();
   news.more = batch.more;
   time_ns_ = std::max(time_ns_, batch.time_ns);
@@ -59,7 +59,7 @@ void Follower::add_firings(News& news) {
 }
 
 /// at_once: also those that would be told a little later.
-void Follower::add_values(News& news, bool at_once) {
+void RunFollower::add_values(News& news, bool at_once) {
   if (!at_once && Clock::now() - values_told_ < between_values) return;
   json values = recording_.take_changed_values(at_once ? SIZE_MAX : most_values);
   if (values.empty()) return;
@@ -67,7 +67,7 @@ void Follower::add_values(News& news, bool at_once) {
   news.values = {{"t", time_ns_}, {"values", std::move(values)}};
 }
 
-void Follower::add_path(News& news, bool at_once) {
+void RunFollower::add_path(News& news, bool at_once) {
   const std::string bytes = path_.more(piece_of_path);
   news.more = news.more || bytes.size() == piece_of_path;
   news.path = points_.feed(bytes);
@@ -78,7 +78,7 @@ void Follower::add_path(News& news, bool at_once) {
   news.pose = {{"t", pose.time_ns}, {"x", pose.x_m}, {"y", pose.y_m}, {"heading", pose.heading_rad}};
 }
 
-void Follower::add_snapshot(const project::Snapshot& snapshot, News& news) {
+void RunFollower::add_snapshot(const project::Snapshot& snapshot, News& news) {
   const std::int64_t time_ns = nanoseconds(snapshot.time_s);
   news.time_ns = std::max(news.time_ns, time_ns);
   if (Clock::now() - subsystems_told_ >= between_subsystems) {

@@ -1,4 +1,4 @@
-#include "spec/model/flow.hpp"
+#include "spec/model/behaviour_flow.hpp"
 
 #include <algorithm>
 
@@ -96,7 +96,7 @@ std::vector<bool> reachable(const Subsystem& subsystem) {
 
 }  // namespace
 
-void check_flow(const Subsystem& subsystem, Diagnostics& out) {
+void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   if (subsystem.behaviours.empty()) return;
   for (const Behaviour& behaviour : subsystem.behaviours) {
     if (behaviour.next.empty()) continue;

@@ -1,4 +1,4 @@
-#include "spec/document/words_of_cpp.hpp"
+#include "spec/document/cpp_names.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,8 +11,8 @@
 
 #include "net/net.hpp"
 #include "replay/values.hpp"
+#include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/recording_stream.hpp"
-#include "server/recordings/tokens.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server {
@@ -72,7 +72,7 @@ class RecordingTail {
   RecordingStream stream_;
   std::optional<Segment> segment_;
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
-  Tokens tokens_;
+  MarkingTracker tokens_;
 };
 
 }  // namespace tessera::server

@@ -1,4 +1,4 @@
-#include "server/analysis/folder.hpp"
+#include "server/analysis/spec_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tessera/net_hash.hpp"
+#include "project/files/files.hpp"
 
 namespace tessera::server {
 
@@ -37,23 +37,9 @@ std::string reason() { return std::strerror(errno); }
 
 SpecFile::Content unreadable(std::string why) { return {{}, revision_of({}), std::move(why)}; }
 
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = write(file, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return fsync(file) == 0;
-}
-
 }  // namespace
 
-std::string revision_of(std::string_view text) {
-  NetHash hash;
-  hash.place(text, 0);
-  return hash.hex();
-}
+std::string revision_of(std::string_view text) { return project::hash_of(text); }
 
 SpecFile::SpecFile(std::filesystem::path file)
     : path_(std::move(file)),
@@ -100,7 +86,7 @@ SpecFile::Outcome SpecFile::write(std::string_view text, std::string_view revisi
     const Descriptor file(
         openat(folder_, beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
     if (!file.valid()) return failed(reason());
-    if (!write_all(file.get(), text)) {
+    if (!project::write_all(file.get(), text) || fsync(file.get()) != 0) {
       std::string why = reason();
       unlinkat(folder_, beside.c_str(), 0);
       return failed(std::move(why));

@@ -27,10 +27,10 @@ class PathReader {
 };
 
 /// A path of any length in at most so many points, which are evenly spread.
-class ThinPath {
+class ThinnedPath {
  public:
   /// most: at least 3.
-  explicit ThinPath(std::size_t most) : most_(most) {}
+  explicit ThinnedPath(std::size_t most) : most_(most) {}
   void add(const PathPoint& point);
   /// [[t, x, y, heading]], of which the last is the last that was added.
   [[nodiscard]] nlohmann::json rows() const;

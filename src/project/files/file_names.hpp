@@ -1,0 +1,17 @@
+#pragma once
+
+#include "tessera/recording.hpp"
+
+/// Names of files that Tessera finds again in the folder of a project or of a run.
+namespace tessera::project::file_names {
+
+inline constexpr const char* specification = "spec.yaml";
+inline constexpr const char* parameters = "params.yaml";
+inline constexpr const char* state_folder = ".tessera";  ///< of the project
+
+// In the folder of a run.
+inline constexpr const char* recording = recording_file_name;
+inline constexpr const char* path = "path.csv";  ///< that the robot took
+inline constexpr const char* summary = "summary.json";
+
+}  // namespace tessera::project::file_names

@@ -21,13 +21,13 @@ struct Departure {
   Time stamp{};            ///< when it was last written to the channel
 };
 
-/// A value with its status. Of a structure, the fields and the status are members side by side
+/// A value with its status. If the value is a structure, its fields and the status are members side by side
 /// (`in.line.left`, `in.line.fresh`); the names of the status are reserved in specifications.
 template <class T, class Status, bool = std::is_class_v<T>>
 struct Buffer : T, Status {
   Buffer() : T{}, Status{} {}
-  Buffer(const T& value)
-      : T(value), Status{} {}  // NOLINT(google-explicit-constructor): a value is a buffer of it
+  // NOLINTNEXTLINE(google-explicit-constructor): a value is a buffer of it
+  Buffer(const T& value) : T(value), Status{} {}
   Buffer& operator=(const T& value) {
     static_cast<T&>(*this) = value;
     return *this;
@@ -35,7 +35,7 @@ struct Buffer : T, Status {
   friend T& payload(Buffer& buffer) { return buffer; }
 };
 
-/// Of a number or bool: converts to it.
+/// The same for a number or a bool: the buffer converts to it.
 template <class T, class Status>
 struct Buffer<T, Status, false> : Status {
   Buffer() = default;

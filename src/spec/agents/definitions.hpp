@@ -4,9 +4,9 @@
 
 namespace tessera::spec {
 
-/// The body of an agent or template: control, receptors, effectors.
+/// Reads the body of an agent or template: control, receptors, effectors.
 ///
-/// Errors: E103 no control subsystem; E107 two subsystems of one name; those of subsystems.
+/// Errors: E103 no control subsystem; E107 two subsystems with one name; those of subsystems.
 [[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const Surroundings& around,
                                          Diagnostics& out);
 
@@ -15,7 +15,7 @@ class Templates {
  public:
   /// Reads the section into model.definitions. section may be null.
   void read(const Entry* section, const Surroundings& around, Model& model, Diagnostics& out);
-  /// The definition behind a name, none after an error. Errors: E101 unknown template.
+  /// The definition with that name; none after an error. Errors: E101 unknown template.
   [[nodiscard]] Index find(const Node& name, Diagnostics& out);
   /// Warnings: W319.
   void complain_about_unused(Diagnostics& out) const;
@@ -33,7 +33,7 @@ class Templates {
 
   std::unordered_map<std::string, Template> by_name_;
   std::vector<std::string> order_;
-  bool one_is_unknown_ = false;  ///< some name was looked up in vain
+  bool one_is_unknown_ = false;  ///< a name was looked up in vain
 };
 
 }  // namespace tessera::spec

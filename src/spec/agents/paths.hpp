@@ -13,34 +13,34 @@
 /// Paths of buffers as the file writes them: robot.control.line, robot[3]..., robot[i+1]..., robot[*]...
 namespace tessera::spec {
 
-/// Which agents of a group a path means.
+/// Selects the agents of a group that a path means.
 struct Selector {
   enum class Kind : std::uint8_t { plain, constant, variable, all } kind = Kind::plain;
-  std::int64_t number = 0;  ///< constant: the agent; variable: what is added to i
+  std::int64_t number = 0;  ///< constant: the number of the agent; variable: what is added to i
 };
 
 inline constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or *";
 
-/// 3, i, i+1, i - 1, *; nullopt: no index.
+/// Reads 3, i, i+1, i - 1, or *. nullopt: the text is no index.
 [[nodiscard]] std::optional<Selector> read_index(std::string_view text);
 
-/// The number of the agent that a selector means for i (which `*` counts too); none past the end of a group
-/// that is no ring.
+/// The number of the agent that a selector means for i (`*` means agent i). none: past the end
+/// of a group that is no ring.
 [[nodiscard]] Index agent_number(const Selector& selector, const Group& group, std::int64_t i);
 
-/// A path, taken apart but not looked up.
+/// A path, split but not looked up.
 struct BufferPath {
   std::string agent, subsystem, buffer;
   Span whole, agent_span, index_span, subsystem_span, buffer_span;
   Selector selector;
 };
 
-/// text: where the path stands; [offset, offset + length) of it is the path.
+/// text: the node that contains the path; [offset, offset + length) of it is the path.
 /// Errors: E112 not of the form AGENT.SUBSYSTEM.BUFFER.
 [[nodiscard]] std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
                                                    Diagnostics& out);
 
-/// The path of a real buffer, or of a subsystem (AGENT.SUBSYSTEM): then `buffer` is empty.
+/// The path of a real buffer, or of a subsystem (AGENT.SUBSYSTEM); in that case `buffer` is empty.
 /// Errors: E112 as for split_path.
 [[nodiscard]] std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out);
 
@@ -50,7 +50,7 @@ struct Place {
   Index subsystem = none;  ///< into Definition::subsystems
 };
 
-/// How far a path could be followed before it named something unknown.
+/// How much of a path was known.
 enum class Known : std::uint8_t { nothing, agent, subsystem };
 
 /// Looks paths up.
@@ -58,11 +58,11 @@ class Lookup {
  public:
   Lookup(const Model& model, const Groups& groups);
 
-  /// Errors: E101 unknown agent or subsystem; E303 index out of range; E112 an index where none belongs or
-  /// none where one does. place and known tell how far it came; true if all is well.
+  /// Errors: E101 unknown agent or subsystem; E303 index out of range; E112 an index where none belongs, or
+  ///         a missing index. place and known tell which part was found; true if all of it was.
   [[nodiscard]] bool find(const BufferPath& path, Place& place, Known& known, Diagnostics& out) const;
 
-  /// The agents of that name, or null.
+  /// The agents with that name, or null.
   ///
   /// Errors: E101 unknown agent.
   [[nodiscard]] const Group* find_group(const std::string& agent, Span span, Diagnostics& out) const;
@@ -73,14 +73,14 @@ class Lookup {
   [[nodiscard]] static bool check_index(const Selector& selector, const Group& group, Span agent_span,
                                         Span index_span, Diagnostics& out);
 
-  /// The buffer's index in `buffers`; none and E101 if it is not there. what: "output", "input", "real
-  /// buffer".
+  /// The buffer's index in `buffers`; none and E101 if it is not there. what:
+  /// "output", "input", "real buffer".
   [[nodiscard]] Index find_buffer(const BufferPath& path, const Place& place,
                                   const std::vector<Field>& buffers, const std::string& what,
                                   Diagnostics& out) const;
 
   [[nodiscard]] const Subsystem& subsystem(const Place& place) const;
-  /// The instance of the place in agent `number` of its group.
+  /// The instance of `place` in agent `number` of its group.
   [[nodiscard]] Index instance(const Place& place, Index number) const;
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const Groups& groups() const { return groups_; }
@@ -88,7 +88,7 @@ class Lookup {
  private:
   const Model& model_;
   const Groups& groups_;
-  std::vector<std::string> names_;  ///< of the groups, sorted, to guess from
+  std::vector<std::string> names_;  ///< names of the groups, sorted, for hints
 };
 
 }  // namespace tessera::spec

@@ -6,17 +6,16 @@
 
 namespace tessera::spec {
 
-/// What every subsystem sees.
+/// What every subsystem of the specification can refer to.
 struct Surroundings {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system
 };
 
-/// The subsystem below `entry`, whose key is its name.
+/// Reads the subsystem below `entry`, whose key is its name.
 ///
 /// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
-/// those of
-///         buffers, parameters and behaviours.
+///         those of buffers, parameters and behaviours.
 [[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const Surroundings& around,
                                        Diagnostics& out);
 

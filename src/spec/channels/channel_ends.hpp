@@ -7,17 +7,17 @@
 
 namespace tessera::spec {
 
-/// One end of a channel as written: the place, the buffer, and which agents.
+/// One end of a channel as written: the subsystem, the buffer, and which agents.
 struct End {
   BufferPath path;
   Place place;
   Index buffer = none;
 };
 
-/// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
+/// The pairs of agents that a channel joins: (number of the sender, number of the receiver).
 struct Expansion {
   std::vector<std::pair<Index, Index>> pairs;
-  std::vector<Index> dropped;  ///< numbers of agents it would lead to, had the fleet not ended
+  std::vector<Index> dropped;  ///< numbers of the agents that would receive if the fleet did not end
 };
 
 /// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.

@@ -4,14 +4,14 @@
 
 namespace tessera::spec {
 
-/// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file
-/// verbatim. yaml-cpp only says where a node begins, its anchor and quotes included.
+/// Sets the span of a scalar (and of a null that is written out), and whether the file contains its text
+/// verbatim. yaml-cpp only gives the position where a node begins, including its anchor and quotes.
 ///
 /// begin:   the place that yaml-cpp gives.
 /// Returns: false if the scalar opens a quote that nothing closes.
 [[nodiscard]] bool place_scalar(Node& node, const Span& begin, const Diagnostics& source);
 
-/// The span that begins at `begin`, behind the anchor and the tag that may stand there.
+/// The span that begins at `begin`, after an anchor and a tag, if any.
 [[nodiscard]] Span behind_properties(const Span& begin, const Diagnostics& source);
 
 }  // namespace tessera::spec

@@ -5,11 +5,11 @@
 
 namespace tessera::spec {
 
-/// Looks at how the behaviours of one subsystem follow one another.
+/// Checks how the behaviours of one subsystem follow one another.
 ///
-/// Warnings: W311 unreachable behaviour; W312 no entry of `next` may hold; W313 an error nobody routes; W314
-///           an entry that is never taken; W315 `next` of a behaviour that ends only by a failure; W323 a
-///           terminal condition that is never asked.
+/// Warnings: W311 unreachable behaviour; W312 no entry of `next` may hold; W313 an error that no entry
+///           handles; W314 an entry that is never taken; W315 `next` of a behaviour that ends only by a
+///           failure; W323 a terminal condition that is never evaluated.
 void check_flow(const Subsystem& subsystem, diagnostics::Diagnostics& out);
 
 }  // namespace tessera::spec

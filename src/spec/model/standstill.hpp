@@ -6,8 +6,9 @@
 
 namespace tessera::spec {
 
-/// Behaviours that a run could go round in for ever without time passing: those that repeat, or follow one
-/// another in a circle, none of them waiting. One behaviour per circle. waits: per behaviour.
+/// Behaviours that could repeat for ever without time passing: one that repeats itself, or several
+/// that follow one another in a cycle, if none of them waits. The result has one behaviour per
+/// cycle. waits: per behaviour.
 [[nodiscard]] std::vector<Index> standing_still(const Subsystem& subsystem, const std::vector<bool>& waits);
 
 }  // namespace tessera::spec

@@ -3,7 +3,7 @@
 #include "cli/arguments.hpp"
 #include "project/launch.hpp"
 
-/// Options that several commands have in common.
+/// Options that several commands share.
 namespace tessera::cli {
 
 /// Declares --verify-timeout and --accept-violations.

@@ -13,22 +13,22 @@
 
 namespace tessera::sim {
 
-/// What a world and its devices share: physics over a floor, and the trace of the robot: of the body that the
-/// devices are on. When they are on several, no path is that of the robot, and the trace only names them.
+/// The state that a world and its devices share: physics over a floor, and the trace of the robot,
+/// the body that has the devices. If several bodies have devices, there is no single path; the trace
+/// then only lists their names.
 ///
 /// Threads: all members lock.
 class Simulation {
  public:
-  /// `floor` absent: white everywhere.
+  /// floor: nullopt means white everywhere.
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
 
   void advance_to(Time time);
   [[nodiscard]] bool finish(std::string& error);
 
-  /// The site as a light sensor, which from now on counts for the trace. nullopt and `error` when there is
-  /// none.
+  /// Adds the site as a light sensor, which counts for the trace. nullopt and `error`: no such site.
   [[nodiscard]] std::optional<int> add_eye(const std::string& site, double footprint_m, std::string& error);
-  /// The body that it moves counts for the trace too.
+  /// Adds the actuator. The body that it moves counts for the trace, too.
   [[nodiscard]] std::optional<int> add_actuator(const std::string& name, std::string& error);
 
   /// 0 dark .. 1 bright, without noise. Throws std::runtime_error once the physics has failed.

@@ -7,10 +7,10 @@
 
 namespace tessera::project {
 
-/// Whether the files that the simulation names are there: the world, and the picture of the track.
+/// Whether the files that the simulation names exist: the world, and the picture of the track.
 ///
 /// project: the folder of the specification.
-/// Errors: E310 a file is neither in that folder nor among the shipped ones.
+/// Errors: E310 a file is neither in that folder nor among the files of the installation.
 bool check_files(const spec::Model& model, const std::filesystem::path& project,
                  diagnostics::Diagnostics& out);
 

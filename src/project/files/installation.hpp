@@ -6,19 +6,19 @@
 
 namespace tessera::project {
 
-/// Where this installation keeps its parts. The command is relocatable: everything is found from its own
-/// place, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
+/// The paths of this installation. The command can be moved: it finds all parts relative to its own path,
+/// in an installed prefix (bin/tessera) and in a build tree (tessera beside share/ and lib/).
 struct Installation {
   std::filesystem::path share;          ///< worlds/, tracks/, examples/, spec.schema.json
   std::filesystem::path cmake_package;  ///< folder of tesseraConfig.cmake
   std::filesystem::path world_library;  ///< libtessera_world.so
 
-  /// Throws std::runtime_error that says what is missing.
+  /// Throws std::runtime_error that names the missing part.
   [[nodiscard]] static Installation find();
 };
 
-/// `name` as given if absolute; else in the project's folder; else in share/FOLDER. nullopt when it is
-/// nowhere.
+/// `name` itself if it is absolute; otherwise in the project's folder; otherwise in share/FOLDER.
+/// nullopt: the file does not exist.
 [[nodiscard]] std::optional<std::filesystem::path> find_asset(const std::string& name,
                                                               const std::filesystem::path& project,
                                                               const std::string& folder);

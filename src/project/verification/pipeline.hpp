@@ -11,11 +11,11 @@
 #include "spec/model/model.hpp"
 #include "verify/verify.hpp"
 
-/// The walk of the data: specification -> Model -> hierarchical net -> flat net -> verified net. Every stage
-/// says what it has to say to a listener.
+/// The way of the data: specification -> Model -> hierarchical net -> flat net -> verified net. Every stage
+/// reports its messages to a listener.
 namespace tessera::project {
 
-/// A specification that was read without error.
+/// A specification that was read without errors.
 struct Specification {
   std::filesystem::path file;     ///< absolute
   std::filesystem::path project;  ///< its folder
@@ -23,43 +23,43 @@ struct Specification {
   spec::Model model;
 };
 
-/// The file that `given` means: itself, or the spec.yaml of a folder.
+/// The file that `given` means: `given` itself, or the spec.yaml of a folder.
 [[nodiscard]] std::filesystem::path spec_file(const std::filesystem::path& given);
 
-/// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been told.
+/// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been reported.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given, Listener& listener);
 
-/// Judges every communication model of the author's by itself. false: one is not sound, and was complained
-/// about.
+/// Judges every communication model of the specification by itself. false: one is not
+/// sound, which has been reported.
 bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
-/// The same, told.
+/// The same, with the diagnostics reported to the listener.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
-/// check_files, told (src/project/files/assets.hpp).
+/// check_files (src/project/files/assets.hpp), with the diagnostics reported to the listener.
 [[nodiscard]] bool files_are_there(const Specification& specification, Listener& listener);
 
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
-  std::vector<net::Property> properties;  ///< of the author
+  std::vector<net::Property> properties;  ///< from the specification
 };
-/// Errors: those of layers::build, net::flatten and layers::properties; E106 a property of the author's with
-/// the name of a default one. nullopt after an error.
+/// Errors: those of layers::build, net::flatten and layers::properties; E106 a property of the
+///         specification with the name of a default one. nullopt after an error.
 [[nodiscard]] std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out);
-/// The same, told.
+/// The same, with the diagnostics reported to the listener.
 [[nodiscard]] std::optional<Nets> build(const Specification& specification, Listener& listener);
 
 /// "holds", "violated", "unknown"
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
-/// What may pass on to generation.
+/// The conditions under which a net may be generated.
 struct Gate {
   std::string timeout = "10s";     ///< for the verdicts
-  bool accept_violations = false;  ///< a violated net too
+  bool accept_violations = false;  ///< a violated net may pass, too
 };
 
-/// read, judge_models, build, verify; only a net without violations gets through, unless the gate is open.
-/// What is unknown is told of and gets through. Uses up the nets.
+/// Runs read, judge_models, build and verify. Only a net without violations passes, unless the gate accepts
+/// violations. Unknown verdicts are reported and pass. Moves the nets into the result.
 struct Verified {
   Specification specification;
   verify::VerifiedNet net;

@@ -4,14 +4,16 @@
 
 #include "project/verification/pipeline.hpp"
 
-/// The verdicts that a controller is made on: proved once, kept in the state folder for the next time.
+/// The verdicts on a net from which a controller is made. They are proved once and
+/// kept in the state folder.
 namespace tessera::project {
 
-/// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.
+/// "60s", "500ms", "2min" or seconds. Throws std::runtime_error that names `option` for anything else.
 [[nodiscard]] double seconds_of(const std::string& text, const std::string& option);
 
-/// The verdicts on a net made by build: those kept for it, if there are any that took no less time over what
-/// is unknown, or new ones. A file of kept verdicts that cannot be read or written counts for nothing.
+/// The verdicts on a net made by `build`. Stored verdicts are used if they exist and no more time is
+/// allowed now for what they leave unknown; otherwise the net is verified. A file of verdicts that cannot
+/// be read or written is ignored.
 [[nodiscard]] verify::Report verdicts(const Specification& specification, const Nets& nets, const Gate& gate,
                                       Listener& listener);
 

@@ -14,28 +14,29 @@
 /// Requests and answers in JSON.
 namespace tessera::server {
 
-/// As it is: what httplib would compress with Brotli takes seconds for a large net, and the way is short.
+/// Sends the text without compression: Brotli in httplib takes seconds for a large net,
+/// and the connection is local.
 void answer(httplib::Response& response, std::string text, int status = 200);
-/// The pieces one after the other; they are shared, not copied.
+/// Sends the pieces one after the other. They are shared, not copied.
 void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
                    const std::string& type = "application/json");
 /// {"error", "hint"}
 void answer_error(httplib::Response& response, int status, std::string_view error,
                   std::string_view hint = {});
 
-/// The body of a request: an object with members of known types. What is wrong with it goes into the
-/// response.
+/// The body of a request: an object with members of known types. Mistakes are written into the response.
 class Body {
  public:
   Body(const httplib::Request& request, httplib::Response& response);
-  /// false: it is no object, or a member asked for was missing or of another type; the response says so.
+  /// false: the body is no object, or a required member is missing or has another
+  /// type. The response says so.
   [[nodiscard]] bool good() const { return good_; }
 
   [[nodiscard]] std::string text(const char* name);
   [[nodiscard]] std::string text_or(const char* name, std::string otherwise);
   [[nodiscard]] std::optional<double> number(const char* name);
   [[nodiscard]] bool flag(const char* name);
-  /// The member of that name of those objects of a list of at most 10,000 that have it: numbers from 0 up.
+  /// Collects a member (numbers from 0 up) of the objects in a list of at most 10,000; skips objects without.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
 

@@ -15,28 +15,28 @@
 
 namespace tessera::server {
 
-/// Puts together what is known of a running controller: firings and values from its recording, the robot's
-/// path, and the snapshots of its control socket. Ready to be sent.
+/// Combines what is known about a running controller: firings and values from its recording, the robot's
+/// path, and the snapshots of its control socket. The results are ready to be sent.
 class Follower {
  public:
-  /// path: file that the run writes; empty: none that can be read.
+  /// path: the file that the run writes; empty: there is none that can be read.
   Follower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
 
   struct News {
     nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
-    std::vector<PathPoint> path;                       ///< more of it
+    std::vector<PathPoint> path;                       ///< new points of the path
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     bool has_state = false, paused = false;
-    bool rested = false;  ///< it has come to rest, maybe again
+    bool rested = false;  ///< the run has come to rest, perhaps again
     std::string broke_at;
     bool more = false;  ///< there is more to read at once
   };
-  /// snapshot: of the control socket, if there is a new one. What it says is told when everything that the
-  /// run had recorded by then has been read.
+  /// snapshot: of the control socket, if there is a new one. It is reported after everything has been read
+  /// that the run had recorded by then.
   /// last: nothing is kept for later.
   [[nodiscard]] News look(std::optional<nlohmann::json> snapshot, bool last);
-  /// Until it is worth while to look again.
+  /// Waits until it is worthwhile to look again.
   static void rest();
 
  private:

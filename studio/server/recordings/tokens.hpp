@@ -8,20 +8,21 @@
 
 namespace tessera::server {
 
-/// Where the tokens of a net are while a recorded run goes on.
+/// The marking of a net during a recorded run.
 class Tokens {
  public:
-  /// The initial marking. net: must outlive it.
+  /// Begins with the initial marking. net: must outlive this object.
   explicit Tokens(const net::Net& net);
   void fire(std::uint32_t transition);
-  /// One in each of these places, and no others.
+  /// Puts one token into each of these places, and none into the others.
   void set(std::span<const std::uint32_t> places);
-  /// Places that hold one.
+  /// The places that hold a token.
   [[nodiscard]] std::vector<std::uint32_t> marked() const;
 
  private:
   const net::Net& net_;
-  std::vector<std::int32_t> tokens_;  ///< may be below 0 for a moment: threads write when they come to it
+  /// may be below 0 for a moment, because threads write their events with different delays
+  std::vector<std::int32_t> tokens_;
 };
 
 }  // namespace tessera::server

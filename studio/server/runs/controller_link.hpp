@@ -24,24 +24,25 @@ class ControllerLink {
   ControllerLink(const ControllerLink&) = delete;
   ControllerLink& operator=(const ControllerLink&) = delete;
 
-  /// Connects to the socket, if somebody listens there by now. own: makes the run end with this connection.
-  /// true: connected.
+  /// Connects to the socket if a process listens there. own: the run ends with this connection.
+  /// Returns whether it is connected.
   bool connect(const std::filesystem::path& socket, bool own);
-  /// It is that process of this machine, and not the end of a tunnel.
+  /// Whether the other end is that process of this machine, and not the end of a tunnel.
   [[nodiscard]] bool is_process(std::int64_t id);
-  /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
+  /// The last snapshot that has arrived. nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<nlohmann::json> snapshot();
-  /// What the controller's recording holds besides what was asked for before, as it was after the last
-  /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
+  /// The bytes of the controller's recording after those that were requested before, as of
+  /// the last `snapshot`. Waits a tenth of a second for them. A piece without bytes, but with
+  /// `more`: they are on the way.
   [[nodiscard]] GrowingRecording::Piece recording();
-  /// What is wrong with the command; empty: done. Waits for the connection and the answer, at most five
-  /// seconds each. Meanwhile somebody has to call connect and snapshot.
+  /// Returns what is wrong with the command; empty: it is done. Waits for the connection and for the
+  /// answer, at most five seconds each. In the meantime, another thread has to call connect and snapshot.
   [[nodiscard]] std::string command(nlohmann::json command);
-  /// Who was connected to has closed, or `close` was called.
+  /// Whether the other end has closed the connection, or `close` was called.
   [[nodiscard]] bool is_over();
-  /// It has said that its run is over. Otherwise, when it is over, the connection was lost.
+  /// Whether the controller has said that its run is over. If not, and is_over, the connection was lost.
   [[nodiscard]] bool has_ended() const { return ended_; }
-  /// No answers come any more.
+  /// Ends the connection: there will be no more answers.
   void close();
 
  private:
@@ -53,16 +54,17 @@ class ControllerLink {
   std::string heard_;
   std::optional<nlohmann::json> snapshot_;
   bool asked_ = false, ended_ = false;
-  std::optional<GrowingRecording::Piece> piece_;  ///< what comes after it waits until it is taken
-  std::mutex mutex_;                              ///< of what follows, and of writing and closing the socket
+  std::optional<GrowingRecording::Piece> piece_;  ///< messages behind it wait until it is taken
+  /// guards the members below, and writing to and closing the socket
+  std::mutex mutex_;
   std::condition_variable answered_;
   std::map<int, std::string> answers_;
   int last_ = 0;
   bool open_ = false, over_ = false;
 };
 
-/// Names in tessera::monitor_folder() of sockets where somebody listens: controllers on this machine, and
-/// ends of tunnels to others.
+/// Names in tessera::monitor_folder() of sockets where a process listens: controllers on this machine,
+/// and ends of tunnels to others.
 [[nodiscard]] std::vector<std::string> listening_sockets();
 
 }  // namespace tessera::server

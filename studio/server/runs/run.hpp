@@ -19,27 +19,27 @@
 
 namespace tessera::server {
 
-/// What is asked of a run.
+/// A request for a run.
 struct RunRequest {
   enum class Kind : std::uint8_t {
-    simulate,  ///< the simulated clock
-    run,       ///< the steady clock and real drivers
-    attach     ///< a controller that somebody else has started
+    simulate,  ///< on the simulated clock
+    run,       ///< on the steady clock with real drivers
+    attach     ///< to a controller that another process has started
   } kind = Kind::simulate;
-  std::string socket;  ///< of attach: a name in tessera::monitor_folder()
+  std::string socket;  ///< for attach: a name in tessera::monitor_folder()
   std::string world, track, duration;
   std::uint64_t seed = 1;
   double speed = 1;
   bool paused = false;
 };
 
-/// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
-/// One that is attached to is only followed; it goes on when this ends.
+/// A controller from generation to its end, in separate threads: it is made, started, and followed by its
+/// recording. A controller that is attached to is only followed; it goes on when this object ends.
 ///
 /// Threads: any.
 class Run {
  public:
-  /// spec: the file. The run's files get a folder of their own (project::RunFolder).
+  /// spec: the specification. The files of the run get a separate folder (project::RunFolder).
   Run(std::string id, RunRequest request, std::filesystem::path spec,
       std::shared_ptr<const Analysis> analysis, Events& events);
   ~Run();
@@ -50,7 +50,7 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
-  /// What is wrong with it; empty: done.
+  /// Returns what is wrong with the command; empty: it is done.
   [[nodiscard]] std::string control(nlohmann::json command);
   void stop() { stop_ = true; }
 
@@ -77,7 +77,7 @@ class Run {
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
   std::thread follower_, thread_;
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;

@@ -6,7 +6,8 @@
 
 namespace tessera {
 
-/// The candidate that was probably meant, by edit distance; empty: none is near. Equal ones: the first.
+/// The candidate that was probably meant, by edit distance; empty: none is near.
+/// Among equals, the first one.
 [[nodiscard]] std::string nearest(std::string_view wanted, std::span<const std::string> candidates);
 
 /// "; did you mean 'X'?", or nothing.

@@ -126,7 +126,7 @@ struct Behaviour {
   Span span;
 };
 
-// -------------------------------------------------------------------------------- subsystems, agents
+// -------------------------------------------------------------------------------------- subsystems, agents
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 

@@ -49,7 +49,7 @@ class Rebuilding {
     return static_cast<std::uint32_t>(net_.places.size() - 1);
   }
 
-  /// Layers 1 and 2: `in` (one token in that of the system), `out`, t_in, t_out.
+  /// Layers 1 and 2: `in` (that of the system has a token), `out`, t_in, t_out.
   void add_upper_places() {
     net_.transitions.push_back({"t_in", system_instance, {add_place("in", 1)}, {}, ""});
     net_.transitions.push_back({"t_out", system_instance, {}, {add_place("out")}, ""});

@@ -26,7 +26,7 @@ namespace {
   return value;
 }
 
-/// As the user wrote it, before it means anything.
+/// The options as the user wrote them, before they are interpreted.
 struct Words {
   std::string duration, parameter_file, record_limit;
   std::vector<std::string> parameters, drivers;
@@ -102,7 +102,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->check(CLI::PositiveNumber);
 }
 
-/// What is wrong with the words; empty: nothing, and the options are filled.
+/// Returns what is wrong with the words; empty: nothing, and the options are filled.
 [[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
   if (!words.duration.empty()) {
     options.duration = parse_duration(words.duration);
@@ -138,7 +138,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   return "";
 }
 
-/// What the controller was made of, and what is known about that.
+/// The net and the verdicts from which the controller was made.
 [[nodiscard]] std::string about(const System& system) {
   std::string text =
       fmt::format("{}\nnet {}\nverification {}\n", system.name, system.net_hash, system.verification_hash);

@@ -128,7 +128,7 @@ class Reader {
     const std::size_t dots = text.find("..");
     if (text == "any") {
       if (!duration_) throw std::invalid_argument("'any' needs a run with a duration");
-      std::uint64_t mixed = seed_;  // several in one run come at several times
+      std::uint64_t mixed = seed_;  // several faults in one run come at different times
       for (const char letter : fault_.text)
         mixed = (mixed ^ static_cast<unsigned char>(letter)) * 1099511628211U;
       std::mt19937_64 random(mixed);
@@ -215,7 +215,7 @@ void InjectedSignals::raise_due(Time now) {
 
 namespace {
 
-/// Whether one of them happens now.
+/// The fault that happens now, or nullptr.
 [[nodiscard]] Injection* happening(Injections& faults, Time now) {
   const auto found =
       std::find_if(faults.begin(), faults.end(), [&](const auto& one) { return one->happens(now); });

@@ -69,8 +69,8 @@ void CallWatch::give_up(const Look& last) {
   for (const auto& executor : assembly_.executors)
     executor->effectors().make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out);
   assembly_.control.abandon();
-  std::this_thread::sleep_for(
-      between_looks_at_calls);  // a line that was being logged is now in the recording
+  // Afterwards, a line that was being logged is in the recording.
+  std::this_thread::sleep_for(between_looks_at_calls);
   const std::string text = fmt::format("{}; {} has not returned for {:.1f} s", StopSignals::name(signal),
                                        function(), now_s() - last.began_s);
   if (assembly_.recorder != nullptr) {

@@ -38,7 +38,7 @@ std::optional<Specification> read(const fs::path& given, Listener& listener) {
 
 namespace {
 
-/// A verdict on a default property must never be taken for one on the author's, or the other way round.
+/// A verdict on a default property must never be confused with one on a property of the specification.
 bool names_are_free(const spec::Model& model, diagnostics::Diagnostics& out) {
   bool free = true;
   for (const spec::Property& property : model.properties) {
@@ -123,7 +123,7 @@ std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& re
   return found;
 }
 
-/// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
+/// false: the net does not pass. Only the first violation is shown; the others mostly have the same cause.
 bool passes(const Nets& nets, const verify::Report& report, const Gate& gate, const fs::path& given,
             Listener& listener) {
   for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))

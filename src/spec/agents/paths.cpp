@@ -152,7 +152,7 @@ bool Lookup::find(const BufferPath& path, Place& place, Known& known, Diagnostic
   place.group = find_group(path.agent, path.agent_span, out);
   if (place.group == nullptr) return false;
   known = Known::agent;
-  if (place.group->definition == none) return false;  // complained about already
+  if (place.group->definition == none) return false;  // reported already
   const auto& subsystems = model_.definitions[place.group->definition].subsystems;
   const auto subsystem = std::find_if(subsystems.begin(), subsystems.end(),
                                       [&path](const Subsystem& one) { return one.name == path.subsystem; });

@@ -87,7 +87,7 @@ class ChannelReader {
     return text == nullptr ? std::nullopt : split_part(*text, 0, text->text.size());
   }
 
-  /// The path in [begin, end) of a text, blanks around it left out.
+  /// The path in [begin, end) of a text, without surrounding blanks.
   std::optional<BufferPath> split_part(const Node& text, std::size_t begin, std::size_t end) {
     while (begin < end && text.text[begin] == ' ') ++begin;
     while (begin < end && text.text[end - 1] == ' ') --end;
@@ -117,7 +117,7 @@ class ChannelReader {
     if (channel.model != none) read_timeouts_of_model(section, *name, channel);
   }
 
-  /// A timeout for every side that has a transition for it, and no other.
+  /// Reads a timeout for every side that has a transition for it, and for no other.
   void read_timeouts_of_model(const Section& section, const Node& name, Channel& channel) {
     const CommunicationModel& model = model_.models[channel.model];
     const bool sends = model.send.has_timeout(), receives = model.receive.has_timeout();
@@ -173,7 +173,7 @@ class ChannelReader {
 
   void excuse_all() { excuses_.everything = excuses_.outputs = true; }
 
-  /// One end, looked up. is_output: the end that channels begin at.
+  /// Looks one end up. is_output: whether a channel begins here.
   std::optional<End> find_end(const std::optional<BufferPath>& path, bool is_output, Known& known,
                               Place& place) {
     if (!path) return std::nullopt;
@@ -186,7 +186,7 @@ class ChannelReader {
     return End{*path, place, buffer};
   }
 
-  /// A mistake in a channel must not also count as an input without source.
+  /// A mistake in a channel must not also be reported as an input without source.
   void excuse(const std::optional<End>& to, Known known, const Place& place) {
     excuses_.outputs = true;
     if (known == Known::nothing) {
@@ -242,7 +242,7 @@ class ChannelReader {
     }
   }
 
-  /// Returns false once the statement need not be looked at further.
+  /// Returns false if the rest of the statement need not be checked.
   bool add(const Channel& channel, const BufferPath& to) {
     const auto key = std::pair(channel.to.instance, channel.to.buffer);
     const auto [source, added] = sources_.emplace(key, static_cast<Index>(model_.channels.size()));

@@ -17,7 +17,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// What stands behind real buffers.
+/// A kind of driver of real buffers.
 struct DriverKind {
   std::string_view name;
   bool receptors, effectors;
@@ -80,7 +80,7 @@ class DriverReader {
     add(*path, place, driver);
   }
 
-  /// Which buffer, or all of them.
+  /// Finds the real buffer, or all of them.
   bool find_real(const BufferPath& path, const Place& place, Driver& driver) {
     const Subsystem& subsystem = lookup_.subsystem(place);
     if (!path.buffer.empty()) {
@@ -121,7 +121,7 @@ class DriverReader {
     return kind;
   }
 
-  /// What is no number was probably meant to be the kind.
+  /// A value that is no number was probably meant to be the kind.
   void complain_of_kind(const Entry& entry) {
     const auto& entries = entry.value->entries;
     const auto stranger = std::find_if(entries.begin(), entries.end(), [](const Entry& key) {
@@ -197,7 +197,7 @@ class DriverReader {
       if (auto* const text = std::get_if<std::string>(&option.value)) *text = with_number(*text, number);
   }
 
-  /// Each real buffer has one driver, its own or that of the whole subsystem.
+  /// Each real buffer has one driver: one of its own, or that of the whole subsystem.
   bool is_first(const Driver& driver) {
     const std::vector<Field>& real = lookup_.model().subsystem(driver.instance).real;
     const Index first = driver.real == none ? 0 : driver.real;

@@ -10,7 +10,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// Where to complain about a value: at itself if it is text, else at its key.
+/// The position for a complaint about a value: the value itself if it is text, otherwise its key.
 Span place(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
 
 std::string found(const Node& node) {

@@ -9,7 +9,7 @@ using Kind = Selector::Kind;
 
 constexpr std::size_t most_paths = 1'000'000;
 
-/// A fleet that an index counts over; null: none does.
+/// The fleet over which an index counts; null: none.
 struct Range {
   const Group* group = nullptr;
 
@@ -62,8 +62,8 @@ class ClaimReader {
            (path.agent == "in" || path.agent == "out");
   }
 
-  /// Checks the agents of all paths and finds what the indices of a scope count over. quantified: `*` belongs
-  /// to the scope, [i] does not; else both do.
+  /// Checks the agents of all paths and finds the fleets over which the indices of a scope count.
+  /// quantified: `*` belongs to the scope and [i] does not; otherwise both do.
   bool gather(const Formula& formula, Range& range, bool quantified) {
     if (formula.kind == Formula::Kind::path)
       return gather(formula.path, range, quantified) &&
@@ -80,14 +80,15 @@ class ClaimReader {
                  "for example any(robot[*].control.follow)");
       return false;
     }
-    // What it says of [i] belongs to the scope around it, unless that is a quantifier, which has its own.
+    // [i] within a quantifier belongs to the surrounding scope, unless that is a
+    // quantifier, which has its own.
     return quantified || gather_variables(formula.parts.front(), range);
   }
 
   bool gather(const WrittenPath& path, Range& range, bool quantified) {
     if (of_system(path)) return true;
     const Group* group = lookup_.find_group(path.agent, path.agent_span, out_);
-    if (group == nullptr || group->definition == none) return false;  // complained about
+    if (group == nullptr || group->definition == none) return false;  // reported already
     if (!Lookup::check_index(path.selector, *group, path.agent_span, path.index_span, out_)) return false;
     const Kind kind = path.selector.kind;
     const bool counts = kind == Kind::all || (kind == Kind::variable && !quantified);
@@ -118,7 +119,8 @@ class ClaimReader {
     return false;
   }
 
-  /// i: of [i], and of [*] outside of quantifiers; star: of [*] within. nullopt: an agent past the end.
+  /// i: the value of [i], and of [*] outside of quantifiers; star: the value of [*] within them.
+  /// nullopt: an agent past the end.
   std::optional<Statement> statement(const Formula& formula, std::int64_t i, std::int64_t star,
                                      bool quantified = false) {
     Statement made;

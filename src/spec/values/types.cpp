@@ -18,7 +18,7 @@ constexpr std::array scalars = std::to_array<std::string_view>(
     {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
 constexpr std::array scalar_bytes = std::to_array<std::uint64_t>({1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8});
 
-/// What other languages call our types.
+/// Names of our types in other languages.
 struct Synonym {
   std::string_view theirs, ours;
 };

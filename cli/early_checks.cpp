@@ -23,7 +23,7 @@ using namespace project;
 
 namespace {
 
-/// The specification without a word about it: whoever builds says what there is to say.
+/// Reads the specification without printing anything: the build reports its mistakes.
 std::optional<Specification> read_quietly(const std::filesystem::path& given) {
   const std::filesystem::path file = spec_file(given);
   diagnostics::Diagnostics found = diagnostics::load(file);
@@ -34,7 +34,7 @@ std::optional<Specification> read_quietly(const std::filesystem::path& given) {
   return Specification{absolute, absolute.parent_path(), std::move(found), std::move(*model)};
 }
 
-/// The parameters of a model where the controller's code would read them, for values to be tried.
+/// The parameters of a model as the controller's code would have them, so that values can be tried.
 class Parameters {
  public:
   explicit Parameters(const spec::Model& model) {
@@ -67,7 +67,7 @@ class Parameters {
                                                  : sizeof(double);
   }
 
-  /// All share their place: what is there is not looked at.
+  /// All parameters share one memory location, because their values are not used.
   [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool text = parameter.type.kind == spec::Type::Kind::string;
@@ -123,7 +123,7 @@ int check_run(const LaunchOptions& options, bool with_world) {
   if (!parameters_fit(*specification, options)) return failed;
   if (!with_world || !specification->model.simulation) return ok;
   if (!files_are_there(*specification, terminal())) return failed;
-  static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
+  static_cast<void>(floor_of(*specification, options));  // throws if the file of --track does not exist
   return ok;
 }
 

@@ -11,7 +11,7 @@
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
 
-/// What an operator does to a controller that runs: `tessera set`, `emergency-stop`, `reset`.
+/// Commands of an operator to a running controller: `tessera set`, `emergency-stop`, `reset`.
 namespace tessera::cli {
 
 namespace {
@@ -29,13 +29,14 @@ constexpr int question = 1;
 bool tell(RunningController& controller, json command) {
   controller.be_patient_for(patience);
   command["id"] = question;
-  // Text that is not UTF-8 names nothing: the controller says so.
+  // Text that is not UTF-8 names nothing; the controller reports that.
   return controller.send(command.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-/// What the controller answers: what is wrong; empty: nothing.
+/// The answer of the controller: what is wrong; empty: nothing.
 std::string answer_of(RunningController& controller) {
-  // Beside answers it sends what it does, several times a second: lines come as long as it lives.
+  // Besides answers, the controller sends its state several times a second, so there are
+  // lines as long as it lives.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
     const std::optional<std::string> said = controller.line();
@@ -65,12 +66,12 @@ int set_command(const OperateOptions& options) {
   return code;
 }
 
-/// All controllers unless one is named: who asks for it has no time to look up names.
+/// Stops all controllers unless one is named: in an emergency, nobody has time to look up names.
 int emergency_stop_command(const OperateOptions& options) {
   std::vector<RunningController> controllers = find_controllers(options.which);
   json command{{"command", "emergency_stop"}};
   if (!options.why.empty()) command["why"] = options.why;
-  // All are told before one is waited for.
+  // The command is sent to all before the first answer is waited for.
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
   for (RunningController& one : controllers) {

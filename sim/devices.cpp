@@ -32,7 +32,7 @@ void put_number(double number, std::span<std::byte> value) {
   std::memcpy(value.data(), &as_float, sizeof as_float);
 }
 
-/// The buffer's type is known by its size only; the specification allows no others than these two.
+/// The type of the buffer is determined by its size; the specification allows only these two types.
 double read_float(std::span<const std::byte> value, const std::string& path) {
   if (value.size() == sizeof(double)) return number_in<double>(value);
   if (value.size() == sizeof(float)) return number_in<float>(value);
@@ -90,7 +90,7 @@ class Wheel final : public RealEffector {
   int actuator_;
 };
 
-/// Options must be among `known`, finite and not negative.
+/// Options must be in `known`, finite and not negative.
 bool options_fit(const DriverRequest& request, const std::vector<std::string>& known, std::string& error) {
   for (const auto& [name, value] : request.options) {
     if (std::ranges::find(known, name) == known.end()) {

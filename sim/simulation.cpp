@@ -13,7 +13,7 @@ namespace {
 constexpr Duration sampling_period = std::chrono::milliseconds(10);
 constexpr double line_threshold = 0.5;
 
-/// The point nearest to the mean of all: of three sensors in a row the middle one.
+/// The point nearest to the mean of all: for three sensors in a row, the middle one.
 Point middle_of(const std::vector<Point>& points) {
   Point mean;
   for (const Point& p : points) {
@@ -67,7 +67,7 @@ std::vector<std::string> Simulation::robot_names() const {
 
 bool Simulation::finish(std::string& error) {
   const std::scoped_lock lock(mutex_);
-  trace_.begin(robot_names());  // of a run that has ended before it began
+  trace_.begin(robot_names());  // in case the run has ended before it began
   const bool written = trace_.finish(error);
   if (!physics_->failure().empty()) {
     error = physics_->failure();

@@ -13,7 +13,7 @@
 namespace tessera::sim {
 namespace {
 
-/// What `make` returns; nullptr, and the reason in `error`, when it throws anything.
+/// The result of `make`; nullptr, and the reason in `error`, if it throws.
 template <class Make>
 auto without_exceptions(Make&& make, std::string& error) -> decltype(make()) try {
   return make();
@@ -107,7 +107,7 @@ std::unique_ptr<World> open(const WorldOptions& options, std::string& error) {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 
-/// Opens a MuJoCo world; nothing is thrown. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
+/// Opens a MuJoCo world; throws nothing. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
 /// site), effector `velocity` (target: an actuator).
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
     const tessera::WorldOptions& options, std::string& error) {

@@ -23,13 +23,13 @@ namespace {
 using nlohmann::json;
 
 std::vector<net::Property> properties_of(const Analysis& analysis, const std::string& text) {
-  diagnostics::Diagnostics ignored("", text);  // said when the text was analysed
+  diagnostics::Diagnostics ignored("", text);  // reported when the text was analysed
   return layers::properties(*analysis.model, *analysis.pages, *analysis.net, ignored)
       .value_or(std::vector<net::Property>{});
 }
 
-/// As `tessera verify --json` writes it; of a property with a run also the indices of its transitions (those
-/// beyond the net's stand for "no initial condition holds") and the run told in words.
+/// As `tessera verify --json` writes it. A property with a run also has the indices of its transitions
+/// (indices beyond those of the net mean "no initial condition holds") and the run in words.
 json result_json(const Analysis& analysis, const verify::Report& report) {
   json result = project::report_json(*analysis.net, &*analysis.pages, report);
   for (std::size_t index = 0; index < report.properties.size(); ++index) {

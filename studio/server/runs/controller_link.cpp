@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// -1: nobody listens there.
+/// -1: no process listens there.
 int connected_to(const std::filesystem::path& file) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -77,9 +77,9 @@ bool ControllerLink::is_process(std::int64_t id) {
   return getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
 }
 
-/// What has come by now.
+/// Reads what has arrived so far.
 void ControllerLink::hear() {
-  constexpr std::size_t most = std::size_t{64} << 20U;  // more makes no sense
+  constexpr std::size_t most = std::size_t{64} << 20U;  // the limit of what makes sense
   std::array<char, 65536> bytes{};
   ssize_t count = 0;
   while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
@@ -92,14 +92,15 @@ void ControllerLink::hear() {
   understand();
 }
 
-/// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
+/// Handles the messages up to a piece of the recording that waits to be taken, because
+/// later messages are newer.
 void ControllerLink::understand() {
   std::size_t taken = 0;
   for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
     const auto begin = heard_.begin() + static_cast<std::ptrdiff_t>(taken);
     json line = json::parse(begin, heard_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
     const std::size_t bytes = line.is_object() ? line.value("recording_bytes", std::size_t{0}) : 0;
-    if (bytes > longest_piece) return close();  // not what a controller sends
+    if (bytes > longest_piece) return close();  // no controller sends that
     if (bytes > heard_.size() - end - 1) break;
     if (line.is_object() && line.contains("recording_bytes"))
       piece_ = {heard_.substr(end + 1, bytes), line.value("begins", false), line.value("more", false)};

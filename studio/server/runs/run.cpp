@@ -51,7 +51,7 @@ const char* name_of(RunRequest::Kind kind) {
   return "";
 }
 
-/// Indices to names; false: there is no such element.
+/// Replaces indices by names; false: there is no such element.
 template <class Elements>
 bool to_names(json& list, const Elements& elements) {
   for (json& one : list) {
@@ -68,7 +68,8 @@ json read_summary(const std::filesystem::path& file) {
 
 }  // namespace
 
-/// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
+/// Passes the messages while a controller is made to the browsers, line by line. The last lines
+/// are the reason if it fails.
 class Run::Teller final : public project::Listener {
  public:
   explicit Teller(const Run& run) : run_(run) {}
@@ -142,7 +143,7 @@ void Run::make_and_run() {
     if (controller) execute(std::move(*controller));
   } catch (const std::exception& error) {
     set_state(State::failed, error.what());
-  } catch (...) {  // of a library: MuJoCo's is no std::exception
+  } catch (...) {  // from a library: MuJoCo's is no std::exception
     set_state(State::failed, "a library failed without saying why");
   }
 }
@@ -235,7 +236,7 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
   link_.close();
 }
 
-/// true: there is more to tell at once.
+/// true: more can be sent at once.
 bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
   Follower::News news = follower.look(std::move(snapshot), last);
   std::optional<State> changed;
@@ -259,15 +260,15 @@ bool Run::tell(Follower& follower, std::optional<json> snapshot, bool last) {
   return news.more;
 }
 
-/// Why what runs there cannot be shown on this net; empty: it can.
+/// The reason why the running controller cannot be shown on this net; empty: it can.
 std::string Run::refused(const json& snapshot) const {
   if (snapshot.value("net_hash", "") == analysis_->net_hash) return {};
   return fmt::format("the controller runs another net (of the system {}) than the specification here",
                      snapshot.value("system", "?"));
 }
 
-/// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
-/// names a file of another machine, where this one may have an old one.
+/// The controller's recording if it is a file within the project; otherwise an empty path. The end of a
+/// tunnel names a file of another machine; this machine may have an old file with that name.
 std::filesystem::path Run::readable(const json& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.value("recording", ""), missing);

@@ -34,8 +34,8 @@ Skeleton resample(Skeleton line) {
   return even;
 }
 
-/// Gaussian smoothing along the line. An open line is continued point-symmetrically beyond its ends, so that it
-/// keeps them.
+/// Smooths along the line (Gaussian). An open line is continued point-symmetrically beyond its ends, so that
+/// it keeps them.
 Skeleton smooth(const Skeleton& line) {
   const auto count = static_cast<std::ptrdiff_t>(line.points.size());
   const auto at = [&](std::ptrdiff_t i) -> Point {

@@ -92,8 +92,7 @@ void ControllerLink::hear() {
   understand();
 }
 
-/// Handles the messages up to a piece of the recording that waits to be taken, because
-/// later messages are newer.
+/// Handles the messages up to a piece of the recording that waits to be taken; later messages are newer.
 void ControllerLink::understand() {
   std::size_t taken = 0;
   for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {

@@ -20,8 +20,7 @@ namespace tessera::drawing {
 ///                              (initial condition of the next behaviour)
 ///     input, output buffer     before the owner's letter x or y lowered, and raised the letter of the other
 ///                              end, or T for a transmission between control subsystems; after it the
-///                              indices of the owner and of the other end: ^r_xc_{1,1} is what c_1 receives
-///                              from r_{1,1}
+///                              indices of the owner and of the other end: ^r_xc_{1,1} comes from r_{1,1}
 ///     fused places             the buffer of the producer, an arrow, the buffer of the consumer, and the
 ///                              part: channel, empty, full, ack
 ///

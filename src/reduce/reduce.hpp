@@ -106,7 +106,7 @@ class Reduced {
 
 /// Applies the rules until none applies any more.
 ///
-/// Preserved: whether a dead marking is reachable, and `what`. Not preserved: lengths of traces, the number of
+/// Preserved: whether a dead marking is reachable, and `what`. Not preserved: lengths of traces, number of
 /// markings. The result refers to `net`, which must outlive it.
 ///
 /// Threads: pure. Linear in the net. Places and transitions with very many arcs are tried less often.

@@ -1,6 +1,6 @@
 import type { NetJson } from "../model/net";
 
-/** What server and page say to each other; docs/studio.md describes it. */
+/** The messages between server and page; docs/studio.md describes them. */
 
 export interface Diagnostic {
   severity: "error" | "warning" | "hint" | "note";
@@ -15,7 +15,7 @@ export interface Diagnostic {
 export interface Analysis {
   diagnostics: Diagnostic[];
   net: NetJson | null;
-  /** Names the net: runs and recordings say which they are of. */
+  /** Identifies the net: runs and recordings name the net to which they belong. */
   net_hash?: string | null;
 }
 export interface Project {
@@ -63,7 +63,7 @@ export interface VerifyEvent {
   error?: string;
 }
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
-/** What a controller says at its end. */
+/** The report of a controller at its end. */
 export interface Outcome {
   simulated_s: number;
   wall_s: number;
@@ -76,7 +76,7 @@ export interface Outcome {
 export interface RunInfo {
   run: string;
   kind?: RunRequest["kind"];
-  /** The floor picture, when it is another than that of the specification. */
+  /** The floor picture, if it differs from that of the specification. */
   track?: string | null;
   state: RunState;
   why?: string;
@@ -84,7 +84,7 @@ export interface RunInfo {
   marking?: number[];
   net_hash?: string;
   t?: number;
-  /** All of them; the events tell what changed since. */
+  /** All values; the events contain later changes. */
   values?: Record<string, unknown>;
   path?: PathRow[];
 }
@@ -102,10 +102,10 @@ export interface FiringsEvent {
 export interface ValuesEvent {
   run: string;
   t: number;
-  /** Of the buffers that changed since the last event. */
+  /** The buffers that changed since the last event. */
   values: Record<string, unknown>;
 }
-/** What a controller says of itself; all there is of one whose recording cannot be read from here. */
+/** Reports of a controller. They are the only source if its recording cannot be read from here. */
 export interface SubsystemsEvent {
   run: string;
   t: number;
@@ -130,23 +130,26 @@ export interface Recording {
   subsystems?: string[];
   firings: FiringRow[];
   values?: Record<string, [number, unknown][]>;
-  /** Its end is missing: the controller was killed, or is still running. */
+  /** The end is missing: the controller was killed, or is still running. */
   cut?: boolean;
-  /** Firings that are not in this part, but after it. */
+  /** Number of firings after this part. */
   dropped?: number;
-  /** Of all firings of the recording: times of the first and the last one, and their number. */
+  /** For all firings of the recording: times of the first and the last one, and their number. */
   first?: number | null;
   last?: number | null;
   total?: number;
-  /** Places that hold a token before the first firing, when that is not the run's first; none: it is not known which. */
+  /**
+   * Places that hold a token before the first firing, if that is not the first firing of the run.
+   * null: they are not known.
+   */
   marking?: number[] | null;
   path?: PathRow[];
-  /** The floor picture, when it is another than that of the specification. */
+  /** The floor picture, if it differs from that of the specification. */
   track?: string | null;
 }
 export interface RunRequest {
   kind: "simulate" | "run" | "attach";
-  /** Of the controller to watch, when one is attached to. */
+  /** Socket of the controller, for a run that is attached to. */
   socket?: string;
   world?: string;
   track?: string;
@@ -161,5 +164,7 @@ export interface ControlRequest {
   subsystem?: string;
   breakpoints?: Breakpoint[];
 }
-/** A run pauses when a token comes to the place, the transition has fired, or its condition comes to hold. */
+/**
+ * A run pauses when a token arrives in the place, the transition has fired, or its condition comes to hold.
+ */
 export type Breakpoint = { place: number } | { transition: number } | { condition: number };

@@ -17,7 +17,7 @@ export interface VerifierState {
   problem: string;
 }
 
-/** One verification at a time, of the text as it is in the page. */
+/** One verification at a time, of the text in the page. */
 export class Verifier {
   readonly store = new Store<VerifierState>({
     state: "idle",
@@ -37,7 +37,7 @@ export class Verifier {
     connection: Connection,
   ) {
     connection.on<VerifyEvent>("verify", (event) => this.told(event));
-    // A stream that broke may have swallowed the end of a job.
+    // The end of a job may have been lost with a broken stream.
     connection.on("hello", () => void this.ask());
   }
 
@@ -90,16 +90,19 @@ export class Verifier {
   }
 }
 
-/** The subsystems that wait for ever in some violation, by path: what the drawing marks. */
+/** The paths of the subsystems that wait for ever in some violation; the drawing marks them. */
 export function stuck(verdicts: readonly Verdict[]): string[] {
   const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits ?? []);
   return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];
 }
 
-/** The firings of a violation as transitions of the net; null when there is none, or it is not of this net. */
+/**
+ * The firings of a violation as transitions of the net; null: there are none, or
+ * they belong to another net.
+ */
 export function stepsOf(verdict: Verdict, net: NetModel): number[] | null {
   if (verdict.steps && verdict.steps.length > 0) {
-    // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
+    // A last step beyond the net means "no initial condition holds"; it is not drawn.
     const end = verdict.steps.findIndex((step) => step >= net.transitions.length);
     return end < 0 ? verdict.steps : verdict.steps.slice(0, end);
   }

@@ -34,8 +34,7 @@ Skeleton resample(Skeleton line) {
   return even;
 }
 
-/// Smooths along the line (Gaussian). An open line is continued point-symmetrically beyond its ends, so that
-/// it keeps them.
+/// Smooths along the line (Gaussian). An open line keeps its ends: it is continued point-symmetrically there.
 Skeleton smooth(const Skeleton& line) {
   const auto count = static_cast<std::ptrdiff_t>(line.points.size());
   const auto at = [&](std::ptrdiff_t i) -> Point {

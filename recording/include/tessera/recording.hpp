@@ -39,18 +39,19 @@ inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 /// Stands in place of the index of a subsystem for the layers above the subsystems.
 inline constexpr std::uint32_t system_instance = 0xffffff;
 
-/// The file that a run leaves. It consists of these 8 bytes, a little-endian uint32 length, that many bytes
-/// of JSON
+/// The file that a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
 ///
 ///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
 ///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}
 ///
-/// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`. A recording without `end` was cut
-/// off, because the controller was killed or the disk was full; only its tail is lost. If the run's clock
-/// is simulated, nothing in the file depends on the wall clock. A recording with a limit goes on in
-/// segments: each segment is a file with "segment": number in its header, and its first event is `marking`.
+/// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
+///
+/// A recording without `end` was cut off, because the controller was killed or the disk was full; only its
+/// tail is lost. If the run's clock is simulated, nothing in the file depends on the wall clock. A recording
+/// with a limit goes on in segments: each segment is a file with "segment": number in its header, and its
+/// first event is `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
     firing = 1,   ///< subject: transition; version: of the channel it touched (0: none)

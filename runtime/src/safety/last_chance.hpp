@@ -16,9 +16,9 @@
 
 namespace tessera {
 
-/// Acts when the process is about to die during a run. All devices get their safe command.
-/// Then a message says what happened, and where. Then the process dies as it would have died anyway
-/// (core dump, exit status).
+/// Acts when the process is about to die during a run. All devices get their safe command. Then a message
+/// says what happened, and where. Then the process dies as it would have died anyway (core dump, exit
+/// status).
 ///
 /// It notices SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT (abort, std::terminate), SIGSYS and SIGTRAP on every
 /// thread, even after a stack overflow (AlternateStack). It also notices exit and quick_exit, which then

@@ -13,8 +13,7 @@ namespace tessera::testing {
 
 using Marking = std::vector<std::uint32_t>;
 
-/// A net played as the textbook has it: the oracle. It reads the net itself, not what the executor makes of
-/// it.
+/// The oracle: plays a net as in a textbook. It reads the net itself, not the data of the executor.
 class NaiveNet {
  public:
   explicit NaiveNet(const ExecutableNet& net);

@@ -1,5 +1,5 @@
-// The verdicts of section 7 of the design and of docs/specification.md, by looking at every reachable
-// marking.
+// The verdicts of section 7 of the design and of docs/specification.md, computed
+// from every reachable marking.
 #pragma once
 
 #include <memory>
@@ -27,16 +27,15 @@ class Judge {
   /// The states in which a subsystem has not ended and fires nothing any more.
   StateGraph::Set stuck(int subsystem) const;
   bool goes_on() const;
-  /// The states from which a channel is never read again, while its reader cannot end; of a channel that is
-  /// received.
+  /// The states from which a received channel is never read again although its reader cannot end.
   StateGraph::Set dry(int channel) const;
   bool channels_flow() const;
   /// Paths of the behaviours that never run.
   std::vector<std::string> dead_behaviours() const;
 
   bool holds(const Specification& specification, const Property& property) const;
-  /// The states that show that a universal property is violated; of `leads_to` those of F from which G need
-  /// not follow.
+  /// The states that violate a universal property; for `leads_to`, the states of F
+  /// from which G need not follow.
   StateGraph::Set bad(const CompiledProperty& property, Property::Kind kind) const;
 
  private:
@@ -44,8 +43,8 @@ class Judge {
   StateGraph graph_;
 };
 
-/// Is a communication model of the author's sound when somebody at either side uses it for ever
-/// (docs/verification.md)?
+/// Whether a communication model of a specification is sound if each side is used for
+/// ever (docs/verification.md).
 bool sound_model(const Model& model);
 
 }  // namespace oracle

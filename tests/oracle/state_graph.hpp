@@ -36,8 +36,8 @@ class StateGraph {
     int transition;
   };
 
-  /// Visits all of `net`, or stops after `limit` markings: then `complete()` is false and nothing else may be
-  /// asked.
+  /// Visits all of `net`, or stops after `limit` markings. Then `complete()` is false, and no
+  /// other function may be called.
   StateGraph(const FlatNet& net, std::size_t limit);
 
   bool complete() const { return complete_; }

@@ -84,7 +84,7 @@ class DeadlockSearch {
   std::vector<std::uint32_t> pending_;  // firings that have not been tried yet, of all markings of the path
 };
 
-/// What remains of a run without the firings [begin, end) and without those that can then no longer fire.
+/// The rest of a run without the firings [begin, end) and without those that can then no longer fire.
 std::vector<TransitionId> run_without(const PtNet& net, const std::vector<TransitionId>& run,
                                       std::size_t begin, std::size_t end, Marking& marking) {
   std::vector<TransitionId> rest;

@@ -7,7 +7,7 @@
 namespace tessera::explore {
 namespace {
 
-/// What a transition reads and writes in one field of a unit or a bit.
+/// The effect of a transition on one field of a unit or a bit, and the contents that it requires.
 struct Move {
   bool takes = false, gives = false;
   Word before = 0, after = 0;  // contents; 0 where no place of the field is marked

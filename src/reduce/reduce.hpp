@@ -13,7 +13,7 @@
 /// Structural reductions of place/transition nets: a smaller net with the same answers.
 namespace tessera::reduce {
 
-/// What the reduced net must preserve, besides whether there is a dead marking.
+/// Facts that the reduced net must preserve, besides whether there is a dead marking.
 struct Preserve {
   /// Formulas over the tokens of these places: the reduced net reaches the same combinations of them.
   std::vector<net::PlaceId> observed{};

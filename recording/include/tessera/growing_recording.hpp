@@ -13,7 +13,7 @@ namespace tessera {
 /// Threads: one at a time.
 class GrowingRecording {
  public:
-  /// Where to begin in a recording with a limit.
+  /// The point at which to begin in a recording with a limit.
   enum class From : std::uint8_t {
     oldest,  ///< with the oldest segment that is left, or with the segment named by its number ("run.3.tsr")
     newest   ///< with the file itself, which is the newest segment

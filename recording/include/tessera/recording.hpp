@@ -24,7 +24,7 @@ enum class Fault : std::uint8_t {
   limit = 9,       ///< a command is beyond the limits of its real effector, and `Limits::fault` is set
   crash = 10       ///< the process has died, or called exit, in the subsystem
 };
-/// What happened to the safe command of a device.
+/// The changes of the safe command of a device.
 enum class SafeEvent : std::uint8_t {
   given = 1,   ///< the device has taken it, for a reason that was not there before
   ended = 2,   ///< commands of the subsystem go to the device again
@@ -86,9 +86,8 @@ struct Event {
 };
 static_assert(sizeof(Event) == 24);
 
-/// What a value event says about a buffer besides its bytes. It is written when a value is read
-/// into an input (a real input: only if the value differs from the last), and when a transition
-/// function has changed an output.
+/// The flags of a value event. The event is written when a value is read into an input (a real input: only if
+/// the value differs from the last), and when a transition function has changed an output.
 struct ValueFlags {
   static constexpr std::uint32_t same = 1,  ///< as at the last event of this buffer; no bytes
       hashed = 2,   ///< more than "limit" bytes: their number and a hash, a uint64 each, replace them

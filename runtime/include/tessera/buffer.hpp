@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// What is known about the value in an input buffer.
+/// The status of the value in an input buffer.
 struct Arrival {
   bool fresh = false;              ///< new since the last iteration
   bool timed_out = false;          ///< the last receive gave up waiting
@@ -15,7 +15,7 @@ struct Arrival {
   Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first value
 };
 
-/// What is known about the value in an output buffer.
+/// The status of the value in an output buffer.
 struct Departure {
   bool timed_out = false;  ///< the last blocking send gave up waiting for its acknowledgement
   Time stamp{};            ///< when it was last written to the channel

@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// What a process does about a signal while the process, or its child, may move something. The controller
+/// The reaction of a process to a signal while it, or its child, may move something. The controller
 /// and the program that started it use the same table.
 enum class SignalUse : std::uint8_t {
   stop,     ///< the run ends safely; exit code 128 + its number

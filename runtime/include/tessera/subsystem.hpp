@@ -119,7 +119,7 @@ template <class T>
   }
 }
 
-/// Where the buffers and parameters of a subsystem are. Subsystem::bind fills it, the executor uses it.
+/// The addresses of a subsystem's buffers and parameters. Subsystem::bind fills it, the executor uses it.
 struct Bindings {
   struct Incoming {
     std::string_view name;

@@ -85,7 +85,7 @@ struct SubsystemNet {
 
 enum class Kind : std::uint8_t { control, receptor, effector };
 
-/// What a subsystem with a rate does about instants that it missed because its own work took too long.
+/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
 enum class Overrun : std::uint8_t {
   skip,      ///< leaves them out
   catch_up,  ///< runs the missed iterations late, one after the other

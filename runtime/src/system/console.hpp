@@ -19,7 +19,7 @@ namespace console {
 
 class Session {
  public:
-  /// What happens to a line if the terminal does not keep up.
+  /// The treatment of a line if the terminal does not keep up.
   enum class Overflow : std::uint8_t {
     loses,  ///< the line is only counted
     waits   ///< print waits for room, unless a signal has come; only while nothing moves

@@ -15,7 +15,7 @@ enum class Unlisted : std::uint8_t {
   by_heading,  ///< ours if they begin like generated files: for folders of versions that kept no list
 };
 
-/// What happened to the files of a folder.
+/// The changes to the files of a folder.
 struct GeneratedFiles {
   std::size_t written = 0;                       ///< files that were missing or differed
   std::vector<std::filesystem::path> set_aside;  ///< new paths of files that somebody had edited

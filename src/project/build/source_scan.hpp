@@ -16,7 +16,7 @@ struct ScannedFunction {
   std::uint32_t line = 0;
 };
 
-/// What the text of a C++ file shows without being compiled. Comments and literals do not count; macros are
+/// The contents of a C++ file, as far as its text shows them. Comments and literals do not count; macros are
 /// not expanded; all branches of `#if` count except those of `#if 0`.
 struct SourceScan {
   std::vector<ScannedFunction> functions;

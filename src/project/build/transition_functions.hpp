@@ -11,7 +11,7 @@
 
 namespace tessera::project {
 
-/// What is known about the user's transition functions before they are compiled. It comes from the text of
+/// Facts about the user's transition functions before they are compiled. They come from the text of
 /// every source in src/, and of the files that these include by "...".
 ///
 /// Threads: one at a time.

@@ -6,7 +6,7 @@
 
 namespace tessera::spec {
 
-/// What every subsystem of the specification can refer to.
+/// The types and parameters that every subsystem of the specification can use.
 struct Surroundings {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system

@@ -43,7 +43,7 @@ class HeldExpressions {
   std::vector<Truth> truths_;
 };
 
-/// What is known about `when` if no earlier entry holds.
+/// The truth of `when`, as far as it is known, if no earlier entry holds.
 Truth truth_alone(const When& when, Ending ending, HeldExpressions& held) {
   switch (when.kind) {
     case When::Kind::always:

@@ -7,7 +7,7 @@
 
 namespace tessera::spec {
 
-/// What is known about a condition before run time.
+/// The truth of a condition, as far as it is known before run time.
 enum class Truth : std::uint8_t { free, always, never };
 
 [[nodiscard]] Truth truth_of(const Expression& expression);

@@ -130,7 +130,7 @@ struct Behaviour {
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
-/// What a subsystem with a rate does about instants that it missed because its own work took too long.
+/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
 enum class Overrun : std::uint8_t {
   skip,      ///< leaves them out
   catch_up,  ///< runs the iterations late, one after the other
@@ -247,7 +247,7 @@ struct Statement {
   std::vector<Statement> parts;
 };
 
-/// What a property states about one agent of a fleet, or about the system.
+/// The statement of a property about one agent of a fleet, or about the system.
 struct Claim {
   std::string about;  ///< "robot[3]"; empty: of the system
   Statement what;

@@ -47,7 +47,7 @@ std::vector<Index> standing_still(const Subsystem& subsystem, const std::vector<
   bool circle_found = false;
   for (Index i = 0; i < left.size(); ++i) {
     if (!left[i]) continue;
-    // Of the behaviours that only lead to one another, the first one represents the cycle.
+    // If behaviours only lead to one another, the first one represents the cycle.
     if (!repeats(subsystem.behaviours[i]) && circle_found) continue;
     circle_found = circle_found || !repeats(subsystem.behaviours[i]);
     found.push_back(i);

@@ -75,7 +75,7 @@ class ValueSeries {
     track_.emplace(header);
   }
 
-  /// Of the values before the span, the last ones are shown at its beginning.
+  /// The last values before the span are shown at its beginning.
   void add(const Recording::Entry& entry, Recordings::Span span) {
     const std::int64_t time_ns = entry.event.time_ns;
     if (time_ns >= span.from_ns) show_what_was(span.from_ns);

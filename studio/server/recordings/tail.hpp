@@ -50,7 +50,7 @@ class RecordingTail {
     bool jumped = false;
     bool more = false;  ///< there may be more already
   };
-  /// What has been written since the last call, as far as it can be read in a few milliseconds.
+  /// The entries since the last call, as far as they can be read in a few milliseconds.
   [[nodiscard]] Batch next();
   /// The places with a token after everything that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }

@@ -127,7 +127,7 @@ function Steps({ net }: { net: NetModel }) {
   const current = useRef<HTMLButtonElement>(null);
   useEffect(() => void current.current?.scrollIntoView({ block: "nearest" }), [position]);
   const { steps } = studio.play;
-  // Of a long game, only the end is shown.
+  // Only the end of a long game is shown.
   const first = Math.max(0, Math.min(position, length) - 300);
   return (
     <ol className="step-list">

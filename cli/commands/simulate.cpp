@@ -186,17 +186,17 @@ void add_simulate(CommandLine& app, int& exit_code) {
       .option("--scenario", options->scenario,
               "Drive the controller through this run first (tessera verify --scenario)")
       .existing_file();
-  Option from =
-      command
-          .option("--from", options->from,
-                  "Run the code again on what this recording says it was given, and compare what it does")
-          .existing_file();
+  Option from = command
+                    .option("--from", options->from,
+                            "Run user code again on the inputs of this recording, and compare the results")
+                    .existing_file();
   Option schedules = command.option(
       "--schedules", options->schedules,
       "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
       "that breaks an assertion, ends with an error or hangs");
-  command.flag("--interleave", options->interleave,
-               "Subsystems take turns after every firing, as in --schedules, which this makes one of");
+  command.flag(
+      "--interleave", options->interleave,
+      "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
   command.flag("--realtime", options->realtime, "Not faster than the wall clock");
   command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
       .shows_default();

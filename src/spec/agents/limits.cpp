@@ -176,7 +176,7 @@ class LimitReader {
       number = quantity->number;
     }
     if (number >= limit.minimum.value_or(number) && number <= limit.maximum.value_or(number)) return;
-    const std::string text = safe == nullptr ? "0, which nothing else is given for," : quoted(safe->text);
+    const std::string text = safe == nullptr ? "0, the default," : quoted(safe->text);
     out_.error("E211", safe == nullptr ? entry.span : safe->span,
                "the safe command " + text + " is outside the limits of " + quoted(entry.key),
                "a safe command within the limits stands under `safe`");

@@ -42,7 +42,7 @@ class ClaimReader {
       return {};
     }
     if (claims.empty())
-      out_.error("E303", what.span, "there are no agents of which this could be said",
+      out_.error("E303", what.span, "no agent fits the indices of this property",
                  "the fleet is too small for these indices, and no ring");
     return claims;
   }

@@ -1,7 +1,6 @@
-// What the subsystem executor costs, beside what one would write by hand: an iteration alone, a value through
-// a channel between two threads, a blocking round trip. Whatever is compared takes
-// turns in the same run, and the counters are medians over the repetitions. Figures are in
-// docs/performance.md.
+// Compares the cost of the subsystem executor with hand-written code: an iteration alone, a value through a
+// channel between two threads, a blocking round trip. The things that are compared take turns in the same
+// run, and the counters are medians over the repetitions. docs/performance.md has figures.
 
 #include <benchmark/benchmark.h>
 #include <linux/futex.h>
@@ -92,8 +91,7 @@ struct Pair {
                  summary.subsystems[1].iterations);
 }
 
-/// The channel alone, as the executor uses it: take, copy 64 bytes, give back; asleep when that takes too
-/// long.
+/// The channel alone, as the executor uses it: take, copy 64 bytes, give back. It sleeps if that takes long.
 [[nodiscard]] Pair by_channel() {
   struct Words final : Waker {
     std::array<WakeWord, 2> words;

@@ -23,7 +23,7 @@ using namespace project;
 
 namespace {
 
-/// The specification without a word about it: whoever builds says what there is to say.
+/// Reads the specification without printing anything: the build reports its mistakes.
 std::optional<Specification> read_quietly(const std::filesystem::path& given) {
   const std::filesystem::path file = spec_file(given);
   diagnostics::Diagnostics found = diagnostics::load(file);
@@ -34,7 +34,7 @@ std::optional<Specification> read_quietly(const std::filesystem::path& given) {
   return Specification{absolute, absolute.parent_path(), std::move(found), std::move(*model)};
 }
 
-/// The parameters of a model where the controller's code would read them, for values to be tried.
+/// The parameters of a model as the controller's code would have them, so that values can be tried.
 class Parameters {
  public:
   explicit Parameters(const spec::Model& model) {

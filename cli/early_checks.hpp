@@ -4,12 +4,12 @@
 
 namespace tessera::cli {
 
-/// `ok`, or the exit code of a run that cannot begin as it is asked for, as far as the specification tells:
-/// the files of the world and the parameters (failed), the times and sizes of the command line (usage). Asked
-/// before anything is built, in the words of the controller. A specification that cannot be read passes;
-/// whoever reads it says why.
+/// `ok`, or the exit code of a run that cannot begin as requested, as far as the specification tells:
+/// `failed` for the files of the world and the parameters, `usage` for the times and sizes of the command
+/// line. Called before anything is built; its messages are those of the controller. A specification that
+/// cannot be read passes here, because another function reports that.
 ///
-/// with_world: the run is in the simulated world.
+/// with_world: the run uses the simulated world.
 [[nodiscard]] int check_run(const project::LaunchOptions& options, bool with_world);
 
 }  // namespace tessera::cli

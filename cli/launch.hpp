@@ -5,7 +5,7 @@
 #include "cli/arguments.hpp"
 #include "project/launch.hpp"
 
-/// Options that several commands have in common.
+/// Options that several commands share.
 namespace tessera::cli {
 
 /// Declares the argument that names the specification.

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     if (const std::optional<int> decided = line.read(argc, argv)) return *decided;
   } catch (const std::exception& error) {
     return cli::complain(error.what());
-  } catch (...) {  // of a library: MuJoCo's is no std::exception
+  } catch (...) {  // from a library: MuJoCo's is no std::exception
     return cli::complain("a library failed without saying why");
   }
   return exit_code;

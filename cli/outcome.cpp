@@ -97,7 +97,7 @@ std::string to_json(const RunOutcome& outcome) {
 
 namespace {
 
-// Of a fleet, the first few stand for the rest; the JSON has all.
+// Only the first few subsystems of a fleet are printed; the JSON has all.
 constexpr std::size_t shown_subsystems = 12;
 
 void print_subsystems(const json& subsystems) {

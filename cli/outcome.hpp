@@ -10,7 +10,7 @@
 
 namespace tessera::cli {
 
-/// What a run came to: the controller's own summary, and on a track how well the robot kept to the line.
+/// The result of a run: the controller's own summary and, on a track, how well the robot kept to the line.
 struct RunOutcome {
   nlohmann::json summary;  ///< simulated_s, wall_s, real_time_factor, firings, ended, failed, subsystems
   std::filesystem::path recording;
@@ -18,20 +18,20 @@ struct RunOutcome {
   std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
 };
 
-/// Reads what the run left. Throws std::runtime_error when something cannot be read.
+/// Reads the files of the run. Throws std::runtime_error if one of them cannot be read.
 [[nodiscard]] RunOutcome read_outcome(const project::Controller& controller,
                                       const project::LaunchOptions& options);
 
-/// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}; on
-/// a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}; with several
-/// robots in the world "robots" instead.
+/// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}.
+/// On a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}; with
+/// several robots in the world "robots" instead.
 [[nodiscard]] std::string to_json(const RunOutcome& outcome);
 
 /// The same for people, on standard output.
 void print(const RunOutcome& outcome);
 
-/// index.html and, with a drive, path.png in `folder`, which is made if need be; says on standard error where
-/// they are. Throws std::runtime_error when one cannot be written.
+/// Writes index.html and, with a drive, path.png to `folder`, which is made if it does not exist. Standard
+/// error says where they are. Throws std::runtime_error if one cannot be written.
 void write_report(RunOutcome outcome, const verify::Report& verification,
                   const std::filesystem::path& folder);
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The first bytes of a regular file; empty: there is none, or nothing in it.
+/// The first bytes of a regular file; empty: it does not exist, or is empty.
 std::string beginning_of(const fs::path& file, std::size_t count) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};

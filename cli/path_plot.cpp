@@ -46,8 +46,8 @@ class Dots {
 }  // namespace
 
 std::string path_plot(const sim::Track& floor, const sim::Trace& trace) {
-  const double scale =
-      std::min(columns * 2 / floor.width_m(), most_rows * 4 / floor.height_m());  // dots a metre
+  // Dots per metre.
+  const double scale = std::min(columns * 2 / floor.width_m(), most_rows * 4 / floor.height_m());
   Dots dots(static_cast<int>(std::ceil(floor.width_m() * scale / 2)),
             static_cast<int>(std::ceil(floor.height_m() * scale / 4)));
   for (const sim::TracePoint& point : trace.points)

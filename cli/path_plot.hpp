@@ -6,8 +6,7 @@
 
 namespace tessera::cli {
 
-/// The robot's path over the floor as lines of braille characters, eight dots each, for a terminal without a
-/// display.
+/// Draws the robot's path over the floor in braille characters, eight dots each, for a terminal.
 [[nodiscard]] std::string path_plot(const sim::Track& floor, const sim::Trace& trace);
 
 }  // namespace tessera::cli

@@ -25,7 +25,7 @@ using nlohmann::json;
 NetExecutor* playing = nullptr;
 void stop_playing(int /*signal*/) { playing->stop(); }
 
-/// Ctrl-C ends the play, not the command, while this lives.
+/// While it exists, Ctrl-C ends the play and not the command.
 class StopsOnInterrupt {
  public:
   explicit StopsOnInterrupt(NetExecutor& executor) {
@@ -109,7 +109,7 @@ std::string ending(const NetExecutor::Outcome& outcome) {
 }
 
 /// {"firings", "seconds", "ended": "steps" | "dead" | "stopped" | what went wrong, "fired": {transition:
-/// times}, "marking": {place: tokens}}; what is 0 is left out of the two maps.
+/// times}, "marking": {place: tokens}}. The two maps leave out zeros.
 json to_json(const net::Net& net, const Played& played) {
   json fired = json::object(), marking = json::object();
   for (std::size_t t = 0; t < played.times.size(); ++t)

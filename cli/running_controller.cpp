@@ -32,7 +32,7 @@ std::optional<RunningController> RunningController::attach(const fs::path& socke
   if (name.size() >= sizeof address.sun_path) return std::nullopt;
   std::memcpy(address.sun_path, name.c_str(), name.size() + 1);
   RunningController made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0), socket_file.stem().string());
-  set_patience(made.descriptor_, SO_SNDTIMEO, std::chrono::seconds(1));  // of connect, too
+  set_patience(made.descriptor_, SO_SNDTIMEO, std::chrono::seconds(1));  // limits connect, too
   const auto* raw = reinterpret_cast<const sockaddr*>(&address);
   if (made.descriptor_ < 0 || connect(made.descriptor_, raw, sizeof address) != 0) return std::nullopt;
   return made;
@@ -90,7 +90,7 @@ std::vector<fs::path> sockets(const std::string& which) {
 
 std::vector<RunningController> find_controllers(const std::string& which) {
   std::vector<RunningController> running;
-  // One that does not answer was left behind by a process that was killed.
+  // A socket that does not answer was left behind by a process that was killed.
   for (const fs::path& file : sockets(which))
     if (std::optional<RunningController> one = RunningController::attach(file))
       running.push_back(std::move(*one));

@@ -10,12 +10,12 @@
 
 namespace tessera::cli {
 
-/// The connection to the control socket of a controller that runs (tessera/monitor.hpp).
+/// The connection to the control socket of a running controller (tessera/monitor.hpp).
 ///
 /// Threads: one.
 class RunningController {
  public:
-  /// nullopt: nobody listens there.
+  /// nullopt: no process listens there.
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
   RunningController(RunningController&& other) noexcept
       : descriptor_(std::exchange(other.descriptor_, -1)),
@@ -29,11 +29,11 @@ class RunningController {
   /// SYSTEM.PROCESS
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The next line that it sends; nullopt: it has ended, or sent nothing for the time of `be_patient_for`.
+  /// The next line from the controller. nullopt: it has ended or was silent for too long (`be_patient_for`).
   [[nodiscard]] std::optional<std::string> line();
-  /// From now on nothing waits for longer than that: a process may be stopped, or hang.
+  /// Limits all later waits to this time, because the process may be stopped or hang.
   void be_patient_for(std::chrono::milliseconds time);
-  /// false: it has ended, or takes nothing.
+  /// false: the controller has ended, or takes nothing.
   [[nodiscard]] bool send(std::string_view text) const;
 
  private:
@@ -42,12 +42,12 @@ class RunningController {
   std::string name_, pending_;
 };
 
-/// All that `which` (a system, a process, or empty for all) means. Empty after it was printed that there is
-/// none.
+/// All controllers that `which` means: a system, a process, or empty for all. If
+/// there is none, prints that.
 [[nodiscard]] std::vector<RunningController> find_controllers(const std::string& which);
 
-/// The one that `which` (a system, a process, or empty for any) means. nullopt after the reason, such as that
-/// there are several, has been printed.
+/// The controller that `which` means: a system, a process, or empty for any. nullopt after the reason has
+/// been printed, for example that there are several.
 [[nodiscard]] std::optional<RunningController> find_controller(const std::string& which);
 
 }  // namespace tessera::cli

@@ -33,7 +33,7 @@ class StandardError final : public project::Listener {
     std::fflush(stderr);
   }
 
-  bool unreadable = false;  ///< some file that was told of
+  bool unreadable = false;  ///< some file that was reported
 };
 
 StandardError& standard_error() {

@@ -22,8 +22,8 @@ double mean_grey(const Track& track, std::uint32_t x, std::uint32_t y, std::uint
   return sum / count;
 }
 
-/// The pixels of the same kind connected to `seed` (over edges for floor, over corners too for line), which
-/// are marked.
+/// The pixels of the same kind connected to `seed` (over edges for floor, also over
+/// corners for line). Marks them.
 std::vector<std::size_t> region(const Bitmap& picture, std::size_t seed, std::vector<std::uint8_t>& marked) {
   const auto w = static_cast<std::ptrdiff_t>(picture.width);
   const std::array<std::ptrdiff_t, 8> around = {1, -1, w, -w, w + 1, w - 1, -w + 1, -w - 1};
@@ -90,7 +90,7 @@ Bitmap line_of(const Track& track) {
                  .pixel_m = per_pixel * block,
                  .line = {}};
   picture.line.resize(std::size_t{columns + 2} * (rows + 2));
-  // Blocks start at the lower left corner, the floor's origin; the topmost and rightmost may be cut.
+  // Blocks start at the lower left corner, the origin of the floor; those at the top and right may be cut.
   for (std::uint32_t y = 0; y < rows; ++y) {
     const std::uint32_t top = track.height_px() - std::min(track.height_px(), (y + 1) * block);
     for (std::uint32_t x = 0; x < columns; ++x) {
@@ -107,7 +107,7 @@ void clean(Bitmap& picture) {
   for (std::size_t seed = 0; seed < picture.line.size(); ++seed) {
     if (marked[seed] != 0) continue;
     const auto pixels = region(picture, seed, marked);
-    const bool outside = seed == 0;  // whose border must stay clear, however small the picture
+    const bool outside = seed == 0;  // its border must stay clear, however small the picture is
     if (!outside && is_small(picture, pixels)) specks.insert(specks.end(), pixels.begin(), pixels.end());
   }
   for (const std::size_t pixel : specks) picture.line[pixel] ^= 1;

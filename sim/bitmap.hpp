@@ -7,7 +7,8 @@
 
 namespace tessera::sim {
 
-/// The line of a floor picture in black and white, with rows from the bottom and a border of one clear pixel.
+/// The line of a floor picture in black and white. Rows begin at the bottom; the
+/// border is one clear pixel wide.
 struct Bitmap {
   int width = 0, height = 0;
   double pixel_m = 0;
@@ -20,16 +21,16 @@ struct Bitmap {
   [[nodiscard]] Point centre_of(std::size_t pixel) const;
 };
 
-/// Pixels darker than half, of at least 3 mm: a finer picture is averaged.
+/// Makes pixels darker than half line. Pixels are at least 3 mm wide: a finer picture is averaged.
 [[nodiscard]] Bitmap line_of(const Track& track);
 
-/// Removes specks (dark spots less than 2 cm across) and fills holes in the line (bright spots less than 2 cm
-/// across).
+/// Removes specks (dark spots less than 2 cm across) and fills holes in the line (bright
+/// spots less than 2 cm across).
 void clean(Bitmap& picture);
 
 /// Thins the line to one pixel.
-/// Source: Z. Guo, R. W. Hall, Parallel thinning with two-subiteration algorithms, CACM 32(3), 1989,
-/// algorithm A1.
+/// Source: Z. Guo, R. W. Hall, Parallel thinning with two-subiteration algorithms, CACM
+///         32(3), 1989, algorithm A1.
 void thin(Bitmap& picture);
 
 }  // namespace tessera::sim

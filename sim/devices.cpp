@@ -32,7 +32,7 @@ void put_number(double number, std::span<std::byte> value) {
   std::memcpy(value.data(), &as_float, sizeof as_float);
 }
 
-/// The buffer's type is known by its size only; the specification allows no others than these two.
+/// The type of the buffer is determined by its size; the specification allows only these two types.
 double read_float(std::span<const std::byte> value, const std::string& path) {
   if (value.size() == sizeof(double)) return number_in<double>(value);
   if (value.size() == sizeof(float)) return number_in<float>(value);

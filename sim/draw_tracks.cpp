@@ -1,5 +1,6 @@
-// Draws the tracks of share/tessera/tracks: draw_tracks DIRECTORY. Black anti-aliased lines 0.05 m wide on
-// white, at 5 mm per pixel, in greys, so that edges are where they are and not at the next pixel.
+// Draws the tracks of share/tessera/tracks: draw_tracks DIRECTORY. The lines are black, anti-aliased
+// and 0.05 m wide on white, at 5 mm per pixel. Grey levels give the position of edges more
+// exactly than whole pixels.
 #include <cairo.h>
 #include <png.h>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr double metres_per_pixel = 0.005;
 constexpr double line_width_m = 0.05;
 
-/// Draws by driving: forward and along arcs, with the pen down or up.
+/// Draws like a robot that drives forward and along arcs, with the pen down or up.
 class Pen {
  public:
   Pen(double width_m, double height_m, double x_m, double y_m)
@@ -92,7 +93,8 @@ class Pen {
     y_ += metres * std::sin(heading_);
   }
 
-  /// Moves along a circle whose centre is on that side: 1 left, -1 right. Returns the centre's x and y.
+  /// Moves along a circle whose centre is on that side: 1 left, -1 right. Returns
+  /// the x and y of the centre.
   std::pair<double, double> turn_about(double angle, double radius_m, double side) {
     const double centre_x = x_ - side * radius_m * std::sin(heading_);
     const double centre_y = y_ + side * radius_m * std::cos(heading_);

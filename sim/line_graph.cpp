@@ -132,7 +132,7 @@ void LineGraph::simplify() {
   join_through_nodes();
 }
 
-/// Removes the shortest one: its neighbour may become part of the line by that.
+/// Removes only the shortest spur, because its neighbour may then become part of the line.
 bool LineGraph::remove_spur() {
   const auto at = ports();
   std::optional<std::size_t> shortest;
@@ -198,7 +198,7 @@ std::vector<Point> LineGraph::points_of(const Way& way) const {
   for (const Port& port : way.edges) {
     std::vector<Point> next = edges_[port.edge].points;
     if (port.end == 1) std::ranges::reverse(next);
-    // Edges of one node share its point; those of melted junctions do not.
+    // Edges of one node share its point; those of merged junctions do not.
     const bool shared = !points.empty() && distance(points.back(), next.front()) < 1e-9;
     points.insert(points.end(), next.begin() + (shared ? 1 : 0), next.end());
   }

@@ -10,7 +10,8 @@
 
 namespace tessera::sim {
 
-/// A thinned line as a graph: nodes where lines end or meet, edges the lines between them.
+/// A thinned line as a graph. Nodes are the points where lines end or meet; edges
+/// are the lines between them.
 class LineGraph {
  public:
   struct Edge {
@@ -18,18 +19,18 @@ class LineGraph {
     std::vector<Point> points;        ///< at least two
   };
 
-  /// `line_width_m`: what counts as a detail (spurs, and the short piece between the two junctions that
-  /// thinning makes of one crossing) is measured by it.
+  /// line_width_m: the scale of details, such as spurs and the short piece between the two junctions that
+  /// thinning makes of one crossing.
   LineGraph(const Bitmap& thinned, double line_width_m);
 
-  /// Removes dead ends no longer than the line is wide, and melts junctions that close into one.
+  /// Removes dead ends about as short as the line is wide, and merges junctions that are that close.
   void simplify();
   /// Joins free ends that face each other over a gap of up to 6 cm.
   void bridge_gaps();
-  /// Removes all that is on no loop, unless hardly anything would be left.
+  /// Removes all edges that are on no loop, unless hardly anything would be left.
   void keep_loops();
-  /// The longest way that goes straight on at crossings and uses no edge twice; a loop is preferred to an
-  /// open line.
+  /// The longest way that goes straight on at crossings and uses no edge twice. A loop is
+  /// preferred to an open line.
   [[nodiscard]] Skeleton longest_way() const;
 
  private:
@@ -37,7 +38,7 @@ class LineGraph {
     std::size_t edge, end;
     auto operator<=>(const Port&) const = default;
   };
-  /// What each end of each edge goes on to.
+  /// The end at which each end of each edge continues.
   using Partners = std::vector<std::array<std::optional<Port>, 2>>;
   struct Way {
     std::vector<Port> edges;  ///< each entered at that end
@@ -45,7 +46,7 @@ class LineGraph {
   };
 
   [[nodiscard]] std::vector<std::vector<Port>> ports() const;  ///< by node
-  /// Unit vector into the edge, past what a junction distorts.
+  /// Unit vector into the edge, measured beyond the part that a junction distorts.
   [[nodiscard]] Point direction(const Port& port) const;
   [[nodiscard]] const Point& position_of(const Port& port) const;
   /// All edges, each in one way; open ways first.
@@ -63,7 +64,7 @@ class LineGraph {
   std::vector<Edge> edges_;
 };
 
-/// Of a polyline.
+/// The length of a polyline.
 [[nodiscard]] double length_of(const std::vector<Point>& points);
 
 }  // namespace tessera::sim

@@ -1,4 +1,4 @@
-// LineGraph: from the pieces of a line to the way that a robot takes.
+// LineGraph: from the pieces of a line to the way of the robot.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,7 +28,7 @@ void LineGraph::bridge_gaps() {
     if (there.size() == 1) free_ends.push_back(there.front());
   }
   std::vector<Bridge> bridges;
-  // Thinning takes half the line's width off an end.
+  // Thinning shortens each end by half the width of the line.
   const double reach = longest_gap_m + 1.2 * width_m_;
   for (std::size_t i = 0; i < free_ends.size(); ++i) {
     for (std::size_t j = i + 1; j < free_ends.size(); ++j) {
@@ -105,7 +105,7 @@ LineGraph::Partners LineGraph::straight_partners() const {
   return partners;
 }
 
-/// Depth first over simple cycles; gives up after a number of steps that no drawn track needs.
+/// Depth-first search over simple cycles. It gives up after a number of steps that no drawn track needs.
 LineGraph::Way LineGraph::longest_cycle() const {
   const auto at = ports();
   std::vector<bool> visited(nodes_);

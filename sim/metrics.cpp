@@ -7,16 +7,16 @@
 namespace tessera::sim {
 namespace {
 
-/// Farther away than this the robot is not on that stretch of line any more, and may come back anywhere.
+/// Farther away than this, the robot has left this part of the line and may come back anywhere.
 constexpr double off_the_line_m = 0.1;
 
-/// Where a point falls on the line.
+/// The projection of a point onto the line.
 struct Foot {
   double along_m = 0;
   double left_m = 0;  ///< signed distance, left of the line's direction positive
 };
 
-/// Follows a path along a line, so that at crossings the right branch counts.
+/// Follows a path along a line, so that the right branch counts at crossings.
 class Follow {
  public:
   explicit Follow(const Skeleton& line) : line_(line) {
@@ -29,7 +29,7 @@ class Follow {
     }
   }
 
-  /// Foot of the next point of the path; what was gone along the line since the last adds to progress_m().
+  /// The foot of the next point of the path. The progress since the last point is added to progress_m().
   Foot next(const Point& p) {
     const double moved = started_ ? std::hypot(p.x_m - last_.x_m, p.y_m - last_.y_m) : 0;
     last_ = p;
@@ -47,7 +47,7 @@ class Follow {
   [[nodiscard]] double length_m() const { return length_; }
 
  private:
-  /// From `b` to `a` the shorter way.
+  /// The difference from `b` to `a` along the shorter way.
   [[nodiscard]] double difference(double a, double b) const {
     const double d = a - b;
     return line_.closed ? d - length_ * std::round(d / length_) : d;

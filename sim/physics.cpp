@@ -12,11 +12,11 @@
 namespace tessera::sim {
 namespace {
 
-/// Where the warnings of the engine go that this thread causes.
+/// Receives the warnings of the engine that this thread causes.
 thread_local std::string* warnings = nullptr;
 
-/// MuJoCo requires that this does not return. Its C code has unwind tables on all Debian architectures that
-/// ship it.
+/// MuJoCo requires that this function does not return. Its C code has unwind tables on all Debian
+/// architectures that ship it.
 [[noreturn]] void on_error(const char* message) { throw std::runtime_error(message); }
 
 void on_warning(const char* message) {
@@ -27,7 +27,7 @@ void on_warning(const char* message) {
   }
 }
 
-/// Runs `call` into the engine. What the engine complained of; empty: nothing.
+/// Calls the engine. Returns its error or warning; empty: none.
 template <class Call>
 std::string complaint_of(Call&& call) {
   std::string text;
@@ -36,7 +36,7 @@ std::string complaint_of(Call&& call) {
     std::forward<Call>(call)();
   } catch (const std::exception& e) {
     text = e.what();
-  } catch (...) {  // the engine's own kind, which is in none of its headers
+  } catch (...) {  // the engine's own exception type, which is in none of its headers
     text = "the engine gave up without saying why";
   }
   warnings = nullptr;
@@ -94,7 +94,7 @@ void Physics::step() {
   failure_ = when.data() + complaint;
 }
 
-/// What the engine complains of here it complains of at the next step too, which stops the run.
+/// A warning of the engine here comes again at the next step, which stops the run.
 void Physics::locate() const {
   if (located_ || !failure_.empty()) return;
   std::copy_n(data_->qpos, model_->nq, view_->qpos);

@@ -14,12 +14,11 @@
 
 namespace tessera::sim {
 
-/// A MuJoCo model with its state. What the engine complains of, errors and warnings alike (an unstable
-/// simulation is a warning to it), stops this physics for good and is in failure(); it never ends the
-/// process.
+/// A MuJoCo model with its state. Any complaint of the engine, error or warning (an unstable simulation is
+/// only a warning to it), stops this physics for good and is in failure(). It never ends the process.
 ///
-/// *Reading does not disturb.* Whatever is asked, and how often, the next steps have the same bits: positions
-/// are worked out on a copy of the state, because the engine rounds the state when it works them out.
+/// *Reading does not disturb.* Queries, however many, do not change a bit of the next steps. Positions are
+/// computed on a copy of the state, because the engine rounds the state when it computes them.
 ///
 /// Threads: one at a time.
 class Physics {
@@ -33,9 +32,10 @@ class Physics {
   [[nodiscard]] Duration next_time() const { return (steps_ + 1) * step_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
-  /// Where the body on the first free joint is: the robot. nullopt when nothing in the world is free to move.
+  /// The pose of the body on the first free joint, the robot. nullopt: nothing in
+  /// the world is free to move.
   [[nodiscard]] std::optional<Pose> robot() const;
-  /// Puts the robot there, at rest, as high as the world file says. Needs robot().
+  /// Puts the robot there, at rest, at the height that the world file gives. Needs robot().
   void place_robot(const Pose& pose);
 
   /// A body that is attached to the world itself, fixed or free to move, with all that hangs on it: a robot,
@@ -63,13 +63,13 @@ class Physics {
     void operator()(mjData* data) const { mj_deleteData(data); }
   };
   Physics(mjModel* model, mjData* data, mjData* view, std::string&& failure);
-  /// Brings the positions of bodies and sites in `view_` up to the state.
+  /// Updates the positions of bodies and sites in `view_` from the state.
   void locate() const;
   [[nodiscard]] std::vector<std::string> names(mjtObj type, int count) const;
 
   std::unique_ptr<mjModel, Release> model_;
   std::unique_ptr<mjData, Release> data_;
-  std::unique_ptr<mjData, Release> view_;  // what readers look at
+  std::unique_ptr<mjData, Release> view_;  // read by the queries
   std::string failure_;
   Duration step_{0};
   std::int64_t steps_ = 0;

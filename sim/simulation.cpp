@@ -13,7 +13,7 @@ namespace {
 constexpr Duration sampling_period = std::chrono::milliseconds(10);
 constexpr double line_threshold = 0.5;
 
-/// The point nearest to the mean of all: of three sensors in a row the middle one.
+/// The point nearest to the mean of all: for three sensors in a row, the middle one.
 Point middle_of(const std::vector<Point>& points) {
   Point mean;
   for (const Point& p : points) {

@@ -14,13 +14,14 @@
 
 namespace tessera::sim {
 
-/// What a world and its devices share: physics over a floor, and the trace of the robot: of the body that the
-/// devices are on. When they are on several, no path is that of the robot, and the trace only names them.
+/// The state that a world and its devices share: physics over a floor, and the trace of the robot,
+/// the body that has the devices. If several bodies have devices, there is no single path; the trace
+/// then only lists their names.
 ///
 /// Threads: all members lock.
 class Simulation {
  public:
-  /// `floor` absent: white everywhere.
+  /// floor: nullopt means white everywhere.
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
 
   void advance_to(Time time);

@@ -34,7 +34,7 @@ Skeleton resample(Skeleton line) {
   return even;
 }
 
-/// Gaussian along the line. An open line keeps its ends: it goes on beyond them point-symmetrically.
+/// Smooths along the line (Gaussian). An open line keeps its ends: it is continued point-symmetrically there.
 Skeleton smooth(const Skeleton& line) {
   const auto count = static_cast<std::ptrdiff_t>(line.points.size());
   const auto at = [&](std::ptrdiff_t i) -> Point {

@@ -6,7 +6,7 @@ namespace tessera::sim {
 
 namespace {
 
-constexpr double stretch_m = 0.4;  // a robot and what it sees ahead
+constexpr double stretch_m = 0.4;  // length of a robot and of what it sees ahead
 
 /// The point a stretch further along the line; nullopt past the end of an open one.
 std::optional<std::size_t> stretch_from(const Skeleton& line, std::size_t first) {
@@ -30,8 +30,8 @@ std::optional<Pose> start_on(const Skeleton& line) {
     const std::optional<std::size_t> last = stretch_from(line, first);
     if (!last) break;
     const Point from = line.points[first], to = line.points[*last];
-    const double chord =
-        distance(from, to);  // of stretches equally long, the straightest has the longest chord
+    // Among parts of equal length, the straightest has the longest chord.
+    const double chord = distance(from, to);
     if (chord <= best_chord) continue;
     best_chord = chord;
     best = Pose{from, std::atan2(to.y_m - from.y_m, to.x_m - from.x_m)};

@@ -11,14 +11,15 @@
 
 namespace tessera::sim {
 
-/// Writes a trace file point by point; what is older than a twentieth of a second of wall time can be read.
+/// Writes a trace file point by point. Points are in the file after a twentieth of a second of real time.
 /// The same points give the same bytes: numbers have a fixed number of decimals.
 class TraceWriter {
  public:
-  /// An empty path: writes nothing. Whether the file can be written, finish() says.
+  /// path: empty means that nothing is written. finish() says whether the file could be written.
   explicit TraceWriter(std::string path);
   [[nodiscard]] bool wanted() const { return !path_.empty(); }
-  /// Before the points; the first call counts. robots: bodies with devices; of several there are no points.
+  /// Call it before the points; only the first call counts. robots: bodies with devices; if there are
+  /// several, no points are written.
   void begin(const std::vector<std::string>& robots);
   void add(const TracePoint& point);
   /// Flushes. Problem: some of it could not be written.

@@ -67,8 +67,8 @@ class Row {
 
 }  // namespace
 
-// Exact along x; along y each row of pixels is cut into strips of equal height, whose chord is taken at
-// mid-height.
+// Exact along x. Along y, each row of pixels is cut into strips of equal height, and the chord of each
+// strip is taken at mid-height.
 double Track::reflectance(Point at, double footprint_m) const {
   const double x = at.x_m / metres_per_pixel_;
   const double y = height_ - at.y_m / metres_per_pixel_;  // rows count from the top

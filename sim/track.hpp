@@ -13,7 +13,7 @@
 
 namespace tessera::sim {
 
-/// A point of the floor, in metres: x right, y up, origin at the picture's lower left corner.
+/// A point of the floor in metres: x right, y up, origin at the lower left corner of the picture.
 struct Point {
   double x_m = 0, y_m = 0;
 };
@@ -27,7 +27,7 @@ class Track {
   /// Any PNG that libpng reads; colours become grey, transparency white.
   [[nodiscard]] static Result<Track> load(const std::string& png, double metres_per_pixel);
 
-  /// Mean reflectance (0 dark .. 1 bright) of the disc of that diameter around `at`.
+  /// Mean reflectance (0 dark .. 1 bright) of the disc with that diameter around `at`.
   [[nodiscard]] double reflectance(Point at, double footprint_m) const;
 
   [[nodiscard]] double width_m() const;
@@ -44,8 +44,8 @@ class Track {
   std::vector<std::uint8_t> pixels_;
 };
 
-/// The middle of the line as a polyline in driving order, from the longest loop of the picture's skeleton
-/// (gaps bridged).
+/// The middle of the line as a polyline in driving order: the longest loop of the picture's
+/// skeleton, with gaps bridged.
 struct Skeleton {
   std::vector<Point> points;
   bool closed = false;
@@ -53,7 +53,7 @@ struct Skeleton {
 };
 [[nodiscard]] Skeleton skeleton(const Track& track);
 
-/// Where to put a robot that shall follow the line: on its straightest stretch, looking along it. nullopt:
+/// A start pose for a robot that shall follow the line: on its straightest part, facing along it. nullopt:
 /// there is no line, or it is shorter than a robot.
 struct Pose {
   Point at;

@@ -114,7 +114,7 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 
-/// Opens a MuJoCo world; nothing is thrown. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
+/// Opens a MuJoCo world; throws nothing. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
 /// site), effector `velocity` (target: an actuator).
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
     const tessera::WorldOptions& options, std::string& error) {

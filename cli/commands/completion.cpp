@@ -7,7 +7,7 @@ namespace tessera::cli {
 
 namespace {
 
-// The words come from the options themselves, so that completion never lags behind.
+// The words come from the options themselves, so that completion is always up to date.
 std::string bash_completion(const CommandLine& line) {
   std::string names, cases;
   for (const CommandLine::Words& words : line.words()) {

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The example is the template: what a new project starts from is what the tests run.
+// The example is the template, so tests run what a new project starts from.
 constexpr const char* template_name = "line_follower";
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -52,8 +52,8 @@ void copy_tree(const fs::path& from, const fs::path& to, const std::string& name
     if (entry.is_regular_file()) copy_renamed(entry.path(), to / fs::relative(entry.path(), from), name);
 }
 
-/// A folder beside the project's, where the project is made: nobody sees half of one, and what fails leaves
-/// nothing behind and touches nothing that was there.
+/// A folder beside that of the project, where the project is made. Nobody sees an incomplete project. A
+/// failure leaves no files behind and changes no existing ones.
 class Workshop {
  public:
   explicit Workshop(const fs::path& project) {
@@ -72,11 +72,11 @@ class Workshop {
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
   [[nodiscard]] fs::path folder() const { return folder_ / "project"; }
-  /// false: there is something of that name by now.
+  /// false: something with that name exists by now.
   [[nodiscard]] bool move_to(const fs::path& project) const {
     if (renameat2(AT_FDCWD, folder().c_str(), AT_FDCWD, project.c_str(), RENAME_NOREPLACE) == 0) return true;
     if (errno == EEXIST) return false;
-    // A file system that does not know this kind of renaming.
+    // The file system does not support this kind of renaming.
     if (errno == EINVAL && !fs::exists(fs::symlink_status(project)) &&
         rename(folder().c_str(), project.c_str()) == 0)
       return true;
@@ -87,7 +87,7 @@ class Workshop {
   fs::path folder_;
 };
 
-/// In the words of `check`, which would refuse the specification that is to be made.
+/// Reports a bad name like `check`, which would reject the new specification.
 bool may_name_a_system(const std::string& name) {
   diagnostics::Diagnostics found("", "");
   if (spec::check_system_name(name, {}, found)) return true;

@@ -14,7 +14,7 @@
 #include "project/process/control_messages.hpp"
 #include "tessera/result.hpp"
 
-/// What an operator does to a controller that runs: `tessera set`, `emergency-stop`, `reset`.
+/// Commands of an operator to a running controller: `tessera set`, `emergency-stop`, `reset`.
 namespace tessera::cli {
 
 namespace {
@@ -65,7 +65,7 @@ int set_command(const OperateOptions& options) {
   return code;
 }
 
-/// All controllers unless one is named: who asks for it has no time to look up names.
+/// Stops all controllers unless one is named: in an emergency, nobody has time to look up names.
 int emergency_stop_command(const OperateOptions& options) {
   std::vector<RunningController> controllers = find_controllers(options.which);
   const project::command::EmergencyStop command{options.why};

@@ -81,7 +81,7 @@ std::string shown(double seconds) {
   return fmt::format("{:.3f} s", seconds);
 }
 
-/// A row of blocks, one per step of the histogram; anything at all shows.
+/// A row of block characters, one per step of the histogram. Every value above zero is visible.
 std::string bars(const Distribution& distribution) {
   if (distribution.histogram.empty()) return {};
   constexpr const char* blocks[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
@@ -173,7 +173,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 
 // ---------------------------------------------------------------------------------------------- check
 
-/// The specification beside a recording: in its folder or in one above.
+/// The specification of a recording: in its folder or in one above.
 std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
@@ -196,7 +196,7 @@ const char* name_of(Legal verdict) {
   return "";
 }
 
-/// nullopt after the reason has been printed: there is no net to check against.
+/// nullopt after the reason has been printed that there is no net to check against.
 std::optional<replay::Legality> check(const Recording& recording, const ReplayOptions& options) {
   const std::string file = specification_of(options);
   std::optional<Specification> specification = read(file, terminal());
@@ -239,7 +239,7 @@ bool known_values(const Recording& recording, const std::string& wanted) {
   return false;
 }
 
-/// The last run of the project here, wherever its files are kept.
+/// The last run of this project, wherever its files are kept.
 std::string last_recording() {
   const fs::path kept = state_folder(fs::canonical(".")) / "last" / file_names::recording;
   return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();

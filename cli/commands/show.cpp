@@ -59,7 +59,7 @@ void print_counts(const net::Counts& counts) {
              counts.transitions, counts.arcs);
 }
 
-// A picture or two for people to open, or nothing of the kind was asked for.
+// Writes one or two pictures, if they are asked for.
 bool draw(const ShowOptions& options, const Specification& specification, const Nets& nets,
           net::PageId page) {
   const drawing::Options picture = picture_options(options, specification.model);

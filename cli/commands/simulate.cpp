@@ -40,8 +40,8 @@ int print_debugger(const Command& command) {
   return ok;
 }
 
-// The summary is written even by a run that failed, and says why; only a controller that could not start
-// leaves none.
+// Even a run that failed writes a summary, which says why. Only a controller that
+// could not start leaves none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
            const Command& command, const std::string& json, const std::string& report_folder) {
   if (options.debug) return print_debugger(command);
@@ -62,7 +62,7 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
   return exit.code;
 }
 
-// The command that makes one of the schedules again, alone and recorded.
+// The command that repeats one of the schedules, alone and recorded.
 std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
   Command line{"tessera", "simulate",           options.spec, "--interleave",
                "--seed",  std::to_string(seed), "--for",      options.duration};
@@ -80,7 +80,7 @@ std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
   return shell_line(line);
 }
 
-// The controller says what it found; how to look at it only this command knows.
+// The controller reports its result; this command adds how to look at it.
 int launch_schedules(const SimulateOptions& options, Command command) {
   command.insert(command.end(), {"--schedules", std::to_string(options.schedules)});
   if (options.debug) return print_debugger(command);
@@ -98,7 +98,7 @@ int launch_schedules(const SimulateOptions& options, Command command) {
   return exit.code;
 }
 
-// User code again on what a recording says it was given: no world, no recording.
+// Runs user code again on recorded data: without a world, without a new recording.
 int run_again(const Controller& controller, const SimulateOptions& options) {
   const RunFiles files = run_files(options);
   Command command{controller.program.string(),
@@ -115,7 +115,7 @@ int run_again(const Controller& controller, const SimulateOptions& options) {
   return exit.code;
 }
 
-/// A folder for the run, and its controller there.
+/// Makes the folder of the run, and puts its controller there.
 RunFolder folder_for(Controller& controller, LaunchOptions& options, const char* mode, bool is_recorded) {
   const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
   RunFolder folder(state_folder(controller.specification.project), mode, shown, terminal());
@@ -125,7 +125,7 @@ RunFolder folder_for(Controller& controller, LaunchOptions& options, const char*
   return folder;
 }
 
-/// Before anything takes time.
+/// Called before anything takes time.
 void check_outputs(const LaunchOptions& options, const std::string& json, const std::string& report) {
   check_recording(options.record);
   check_replaceable(json, "{");
@@ -136,7 +136,7 @@ int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
   if (const int code = check_run(options, options.from.empty()); code != ok) return code;
-  // A scenario shows a violation: that is what the controller is made for.
+  // A scenario shows a violation, so the controller must be made in spite of it.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   check_outputs(options, options.json, options.report);
   if (options.from.empty() && !every_real_buffer_has_driver(options, /*simulated=*/true, terminal()))
@@ -187,17 +187,17 @@ void add_simulate(CommandLine& app, int& exit_code) {
       .option("--scenario", options->scenario,
               "Drive the controller through this run first (tessera verify --scenario)")
       .existing_file();
-  Option from =
-      command
-          .option("--from", options->from,
-                  "Run the code again on what this recording says it was given, and compare what it does")
-          .existing_file();
+  Option from = command
+                    .option("--from", options->from,
+                            "Run user code again on the inputs of this recording, and compare the results")
+                    .existing_file();
   Option schedules = command.option(
       "--schedules", options->schedules,
       "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
       "that breaks an assertion, ends with an error or hangs");
-  command.flag("--interleave", options->interleave,
-               "Subsystems take turns after every firing, as in --schedules, which this makes one of");
+  command.flag(
+      "--interleave", options->interleave,
+      "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
   command.flag("--realtime", options->realtime, "Not faster than the wall clock");
   command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
       .shows_default();

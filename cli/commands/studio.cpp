@@ -28,7 +28,7 @@ struct StudioCommandOptions {
   bool no_browser = false;
 };
 
-/// SIGINT and SIGTERM, kept from all threads made while it lives.
+/// Keeps SIGINT and SIGTERM from all threads that are made while it exists.
 class EndSignals {
  public:
   EndSignals() {
@@ -50,7 +50,7 @@ class EndSignals {
 };
 
 void open_browser(const std::string& url) {
-  // Whoever has no display reads the address.
+  // Without a display, the user reads the address.
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   try {
     static_cast<void>(project::capture({"xdg-open", url}));
@@ -68,7 +68,7 @@ int studio_command(const StudioCommandOptions& options) {
   server::StudioOptions studio;
   studio.spec = fs::canonical(given);
   studio.port = options.port;
-  studio.page = installation.share / "studio";  // of the build tree: a link to what Vite builds
+  studio.page = installation.share / "studio";  // in the build tree: a link to the output of Vite
   studio.share = installation.share;
   studio.version = TESSERA_VERSION;
   const EndSignals signals;

@@ -30,7 +30,7 @@ std::vector<std::string> names_of_tests(Command command) {
   std::vector<std::string> names;
   std::string suite;
   static_cast<void>(capture(command, [&](std::string_view line) {
-    // A suite is "Follow." at the margin; its tests are indented, with a comment behind some.
+    // The name of a suite, "Follow.", is not indented; its tests are, some with a comment.
     line = line.substr(0, line.find("  #"));
     while (line.ends_with('\n') || line.ends_with(' ')) line.remove_suffix(1);
     if (line.starts_with("  "))
@@ -41,7 +41,7 @@ std::vector<std::string> names_of_tests(Command command) {
   return names;
 }
 
-/// A run of no test at all says nothing about the functions.
+/// Running no test at all says nothing about the functions, so it is an error.
 int complain_of_no_tests(const std::string& program, const std::string& filter) {
   const std::vector<std::string> all = names_of_tests({program});
   if (all.empty()) return complain("test/ has files, and no test in them: write TEST(Suite, Name) { ... }");

@@ -36,7 +36,7 @@ struct VerifyOptions {
 std::atomic<bool> searches_stopped{false};
 void stop_searches(int /*signal*/) { searches_stopped.store(true, std::memory_order_relaxed); }
 
-/// Ctrl-C ends the searches, not the command, while this lives.
+/// While it exists, Ctrl-C ends the searches and not the command.
 class Interruptible {
  public:
   Interruptible() : before_(std::signal(SIGINT, stop_searches)) {}
@@ -60,7 +60,7 @@ struct Judged {
     if (!nets) return {net(), nullptr, invariants};
     return {net(), &nets->pages, invariants, nets->properties};
   }
-  /// Every property that can be asked for by its name.
+  /// The names of all properties that can be requested.
   [[nodiscard]] std::vector<std::string> properties() const {
     std::vector<std::string> names = verify::default_properties();
     if (nets)
@@ -117,7 +117,7 @@ void print_result(const Judged& judged, const verify::PropertyResult& property, 
   fmt::print("  {:.3f} s\n", property.seconds);
 }
 
-/// The run of the first violation that has one; a warning's only if there is no other.
+/// Writes the run of the first violation that has one, or that of a warning if there is no other.
 int write_scenario(const Judged& judged, const verify::Report& report, const VerifyOptions& options) {
   const std::string& file = options.scenario;
   const verify::PropertyResult* chosen = nullptr;

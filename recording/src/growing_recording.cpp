@@ -16,7 +16,7 @@
 namespace tessera {
 namespace {
 
-/// nullopt: it is not there, or not whole yet.
+/// nullopt: the file does not exist, or its header is not complete yet.
 [[nodiscard]] std::optional<std::string> header_at(int descriptor) {
   std::array<char, 12> start{};
   std::uint32_t length = 0;
@@ -42,7 +42,7 @@ GrowingRecording::~GrowingRecording() {
   if (file_.descriptor >= 0) close(file_.descriptor);
 }
 
-/// Without a descriptor when there is no whole header yet.
+/// The descriptor is -1 if there is no complete header yet.
 GrowingRecording::File GrowingRecording::open(const std::string& file) {
   File opened{.descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK),
               .run = {},
@@ -75,7 +75,7 @@ void GrowingRecording::begin() {
   }
 }
 
-/// Another one is written now, so nothing comes to this one any more.
+/// Whether another file is being written now, so that nothing is added to this one.
 bool GrowingRecording::is_full() const {
   struct stat ours {
   }, newest{};
@@ -83,13 +83,13 @@ bool GrowingRecording::is_full() const {
          (ours.st_ino != newest.st_ino || ours.st_dev != newest.st_dev);
 }
 
-/// To the segment after this one, or, when that is gone already, to the newest.
+/// Goes on to the segment after this one, or, if that is gone already, to the newest.
 void GrowingRecording::go_on() {
   const std::string after = segment_path(path_, *file_.segment + 1);
   File next = open(after);
   if (next.descriptor < 0) {
     next = open(path_);
-    // Has it got its number between the two?
+    // Checks whether the segment has got its number between the two calls.
     if (File numbered = open(after); numbered.descriptor >= 0) {
       if (next.descriptor >= 0) close(next.descriptor);
       next = std::move(numbered);
@@ -114,7 +114,7 @@ GrowingRecording::Piece GrowingRecording::next(std::size_t most) {
   if (file_.descriptor < 0) return piece;
   piece.bytes = read_some(most);
   if (piece.bytes.empty() && is_full()) {
-    piece.bytes = read_some(most);  // what came before it was full
+    piece.bytes = read_some(most);  // the segment before it was full
     if (piece.bytes.empty()) {
       go_on();
       piece.bytes = read_some(most);

@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t longest_word = 80;
-constexpr std::size_t most_candidates = 1000;  // a guess is not worth more time than that
+constexpr std::size_t most_candidates = 1000;  // a hint is not worth more time than that
 
 std::string lower(std::string_view word) {
   std::string result(word);
@@ -42,15 +42,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// One bit per character, letters without their case. A character that only one of two words has costs a
-/// mistake.
+/// One bit per character, in lower case. A character that occurs in only one of two
+/// words counts as a mistake.
 std::uint64_t characters(std::string_view word) {
   std::uint64_t bits = 0;
   for (const char c : word) bits |= std::uint64_t{1} << (static_cast<unsigned char>(c) & 31U);
   return bits;
 }
 
-/// How many mistakes a word of this length may hold and still be recognised.
+/// How many mistakes a word of this length may contain and still be recognised.
 std::size_t tolerance(std::size_t length) { return length <= 2 ? 1 : (length + 2) / 3; }
 
 /// The only candidate that begins with `word` (in lower case), or "".
@@ -71,7 +71,7 @@ std::string abbreviated(const std::string& word, std::span<const std::string> ca
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   if (word.empty() || word.size() > longest_word) return {};
   const std::string wanted = lower(word);
-  // The first number ignores case, so that a difference of case alone hardly counts.
+  // The first number ignores case, so a difference only in case hardly counts.
   const std::uint64_t wanted_characters = characters(word);
   std::pair best{std::numeric_limits<std::size_t>::max(), std::size_t{0}};
   const std::string* found = nullptr;

@@ -43,7 +43,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
 }
 
-/// false when the JSON lacks what every recording has.
+/// false: the JSON lacks what every recording has.
 [[nodiscard]] bool read_header(Recording& recording) {
   const nlohmann::json header = nlohmann::json::parse(recording.header, nullptr, /*allow_exceptions=*/false);
   if (!header.is_object()) return false;
@@ -67,7 +67,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
 
 constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 1;
 
-/// How many bytes at least a value event with these flags has.
+/// The least number of bytes of a value event with these flags.
 [[nodiscard]] std::size_t fixed_bytes(std::uint32_t flags) {
   return ((flags & ValueFlags::stamped) != 0 ? sizeof(std::int64_t) : 0) +
          ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
@@ -103,7 +103,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
 
 void RecordingReader::feed(std::string_view bytes) {
   if (state_ == State::damaged) return;
-  // Copied only when a piece ends within an entry.
+  // Bytes are copied only if a piece ends within an entry.
   if (!pending_.empty()) {
     pending_.append(bytes);
     bytes = pending_;
@@ -118,7 +118,7 @@ void RecordingReader::give_up(std::string problem) {
   state_ = State::damaged;
 }
 
-/// 0: it is not whole yet.
+/// 0: the header is not complete yet.
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
   const std::size_t before_header = recording_magic.size() + sizeof length;
@@ -232,7 +232,7 @@ namespace {
   RecordingReader reader;
   reader.feed(content);
   const bool cut = !reader.has_header() && reader.problem().empty();
-  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // of the padding behind the header
+  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // for the padding after the header
   if (!reader.has_header()) {
     const bool begins_well = content.size() >= 12 && reader.problem().empty();
     error = fmt::format("'{}' {}", path,
@@ -245,7 +245,7 @@ namespace {
   return std::move(reader.recording());
 }
 
-/// It was full, and the controller was killed before it began the next one.
+/// Whether the file was full when the controller was killed, before it began the next one.
 [[nodiscard]] bool is_full_segment(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   Event last;
@@ -266,8 +266,8 @@ namespace {
   return all;
 }
 
-/// One more than the number of the newest segment beside it; 0: there is none. The newest file is not there,
-/// or has no header yet, when the controller was killed or the disk was full while it was begun.
+/// One more than the number of the newest segment beside the file; 0: there is none. The file itself may be
+/// missing or have no header, if the controller was killed or the disk was full while the file was begun.
 [[nodiscard]] std::uint64_t after_newest_number(const std::string& file) {
   const std::filesystem::path whole(file);
   std::error_code ignored;

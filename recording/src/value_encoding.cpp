@@ -6,14 +6,14 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // of the golden ratio
+constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // derived from the golden ratio
 
 [[nodiscard]] std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
   const std::uint64_t product = (hash ^ word) * odd;
   return std::rotl(product, 29) ^ product;
 }
 
-/// Four lanes, for a processor multiplies faster than one product follows from another.
+/// Uses four lanes, because a processor multiplies faster than one product follows from another.
 [[nodiscard]] std::uint64_t hash_of(const std::byte* bytes, std::size_t count, std::uint64_t seed) {
   std::array<std::uint64_t, 4> lanes{seed ^ count, seed + odd, ~seed, seed ^ odd};
   std::array<std::uint64_t, 4> words{};
@@ -30,9 +30,8 @@ constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // of the golden ratio
 
 }  // namespace
 
-/// What does not fit is hashed block by block, with what was kept before it.
-// Not inline: where the limit and the size of the value are known, the compiler warns of the copy that is
-// never made.
+/// Bytes beyond the limit are hashed block by block, together with what was kept before.
+/// Not inline: where the limit and the size are known, the compiler warns of a copy that is never made.
 void ValueSink::put(const void* bytes, std::size_t count) {
   total_ += count;
   if (count > limit_ - filled_) return spill(bytes, count);

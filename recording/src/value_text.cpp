@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-/// A type: a scalar, a text, so many of one type, or fields.
+/// A type: a scalar, a text, a sequence of one type, or fields.
 struct ValueLayout::Node {
   enum class Kind : std::uint8_t { boolean, integer, natural, real, text, bytes, sequence, structure };
   struct Field {
@@ -19,7 +19,7 @@ struct ValueLayout::Node {
   std::size_t size = 0;                 ///< bytes of a scalar; capacity of a text; count of a sequence
   std::shared_ptr<const Node> element;  ///< of a sequence
   std::vector<Field> fields;            ///< of a structure
-  std::size_t scalars = 1;              ///< in all
+  std::size_t scalars = 1;              ///< in total
 };
 
 // --------------------------------------------------------------------------------------------- parsing
@@ -38,9 +38,9 @@ class ValueLayoutParser {
   }
 
  private:
-  /// Deeper than any type that a specification can name.
+  /// Deeper than any type in a specification.
   static constexpr int deepest = 64;
-  /// Nor larger: the text may come from a damaged file.
+  /// More than any type in a specification: the text may come from a damaged file.
   static constexpr std::size_t most_scalars = std::size_t{1} << 28U;
 
   bool accept(std::string_view token) {
@@ -165,7 +165,7 @@ template <class T>
 
 namespace {
 
-/// Walks over the bytes of a value by its type.
+/// Visits the bytes of a value according to its type.
 template <class Node>
 class Walk {
  public:

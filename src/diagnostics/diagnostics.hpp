@@ -10,8 +10,8 @@
 
 namespace tessera::diagnostics {
 
-/// A stretch of one line of a source text. Lines and columns count from 1; columns and lengths count bytes.
-/// A span with line 0 points at the file as a whole.
+/// A part of one line of a source text. Lines and columns count from 1; columns and lengths count bytes. A
+/// span with line 0 means the file as a whole.
 struct Span {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
@@ -22,7 +22,7 @@ struct Span {
 
 enum class Severity : std::uint8_t { error, warning, note };
 
-/// One complaint about the user's input.
+/// One message about a mistake in the user's input.
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;  ///< "E101"; the catalogue is docs/diagnostics.md
@@ -31,8 +31,9 @@ struct Diagnostic {
   std::string hint;     ///< what to do about it; may be empty
 };
 
-/// Collects the diagnostics of one source text. Stages add and carry on, so that one run reports every
-/// mistake. A complaint made twice (a template used by many agents, an alias) is kept once.
+/// Collects the diagnostics of one source text. A stage that finds a mistake goes on, so that
+/// one run reports every mistake. A diagnostic that is reported twice (a template used by many
+/// agents, an alias) is kept once.
 ///
 /// Threads: one at a time.
 class Diagnostics {
@@ -65,8 +66,8 @@ class Diagnostics {
   std::size_t errors_ = 0;
 };
 
-/// One diagnostic as people read it: file:line:column, the source line (a long one cut around the span), a
-/// caret, the hint. colour: with ANSI colours.
+/// One diagnostic as people read it: file:line:column, the source line (a long one is cut around the span),
+/// a caret, the hint. colour: with ANSI colours.
 [[nodiscard]] std::string render(const Diagnostic& diagnostic, const Diagnostics& source,
                                  bool colour = false);
 

@@ -11,9 +11,8 @@ inline constexpr std::uintmax_t largest_source = std::uintmax_t{64} * 1024 * 102
 
 /// Reads a source file from disk. A file that cannot be read gives an empty text and one error.
 ///
-/// Errors: E001 there is no such file, it is a directory or a device, it may not be read, or it is larger
-/// than
-///         largest_source bytes.
+/// Errors: E001 the file does not exist, is a directory or a device, must not be read, or is larger
+///         than largest_source bytes.
 [[nodiscard]] Diagnostics load(const std::filesystem::path& path);
 
 }  // namespace tessera::diagnostics

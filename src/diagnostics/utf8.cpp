@@ -22,7 +22,8 @@ constexpr std::array wide = {Range{0x1100, 0x115F},   Range{0x2E80, 0xA4CF},   R
                              Range{0xFFE0, 0xFFE6},   Range{0x1F300, 0x1F64F}, Range{0x1F680, 0x1F6FF},
                              Range{0x1F900, 0x1F9FF}, Range{0x20000, 0x3FFFD}};
 
-/// Controls, and the marks that reorder text: printed raw they would make a terminal or a reader lie.
+/// Controls, and marks that reorder text. Printed unchanged, they could make a
+/// terminal show a different text.
 constexpr std::array hidden = {Range{0x80, 0x9F}, Range{0x2028, 0x202E}, Range{0x2066, 0x2069}};
 
 template <std::size_t N>

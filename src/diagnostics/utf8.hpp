@@ -8,15 +8,15 @@
 
 namespace tessera::diagnostics {
 
-/// One code point of a text, or one byte that is not UTF-8 (then valid is false and code is the byte).
+/// One code point of a text, or one byte that is not UTF-8 (valid is false, and code is the byte).
 struct CodePoint {
   char32_t code = 0;
   std::uint8_t length = 1;  ///< bytes
   bool valid = true;
 };
 
-/// The code point at byte `position` < text.size(). Overlong forms, surrogates and values above U+10FFFF are
-/// invalid.
+/// The code point at byte `position` < text.size(). Overlong forms, surrogates and values
+/// above U+10FFFF are invalid.
 [[nodiscard]] CodePoint decode(std::string_view text, std::size_t position);
 
 /// The position of the first byte that is not UTF-8.
@@ -28,7 +28,7 @@ struct Glyph {
   unsigned columns = 1;  ///< terminal columns it takes
 };
 
-/// A tab becomes one space here: its caller knows the column.
+/// A tab becomes one space here: only the caller knows the column.
 [[nodiscard]] Glyph glyph(const CodePoint& point);
 
 /// `text` with every control character and invalid byte spelled out.
@@ -36,8 +36,7 @@ struct Glyph {
 
 /// `word` in quotes for a message: visible and, if long, shortened.
 [[nodiscard]] std::string quoted(std::string_view word);
-// Exact matches, so that std::quoted of <iomanip>, found by argument-dependent lookup, is never the better
-// one.
+// Exact matches, so that argument-dependent lookup never prefers std::quoted of <iomanip>.
 [[nodiscard]] inline std::string quoted(const std::string& word) { return quoted(std::string_view(word)); }
 [[nodiscard]] inline std::string quoted(const char* word) { return quoted(std::string_view(word)); }
 

@@ -17,7 +17,7 @@ namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Files rather than pipes: neither side can fill one up and wait for the other.
+/// Temporary files and not pipes: neither process can fill a pipe and wait for the other.
 File temporary() {
   File file(std::tmpfile(), &std::fclose);
   if (!file) throw LayoutError(std::string("cannot create a temporary file: ") + std::strerror(errno));

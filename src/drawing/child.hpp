@@ -4,9 +4,9 @@
 
 namespace tessera::drawing {
 
-/// What graphviz's `dot` answers to a graph, as its JSON with positions.
+/// Runs graphviz's `dot` on a graph and returns its JSON with positions.
 ///
-/// Throws LayoutError when there is no such program or it fails.
+/// Throws LayoutError if the program does not exist or fails.
 [[nodiscard]] std::string run_dot(const std::string& graph);
 
 }  // namespace tessera::drawing

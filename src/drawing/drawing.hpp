@@ -7,19 +7,19 @@
 #include "spec/model/model.hpp"
 
 /// Pictures of nets in the paper's graphic language: a circle is a place, a double circle a page, a bar a
-/// transition, dots are tokens, conditions stand in square brackets, fused places are dashed.
+/// transition, a dot a token. Conditions are in square brackets; fused places are dashed.
 namespace tessera::drawing {
 
 struct TreeOptions {
   bool colour = false;           ///< ANSI colours
-  unsigned levels = UINT32_MAX;  ///< how many levels below the system to show
+  unsigned levels = UINT32_MAX;  ///< number of levels below the system to show
 };
 
-/// The pages as an indented tree with box-drawing characters, each with its numbers of places and
-/// transitions.
+/// The pages as an indented tree with box-drawing characters, each with its numbers
+/// of places and transitions.
 [[nodiscard]] std::string tree(const net::HierarchicalNet& net, const TreeOptions& options = {});
 
-/// What stands beside the nodes.
+/// The labels beside the nodes.
 enum class Notation : std::uint8_t {
   paths,  ///< names of the specification
   paper   ///< the paper's symbols, see paper_labels.hpp
@@ -34,25 +34,25 @@ struct Options {
   static constexpr unsigned all = UINT32_MAX;
 };
 
-/// One page, or with `levels` what it contains, as a graph for graphviz.
+/// One page, or with `levels` its contents, as a graph for graphviz.
 ///
 /// Precondition: net.pages contains page; model is given for Notation::paper.
 [[nodiscard]] std::string to_dot(const net::HierarchicalNet& net, net::PageId page,
                                  const Options& options = {});
 
-/// A picture could not be laid out: the program `dot` is missing or failed, or there are too many nodes to
-/// read.
+/// Thrown if a picture cannot be laid out: the program `dot` is missing or failed, or there
+/// are too many nodes to read.
 struct LayoutError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same as a picture to open, laid out by graphviz's `dot`, which runs as a child.
+/// The same as an SVG picture, laid out by graphviz's `dot`, which runs as a child process.
 ///
 /// Throws LayoutError.
 [[nodiscard]] std::string to_svg(const net::HierarchicalNet& net, net::PageId page,
                                  const Options& options = {});
 
-/// The whole net for machines: pages with their nodes and transitions, fusion sets, the flat net with the
+/// The whole net for programs: pages with their nodes and transitions, fusion sets, the flat net with the
 /// origin of every element, and the counts. Indices refer to the arrays of the same object.
 ///
 /// indent: of nested lines, in spaces; -1: all on one line.

@@ -8,7 +8,7 @@ namespace {
 
 Point between(Point a, Point b, double t) { return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; }
 
-/// de Casteljau: the segment up to parameter t.
+/// The segment up to parameter t, by de Casteljau's algorithm.
 std::array<Point, 4> head(const Point* p, double t) {
   const Point a = between(p[0], p[1], t), b = between(p[1], p[2], t), c = between(p[2], p[3], t);
   const Point d = between(a, b, t), e = between(b, c, t);

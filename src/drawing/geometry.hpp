@@ -17,8 +17,8 @@ struct Box {
 /// Cubic Bezier segments end to end: 3 n + 1 points.
 using Curve = std::vector<Point>;
 
-/// The curve without the part at its end that lies in a shape. A curve that lies in it as a whole keeps one
-/// segment.
+/// The curve without the part at its end that lies in a shape. A curve that lies in the shape
+/// completely keeps one segment.
 [[nodiscard]] Curve cut_at_end(Curve curve, const std::function<bool(Point)>& inside);
 
 [[nodiscard]] Curve reversed(Curve curve);

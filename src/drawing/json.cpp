@@ -9,7 +9,7 @@
 namespace tessera::drawing {
 namespace {
 
-/// Functions of the same name write the parts of a net, each as one value.
+/// Writes a net. Each function `value` writes one part as one JSON value.
 class NetWriter : public JsonWriter {
  public:
   void span(const net::Span& span) {

@@ -12,11 +12,11 @@
 
 namespace tessera::drawing {
 
-/// Appends JSON to a text, on one line, without a tree of it in between: the net of a thousand agents is tens
-/// of megabytes.
+/// Appends JSON to a text, on one line, without a tree in between: the net of a thousand
+/// agents has tens of megabytes.
 class JsonWriter {
  public:
-  /// A number that is not there is null.
+  /// An invalid number is written as null.
   void value(std::uint32_t number) {
     if (number == UINT32_MAX) return null();
     std::array<char, 10> digits{};
@@ -31,7 +31,7 @@ class JsonWriter {
       text_ += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
   void null() { text_ += "null"; }
-  /// Text that is JSON already.
+  /// Appends text that is JSON already.
   void raw(std::string_view json) { text_ += json; }
 
   template <class Members>
@@ -49,7 +49,7 @@ class JsonWriter {
     }
     close(']');
   }
-  /// What follows is the member's value. A comma comes behind it.
+  /// Writes the key of a member, its value and a comma.
   template <class Value>
   void member(std::string_view name, Value value_of) {
     text_.append(1, '"').append(name).append("\":");

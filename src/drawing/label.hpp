@@ -6,7 +6,7 @@
 
 namespace tessera::drawing {
 
-/// Text with raised and lowered parts, in one line.
+/// Text in one line, with superscripts and subscripts.
 struct Label {
   enum class Level : std::uint8_t { base, raised, lowered };
   struct Run {
@@ -27,12 +27,13 @@ struct Label {
   bool operator==(const Label&) const = default;
 };
 
-/// About how wide the text is in a sans-serif font of that size: wide enough for the common ones.
+/// The approximate width of the text in a sans-serif font of that size, enough for the common fonts.
 [[nodiscard]] double width_of(std::string_view text, double font_size);
 [[nodiscard]] double width_of(const Label& label, double font_size);
 inline constexpr double script_scale = 0.72;  ///< size of raised and lowered text
 
-/// Long plain text in lines of about `width` characters, at most `lines`, the rest cut with an ellipsis.
+/// Wraps a long plain text into lines of about `width` characters, at most `lines`. The
+/// rest is cut with an ellipsis.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t lines);
 
 }  // namespace tessera::drawing

@@ -10,7 +10,7 @@
 namespace tessera::drawing {
 namespace {
 
-/// More than anyone can read, and than dot lays out in a minute.
+/// More than a person can read, and than dot lays out in a minute.
 constexpr std::size_t most_nodes = 2500;
 
 struct Size {
@@ -30,7 +30,7 @@ std::string cell(const char* attributes, double width, double height) {
   return text;
 }
 
-/// A graph of boxes as large as symbol and text, whose edges meet at the symbol (port s).
+/// A graph of boxes with the size of symbol and text. Its edges meet at the symbol (port s).
 class Graph {
  public:
   explicit Graph(const Picture& picture) : picture_(picture) {}
@@ -70,9 +70,9 @@ class Graph {
              "</TR></TABLE>>];\n";
   }
 
-  /// The way leads downwards, from bottom to top of the symbols. Texts stand to the right of them, so arrows
-  /// that go back run on the left, and for dot they lead down as well. In nested frames, fused places belong
-  /// to no step of the way.
+  /// The main direction is downwards, from the bottom to the top of the symbols. Texts stand to the right
+  /// of the symbols, so arrows that go back run on the left; dot treats them as leading down, too. In
+  /// nested frames, fused places have no rank in the main direction.
   void add_arrow(std::size_t index) {
     const Arrow& arrow = picture_.arrows[index];
     const std::string circle = "p" + std::to_string(arrow.circle), bar = "t" + std::to_string(arrow.bar);
@@ -157,7 +157,7 @@ class Reader {
       bar.x -= Sizes::bar_width / 2;
     else
       bar.y += (arrow.to_bar ? -1 : 1) * Sizes::bar_height / 2;
-    // dot ends the curve at the edge of a symbol's cell; lead it on to the symbol.
+    // dot ends the curve at the edge of a symbol's cell; this leads it on to the symbol.
     if (arrow.to_bar || arrow.back) curve = reversed(std::move(curve));
     curve = cut_at_end(reversed(extended(reversed(extended(std::move(curve), centre)), bar)), in_circle);
     if (arrow.to_bar) curve = reversed(std::move(curve));

@@ -5,7 +5,7 @@
 
 namespace tessera::drawing {
 
-/// Sizes of the symbols and of what stands to the right of them, in pixels.
+/// Sizes of the symbols and of the texts to their right, in pixels.
 struct Sizes {
   static constexpr double circle_radius = 12, page_radius = 15, bar_width = 32, bar_height = 5;
   static constexpr double cell = 34;  ///< room for a symbol
@@ -13,7 +13,7 @@ struct Sizes {
   static constexpr double name_font = 12, detail_font = 10, frame_font = 12, line = 13;
 };
 
-/// Where everything is. Vectors run parallel to those of the picture.
+/// The positions of all elements. Vectors are parallel to those of the picture.
 struct Layout {
   double width = 0, height = 0;
   std::vector<Point> circles, bars;  ///< centres of the symbols

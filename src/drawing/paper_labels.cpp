@@ -19,7 +19,7 @@ const char* letter_of(spec::SubsystemKind kind) {
   return "";
 }
 
-/// A subsystem's letter and its indices, "1" or "1,2".
+/// The letter of a subsystem and its indices, "1" or "1,2".
 struct Symbol {
   std::string letter, agent, own;
   [[nodiscard]] std::string indices() const { return own.empty() ? agent : agent + "," + own; }
@@ -117,7 +117,7 @@ class PaperLabels : public Labels {
   }
 
  private:
-  /// The agent's number from the order in which the system draws its pages.
+  /// The number of the agent, from the order of the pages in the system.
   [[nodiscard]] std::string agent_number(net::PageId id) const {
     std::size_t number = 0;
     for (const net::Node& node : net_.pages[0].nodes) {
@@ -148,7 +148,7 @@ class PaperLabels : public Labels {
     return label;
   }
 
-  /// The indices of the element that a page stands for: of agent, subsystem and behaviour.
+  /// The indices of the agent, subsystem or behaviour to which a page belongs.
   [[nodiscard]] std::string indices(net::PageId id) const {
     const net::Page& page = net_.pages[id.value];
     switch (page.layer) {
@@ -185,8 +185,8 @@ class PaperLabels : public Labels {
     const Symbol here = symbol(own.instance), there = symbol(other.instance);
     const bool transmission = here.letter == "c" && there.letter == "c";
     const std::string& far = there.own.empty() || here.agent != there.agent ? there.agent : there.own;
-    const bool implied =
-        there.own.empty() && !transmission;  // a receptor has one control subsystem to talk to
+    // A receptor has only one control subsystem as a partner.
+    const bool implied = there.own.empty() && !transmission;
     Label label;
     label.add(transmission ? "T" : there.letter, Level::raised).add(output ? "y" : "x", Level::lowered);
     label.add(here.letter, Level::base, true)

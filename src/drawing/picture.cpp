@@ -27,7 +27,7 @@ class Sketch {
  private:
   struct Drawn {
     std::uint32_t circle = UINT32_MAX;
-    bool opened = false;  ///< a page replaced by its net
+    bool opened = false;  ///< the page is replaced by its net
   };
 
   void add_nodes(net::PageId id, unsigned levels, std::uint32_t frame) {
@@ -63,7 +63,8 @@ class Sketch {
     return static_cast<std::uint32_t>(picture_.circles.size() - 1);
   }
 
-  /// Members of one set in one picture are one circle, outside the frames that do not hold all of them.
+  /// Draws the members of one set in one picture as one circle, outside the frames that
+  /// do not contain all of them.
   std::uint32_t fused(net::PageId id, std::uint32_t node, std::uint32_t frame) {
     const net::FusionId set = net_.pages[id.value].nodes[node].fusion;
     const auto known = fused_.find(set.value);
@@ -77,7 +78,8 @@ class Sketch {
   }
 
   [[nodiscard]] std::uint32_t common(std::uint32_t a, std::uint32_t b) const {
-    // Frames come after those that hold them, so the later of two different ones is never the common one.
+    // A frame comes after those that contain it, so the later one of two different
+    // frames is never the common one.
     while (a != b) {
       if (a == no_frame || b == no_frame) return no_frame;
       std::uint32_t& later = a > b ? a : b;

@@ -16,16 +16,16 @@ inline constexpr std::uint32_t no_frame = UINT32_MAX;
 struct Circle {
   Label name;
   std::vector<Label> details;  ///< the operation
-  std::string path;            ///< told when the pointer rests on it
+  std::string path;            ///< shown when the pointer rests on the circle
   std::uint32_t tokens = 0;
   bool page = false, fused = false;
   std::uint32_t frame = no_frame;
 };
 
-/// When a transition can fire, as far as it is known before run time.
+/// When a transition can fire, as far as this is known before run time.
 enum class Fires : std::uint8_t {
   by_condition,
-  after_failure,  ///< only if user code throws, a device fails or the watchdog strikes
+  after_failure,  ///< only if user code throws, a device fails or the watchdog expires
   never
 };
 
@@ -41,8 +41,8 @@ struct Bar {
 struct Arrow {
   std::uint32_t circle = 0, bar = 0;
   bool to_bar = false;
-  /// The arc is no step of the way from top to bottom: it gives back to a fused place that is also taken
-  /// from, or it returns to a place drawn before all those that its bar takes from.
+  /// The arc is not part of the way from top to bottom: it returns a token to a fused place from which the
+  /// transition also takes, or it leads to a place drawn before all input places of its bar.
   bool back = false;
 };
 
@@ -53,7 +53,7 @@ struct Frame {
   std::uint32_t parent = no_frame;  ///< an earlier frame
 };
 
-/// What is drawn, before anything has a position.
+/// The elements of a drawing, before they have positions.
 struct Picture {
   Label title;
   net::Layer layer = net::Layer::system;
@@ -63,18 +63,18 @@ struct Picture {
   std::vector<Frame> frames;
 };
 
-/// What stands beside nodes, in one of the notations.
+/// The labels of nodes in one of the notations.
 class Labels {
  public:
   virtual ~Labels() = default;
   [[nodiscard]] virtual Label page(net::PageId page) const = 0;
   [[nodiscard]] virtual Label node(net::PageId page, std::uint32_t node) const = 0;
-  /// A fused place that stands for its members in several nets.
+  /// The label of a fused place, which represents its members in several nets.
   [[nodiscard]] virtual Label fused(net::FusionId set) const = 0;
   [[nodiscard]] virtual std::vector<Label> operation(net::PageId page,
                                                      const net::Operation& operation) const = 0;
   [[nodiscard]] virtual Label transition(net::PageId page, std::uint32_t transition) const = 0;
-  /// Without brackets; empty: nothing to say.
+  /// The condition without brackets; empty: none.
   [[nodiscard]] virtual std::vector<Label> condition(net::PageId page,
                                                      const net::Condition& condition) const = 0;
 };

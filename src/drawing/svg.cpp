@@ -50,11 +50,11 @@ std::string number(double value) {
 
 std::string at(double x, double y) { return "x=\"" + number(x) + "\" y=\"" + number(y) + "\""; }
 
-/// Runs as tspans. A lowered run after a raised one stands under it, as the paper writes indices.
+/// The runs of a label as tspans. A subscript after a superscript is drawn under it, as in the paper.
 std::string spans(const Label& label, double font_size) {
   std::string text;
-  double shift = 0;    // of the baseline at present
-  double advance = 0;  // still to go after a stacked pair
+  double shift = 0;    // current shift of the baseline
+  double advance = 0;  // advance that is due after a stacked pair
   for (std::size_t index = 0; index < label.runs.size(); ++index) {
     const Label::Run& run = label.runs[index];
     const double level = run.level == Label::Level::raised    ? -0.42 * font_size
@@ -214,7 +214,7 @@ class SvgPen {
       text_ += "<text class=\"" + classes + "\" " + at(x, y) + ">" + spans(label, font_size) + "</text>\n";
   }
 
-  /// What the symbols mean, flowing over as many rows as the width asks for.
+  /// The legend of the symbols, in as many rows as the width requires.
   std::string legend_rows() {
     Circle place, page, fused, token;
     page.page = fused.fused = true;

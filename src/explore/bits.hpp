@@ -18,7 +18,7 @@ class Bits {
   void set(std::size_t at) { words_[at / 64] |= std::uint64_t{1} << (at % 64); }
   [[nodiscard]] std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
-  /// The first member from `at` on.
+  /// The first member at or after position `at`.
   [[nodiscard]] std::optional<std::uint32_t> next(std::size_t at) const {
     for (std::size_t word = at / 64; word < words_.size(); ++word) {
       std::uint64_t rest = words_[word];

@@ -48,7 +48,7 @@ class DeadlockSearch {
   [[nodiscard]] std::vector<TransitionId> take_path() { return std::move(path_); }
 
  private:
-  /// True if the marking is dead and not final.
+  /// true: the marking is dead and not final.
   bool open_frame() {
     const auto firings = stubborn_.choose(marking_);
     if (firings.empty() && !holds(is_final_, net_, marking_)) return true;
@@ -81,10 +81,10 @@ class DeadlockSearch {
   Marking marking_;
   std::vector<TransitionId> path_;      // the firings that lead to marking_
   std::vector<std::size_t> frames_;     // per marking of the path: where its pending firings begin
-  std::vector<std::uint32_t> pending_;  // not yet tried, of all markings of the path
+  std::vector<std::uint32_t> pending_;  // firings that have not been tried yet, of all markings of the path
 };
 
-/// What is left of a run without the firings [begin, end) and without those that can then no longer fire.
+/// The rest of a run without the firings [begin, end) and without those that can then no longer fire.
 std::vector<TransitionId> run_without(const PtNet& net, const std::vector<TransitionId>& run,
                                       std::size_t begin, std::size_t end, Marking& marking) {
   std::vector<TransitionId> rest;
@@ -126,7 +126,7 @@ Answer find_deadlock(const PtNet& net, const Formula& is_final, const Limits& li
   if (end == End::limit) answer.why = watch.why();
   if (end == End::goal) {
     const Formula unwanted = Formula::all({Formula::dead(), Formula::negation(is_final)});
-    // A look at the markings near the initial one costs little and often finds the shortest run.
+    // A search near the initial marking costs little and often finds the shortest run.
     Limits near = limits;
     near.markings = 20'000;
     near.progress = nullptr;

@@ -7,7 +7,7 @@ namespace tessera::explore {
 namespace {
 
 constexpr std::uint32_t word_bits = 64;
-constexpr std::uint8_t widest_counter = 32;  // what Tokens holds
+constexpr std::uint8_t widest_counter = 32;  // the width of Tokens
 
 }  // namespace
 
@@ -15,7 +15,7 @@ Encoding::Encoding(const PtNet& net, const std::vector<Unit>& units, const std::
     : slots_(net.places()), free_bits_{word_bits} {
   std::vector<char> in_unit(net.places(), 0);
   for (const Unit& unit : units) {
-    const Word none = unit.always_one ? 0 : 1;  // then code 0 says that no place is marked
+    const Word none = unit.always_one ? 0 : 1;  // if not, code 0 means that no place is marked
     const std::uint32_t field =
         add_field(static_cast<std::uint32_t>(std::bit_width(unit.places.size() - 1 + none)));
     for (std::size_t index = 0; index < unit.places.size(); ++index) {
@@ -32,14 +32,14 @@ Encoding::Encoding(const PtNet& net, const std::vector<Unit>& units, const std::
   words_ = static_cast<std::uint32_t>(free_bits_.size());
 }
 
-/// First fit: few fields are wide, so little is lost at the ends of words. Only the last words are tried, to
-/// keep this linear.
+/// First fit: few fields are wide, so little space is lost at the ends of words. Only the last words are
+/// tried, so that this stays linear.
 std::uint32_t Encoding::add_field(std::uint32_t width) {
   constexpr std::size_t tried = 4;
   std::size_t word = free_bits_.size() - std::min(tried, free_bits_.size());
   while (word < free_bits_.size() && free_bits_[word] < width) ++word;
   if (word == free_bits_.size()) free_bits_.push_back(word_bits);
-  // A field of no bits at the end of a full word would be shifted by 64.
+  // A field of width 0 at the end of a full word would be shifted by 64.
   const std::uint32_t shift = width == 0 ? 0 : word_bits - free_bits_[word];
   fields_.push_back({static_cast<std::uint32_t>(word), shift, width});
   free_bits_[word] -= width;
@@ -73,7 +73,7 @@ std::optional<std::uint32_t> Encoding::encode(std::span<const Tokens> marking, s
 }
 
 Growth::Growth(const PtNet& net) : net_(net), units_(find_units(net)), widths_(net.places(), 1) {
-  // Tokens move: what one place holds at first, others will hold later.
+  // Tokens move: the tokens that one place holds at first may later be in others.
   Tokens most = 1;
   for (const Tokens tokens : net.initial()) most = std::max(most, tokens);
   for (std::uint32_t place = 0; place < net.places(); ++place) {

@@ -24,15 +24,15 @@ struct Field {
 
 /// How markings of a net are packed into words.
 ///
-/// A unit becomes one number, which of its places is marked. Places of no unit have a field each: one bit as
-/// long as no run was seen to put a second token there, else a counter below a guard bit, which is 0 in every
-/// marking and tells when a sum outgrows its field. An outgrown field is widened and the exploration repeated
-/// (Growth).
+/// A unit becomes one number, which says which of its places is marked. A place outside all units has a
+/// field of its own. The field is one bit as long as no run has put a second token there. Otherwise it is a
+/// counter below a guard bit, which is 0 in every marking and shows when a sum overflows its field. A field
+/// that is too small is widened, and the exploration is repeated (Growth).
 class Encoding {
  public:
   enum class Kind : std::uint8_t {
     unit,    ///< the field holds `code` when the place is marked
-    bit,     ///< not known to be safe, one token at most so far
+    bit,     ///< at most one token so far, but not known to be safe
     counter  ///< tokens, and a guard bit above them
   };
   struct Slot {
@@ -41,18 +41,18 @@ class Encoding {
     Word code = 1;            ///< of a unit or bit
   };
 
-  /// widths: per place of no unit, the bits of its count (see Growth).
+  /// widths: for each place outside all units, the bits of its counter (see Growth).
   Encoding(const PtNet& net, const std::vector<Unit>& units, const std::vector<std::uint8_t>& widths);
 
   [[nodiscard]] std::uint32_t words() const { return words_; }
   [[nodiscard]] const std::vector<Field>& fields() const { return fields_; }
   [[nodiscard]] const Slot& of(std::uint32_t place) const { return slots_[place]; }
-  /// Every place is in a unit: the net is safe, and no field can be outgrown.
+  /// Whether every place is in a unit. Then the net is safe, and no field can overflow.
   [[nodiscard]] bool proves_safe() const { return proves_safe_; }
 
   [[nodiscard]] Tokens tokens(std::uint32_t place, std::span<const Word> words) const;
   void decode(std::span<const Word> words, std::span<Tokens> marking) const;
-  /// words: all zero at first. The place whose field the marking outgrows, if there is one.
+  /// words: all zero at first. Returns the place whose field is too small for the marking, if there is one.
   [[nodiscard]] std::optional<std::uint32_t> encode(std::span<const Tokens> marking,
                                                     std::span<Word> words) const;
 
@@ -66,13 +66,13 @@ class Encoding {
   bool proves_safe_ = true;
 };
 
-/// The field widths of a net whose bounds are not known: they start with what the net shows and grow with
-/// what its runs do.
+/// The field widths of a net whose bounds are not known. They begin with the initial marking
+/// and grow when runs need more.
 class Growth {
  public:
   explicit Growth(const PtNet& net);
   [[nodiscard]] Encoding encoding() const { return {net_, units_, widths_}; }
-  /// False if the place holds more tokens than can be counted.
+  /// false: the place holds more tokens than can be counted.
   [[nodiscard]] bool widen(std::uint32_t place);
 
  private:

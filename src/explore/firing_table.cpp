@@ -7,7 +7,7 @@
 namespace tessera::explore {
 namespace {
 
-/// What a transition reads and writes of one field that is a unit or a bit.
+/// The effect of a transition on one field of a unit or a bit, and the contents that it requires.
 struct Move {
   bool takes = false, gives = false;
   Word before = 0, after = 0;  // contents; 0 where no place of the field is marked
@@ -25,7 +25,7 @@ class MaskBuilder {
     if (slot.kind == Encoding::Kind::counter) return count(encoding_.fields()[slot.field], touch);
     Move& move = moves_[slot.field];
     if (touch.consumes > 0) {
-      // More than one token, or of a second place of the unit: no marking has that.
+      // It would need more than one token, or a token of a second place of the unit; no marking has that.
       masks_.dead |= move.takes || touch.consumes > 1;
       move.takes = true;
       move.before = slot.code;
@@ -89,7 +89,7 @@ Selection select_by_pivot(std::vector<FiringMasks> masks, const Encoding& encodi
   std::map<Pivot, std::vector<FiringMasks>> lists;
   Selection selection;
   std::erase_if(masks, &FiringMasks::dead);
-  // Those with few choices first; each takes the shortest list.
+  // Masks with few choices come first; each takes the shortest list.
   std::ranges::stable_sort(masks, {}, [](const FiringMasks& one) { return one.fields.size(); });
   for (FiringMasks& one : masks) {
     if (one.fields.empty()) {

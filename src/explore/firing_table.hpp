@@ -14,22 +14,22 @@ namespace tessera::explore {
 
 enum class Direction : std::uint8_t { forward, backward };
 
-/// A transition as masks over packed markings, in one direction. Backward, "consumes" and "produces" change
-/// places, so that firing leads to the marking before.
+/// A transition as masks over packed markings, in one direction. Backward, "consumes" and "produces" are
+/// exchanged, so that firing leads to the marking before.
 struct FiringMasks {
   std::uint32_t transition = 0;
-  std::vector<Word> care, value;  ///< fields of units and bits that it reads, and what they must hold
-  std::vector<Word> flip;         ///< what it changes of them
+  std::vector<Word> care, value;  ///< fields of units and bits that it reads, and their required contents
+  std::vector<Word> flip;         ///< changes of these fields
   std::vector<Word> clear;        ///< bits that would get a second token if they were set
   std::vector<Word> need, add;    ///< of counters: least content; change (wraps around, borrows cancel out)
-  std::vector<std::uint32_t> fields;  ///< of care
+  std::vector<std::uint32_t> fields;  ///< those in care
   bool dead = false;                  ///< needs two places of one unit
 };
 [[nodiscard]] FiringMasks firing_masks(const PtNet& net, const Encoding& encoding, std::uint32_t transition,
                                        Direction direction);
 
-/// Transitions sorted by a *pivot*: a field and what it must hold for the transition to be enabled. Of each
-/// field, only the transitions need to be tried that its content selects.
+/// Transitions sorted by a *pivot*: a field and the content that it must have for the transition to be
+/// enabled. So for each field, only the transitions selected by its content need to be tried.
 struct Selection {
   struct Selector {
     Field field;
@@ -40,13 +40,13 @@ struct Selection {
   std::vector<Selector> selectors;
   std::vector<std::uint32_t> starts;
 };
-/// Spreads the transitions over pivots as evenly as it can. Dead transitions are left out.
+/// Distributes the transitions over pivots as evenly as it can. Dead transitions are left out.
 [[nodiscard]] Selection select_by_pivot(std::vector<FiringMasks> masks, const Encoding& encoding);
 
 /// All firings of a net on packed markings of W words.
 ///
-/// Counters: whether the encoding has bits or counters that can be outgrown. Without, a transition is enabled
-/// if `care` picks `value`, and its firing is one exclusive or.
+/// Counters: whether the encoding has bits or counters that can overflow. If not, a transition is enabled
+///           if the fields in `care` contain `value`, and its firing is one exclusive or.
 ///
 /// Threads: const members from any thread.
 template <std::size_t W, bool Counters>
@@ -73,8 +73,8 @@ class FiringTable {
     }
   }
 
-  /// Calls visit(firing, successor) for every enabled transition. Forward, it stops at a firing that outgrows
-  /// the encoding and returns it; backward, such a firing has no marking of the encoding before it.
+  /// Calls visit(firing, successor) for every enabled transition. Forward, it stops at a firing that
+  /// overflows the encoding and returns it. Backward, such a firing has no earlier marking in the encoding.
   template <class Visit>
   std::optional<std::uint32_t> for_each_enabled(const Packed<W>& marking, Visit visit) const {
     const auto try_range = [&](std::uint32_t begin, std::uint32_t end) -> std::optional<std::uint32_t> {
@@ -103,7 +103,7 @@ class FiringTable {
   }
 
   [[nodiscard]] TransitionId transition(std::uint32_t firing) const { return {firings_[firing].transition}; }
-  /// The firing of a transition; none if it can never be enabled.
+  /// The firing of a transition; nullopt: it can never be enabled.
   [[nodiscard]] std::optional<std::uint32_t> firing_of(std::uint32_t transition) const {
     for (std::uint32_t at = 0; at < firings_.size(); ++at)
       if (firings_[at].transition == transition) return at;
@@ -117,7 +117,7 @@ class FiringTable {
       wrong |= (marking[word] & firing.care[word]) ^ firing.value[word];
     if constexpr (Counters) {
       const Counter& counter = counters_[at];
-      // A guard bit lent to each counter comes back unless the counter is too small.
+      // Each counter borrows its guard bit. The bit comes back unless the counter is too small.
       for (std::size_t word = 0; word < W; ++word)
         wrong |= (((marking[word] | guards_[word]) - counter.need[word]) & guards_[word]) ^ guards_[word];
     }

@@ -15,9 +15,9 @@ struct Formula {
     at_least,  ///< place holds `tokens` or more
     enabled,   ///< the transition is enabled
     dead,      ///< no transition is enabled
-    negation,  ///< of its only part
-    all,       ///< of the parts; true of none
-    any        ///< of the parts; false of none
+    negation,  ///< negation of the only part
+    all,       ///< all parts hold; true if there are none
+    any        ///< at least one part holds; false if there are none
   } kind = Kind::all;
   std::uint32_t node = 0;  ///< place or transition
   Tokens tokens = 1;
@@ -38,7 +38,7 @@ struct Formula {
   [[nodiscard]] static Formula never() { return any({}); }
 };
 
-/// Whether the formula is true of the marking. Preconditions: places and transitions are of the net.
+/// Whether the formula is true in the marking. Preconditions: places and transitions belong to the net.
 [[nodiscard]] bool holds(const Formula& formula, const PtNet& net, std::span<const Tokens> marking);
 
 }  // namespace tessera::explore

@@ -8,7 +8,7 @@ namespace tessera::explore {
 
 void MappedMemory::grow(std::size_t bytes) {
   constexpr std::size_t huge_page = std::size_t{2} << 20U;
-  // Huge pages save most misses of the translation cache, but would waste memory on small nets.
+  // Huge pages save most misses of the translation cache, but waste memory on small nets.
   const std::size_t granule = bytes < huge_page ? 4096 : huge_page;
   const std::size_t size = (bytes + granule - 1) / granule * granule;
   if (size <= size_) return;

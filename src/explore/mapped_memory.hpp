@@ -5,7 +5,7 @@
 
 namespace tessera::explore {
 
-/// Zeroed memory straight from the system, which grows without being copied and costs nothing until touched.
+/// Zeroed memory directly from the system. It grows without being copied and takes no RAM until it is used.
 ///
 /// Throws std::bad_alloc. Threads: one at a time.
 class MappedMemory {
@@ -22,7 +22,7 @@ class MappedMemory {
   MappedMemory& operator=(const MappedMemory&) = delete;
   ~MappedMemory() { release(); }
 
-  /// At least `bytes`, keeping what is there; it may move.
+  /// Grows to at least `bytes` and keeps the contents; the memory may move.
   void grow(std::size_t bytes);
   void release() noexcept;
   [[nodiscard]] void* data() const { return data_; }

@@ -11,7 +11,7 @@
 
 namespace tessera::explore {
 
-/// A marking is known by its place in the order of insertion.
+/// A marking is identified by its position in the order of insertion.
 using Index = std::uint32_t;
 inline constexpr std::size_t most_markings = std::numeric_limits<Index>::max() - 1;
 
@@ -20,12 +20,13 @@ using Packed = std::array<Word, W>;
 
 /// A set of packed markings of W words, in the order of insertion.
 ///
-/// Memory: W words a marking, stored once and in order, and a table of 4-byte slots (4.7 to 7.1 bytes a
-/// marking) that hold an index and, in the bits the index leaves free, a part of the hash. The table is
-/// rebuilt from the markings when it is full, so that old and new never exist together.
+/// Memory: W words per marking, stored once and in order, and a table of 4-byte slots (4.7 to 7.1
+///         bytes per marking). A slot holds an index and, in the remaining bits, a part of the hash.
+///         When the table is full, it is rebuilt from the markings, so that the old and the new
+///         table never exist together.
 ///
-/// Prefetching: call `prefetch_slot` for many markings, then `prefetch_marking`, then `insert` or `find`; the
-/// misses of the cache then overlap.
+/// Prefetching: call `prefetch_slot` for many markings, then `prefetch_marking`, then `insert` or `find`,
+///              so that the cache misses overlap.
 ///
 /// Threads: const members from any thread.
 template <std::size_t W>
@@ -35,14 +36,14 @@ class MarkingSet {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Packed<W>& operator[](Index index) const { return markings()[index]; }
-  /// Touched memory.
+  /// Memory in use.
   [[nodiscard]] std::size_t bytes() const { return size_ * sizeof(Packed<W>) + capacity_ * sizeof(Slot); }
-  /// What bytes() will be after `more` insertions.
+  /// The value of bytes() after `more` insertions.
   [[nodiscard]] std::size_t bytes_after(std::size_t more) const {
     const std::size_t capacity = fits(more) ? capacity_ : grown(size_ + more);
     return (size_ + more) * sizeof(Packed<W>) + capacity * sizeof(Slot);
   }
-  /// Makes room; indices stay, references do not.
+  /// Makes room. Indices stay valid, references do not.
   void reserve(std::size_t more) {
     if ((size_ + more) * sizeof(Packed<W>) > arena_.size())
       arena_.grow((size_ + more) * sizeof(Packed<W>) * 3 / 2);

@@ -7,7 +7,7 @@
 
 namespace tessera::explore {
 
-/// A formula compiled to tests of packed markings. The table must outlive it.
+/// A formula compiled into tests of packed markings. The table must outlive it.
 template <class Table>
 class PackedFormula {
  public:
@@ -27,7 +27,7 @@ class PackedFormula {
     Test test = Test::never;
     std::uint32_t word = 0;
     Word mask = 0, value = 0;  // of the word; enabled: value is the firing
-    std::size_t end = 0;       // of its parts, which follow it
+    std::size_t end = 0;       // position after its parts, which follow it
   };
 
   void add(const Formula& formula, const Encoding& encoding) {
@@ -70,7 +70,7 @@ class PackedFormula {
     return {Test::equal, field.word, field.mask(), slot.code << field.shift};
   }
 
-  /// `at` moves behind the node and its parts.
+  /// Moves `at` behind the node and its parts.
   template <class Marking>
   bool evaluate(const Marking& marking, std::size_t& at) const {
     const Node& node = nodes_[at++];

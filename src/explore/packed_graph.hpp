@@ -14,8 +14,8 @@
 
 namespace tessera::explore {
 
-/// StateGraph on packed markings of W words. Firings are collected in batches, so that the misses of the
-/// cache of a whole batch overlap.
+/// StateGraph on packed markings of W words. Firings are collected in batches, so that the cache
+/// misses of a whole batch overlap.
 template <std::size_t W, bool Counters>
 class PackedGraph final : public StateGraph {
  public:
@@ -123,7 +123,7 @@ class PackedGraph final : public StateGraph {
     std::vector<TransitionId> run;
     for (auto level = std::prev(std::ranges::upper_bound(level_starts_, index));
          level != level_starts_.begin(); --level) {
-      // The markings before the level's first are all nearer to the initial one.
+      // All markings before the first one of the level are nearer to the initial one.
       std::optional<std::pair<TransitionId, Index>> step;
       static_cast<void>(
           backward_->for_each_enabled(set_[index], [&](std::uint32_t firing, const Packed<W>& words) {
@@ -171,7 +171,7 @@ class PackedGraph final : public StateGraph {
   using Set = MarkingSet<W>;
   using Table = FiringTable<W, Counters>;
 
-  /// Markings to be looked up together.
+  /// Markings that are looked up together.
   struct Batch {
     static constexpr std::size_t capacity = W <= 4 ? 256 : 32;
     std::array<Packed<W>, capacity> words;
@@ -195,7 +195,7 @@ class PackedGraph final : public StateGraph {
 
   template <class Goal>
   End expand(Index index, const Goal& is_goal, Watch& watch) {
-    const Packed<W> marking = set_[index];  // a copy: a flush may move the set
+    const Packed<W> marking = set_[index];  // a copy, because a flush may move the set
     End end = End::complete;
     const auto outgrown = forward_->for_each_enabled(marking, [&](std::uint32_t, const Packed<W>& next) {
       if (end != End::complete) return;
@@ -208,7 +208,7 @@ class PackedGraph final : public StateGraph {
     return End::outgrown;
   }
 
-  /// Inserts the batch, in its order.
+  /// Inserts the markings of the batch in their order.
   template <class Goal>
   End flush(const Goal& is_goal, Watch& watch) {
     if (set_.size() + Batch::capacity > most_markings)
@@ -240,7 +240,7 @@ class PackedGraph final : public StateGraph {
     return most;
   }
 
-  // Made when first needed: a search with an order of its own needs none.
+  // Made when it is first needed: a search with an order of its own does not need it.
   void forward() const {
     if (!forward_) forward_ = std::make_unique<Table>(net_, encoding_, Direction::forward);
   }

@@ -9,7 +9,7 @@ namespace {
 
 using Rows = std::vector<std::vector<Touch>>;
 
-/// A place that is consumed from and produced into is one touch with both weights.
+/// A place that is both consumed from and produced into is one touch with both weights.
 std::vector<Touch> touches_of(const net::Net& net, TransitionId transition) {
   std::vector<Touch> row;
   for (const net::Arc& arc : net.preset(transition)) row.push_back({arc.place.value, arc.weight, 0});

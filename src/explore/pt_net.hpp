@@ -31,7 +31,7 @@ struct Touch {
 class PtNet {
  public:
   explicit PtNet(const net::Net& net);
-  // The rows point into touches_: a copy would point into the original.
+  // The rows refer to touches_: those of a copy would refer to the original.
   PtNet(const PtNet&) = delete;
   PtNet& operator=(const PtNet&) = delete;
   PtNet(PtNet&&) = delete;
@@ -43,7 +43,7 @@ class PtNet {
     return static_cast<std::uint32_t>(of_transition_.size());
   }
   [[nodiscard]] const Marking& initial() const { return initial_; }
-  /// The places a transition touches, each once.
+  /// The places that a transition touches, each once.
   [[nodiscard]] std::span<const Touch> of_transition(std::uint32_t transition) const {
     return of_transition_[transition];
   }

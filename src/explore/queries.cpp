@@ -8,7 +8,7 @@ namespace {
 
 using End = StateGraph::End;
 
-/// All reachable markings, for questions that need them all.
+/// Visits all reachable markings, for questions that need all of them.
 End explore_all(GrowingGraph& graph, Watch& watch) {
   return graph.run([&](StateGraph& one) { return one.explore(Formula::never(), watch); }, watch);
 }

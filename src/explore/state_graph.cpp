@@ -13,7 +13,7 @@ GrowingGraph::GrowingGraph(const PtNet& net) : net_(net), growth_(net) {}
 
 StateGraph::End GrowingGraph::run(const GraphTask& task, Watch& watch) {
   while (true) {
-    graph_.reset();  // before its successor is there
+    graph_.reset();  // releases its memory before the next graph is made
     encoding_ = std::make_unique<Encoding>(growth_.encoding());
     graph_ = make_state_graph(net_, *encoding_);
     if (!graph_) {

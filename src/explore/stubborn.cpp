@@ -15,7 +15,7 @@ std::span<const std::uint32_t> StubbornSets::choose(std::span<const Tokens> mark
     if (enabled) enabled_.push_back(transition);
   }
   best_ = enabled_;
-  // Every seed gives a stubborn set; trying more of them pays as long as it costs less than a few markings.
+  // Every seed gives a stubborn set. Trying more seeds pays as long as it costs less than a few markings.
   std::size_t effort_left = 4 * std::size_t{net_.transitions()} + 64;
   for (const std::uint32_t seed : enabled_) {
     if (best_.size() <= 1) break;
@@ -27,7 +27,7 @@ std::span<const std::uint32_t> StubbornSets::choose(std::span<const Tokens> mark
   return best_;
 }
 
-/// The closure of {seed} into set_, its enabled members into chosen_, given up at that many of them.
+/// Computes the closure of {seed} into set_, and its enabled members (at most give_up_at) into chosen_.
 void StubbornSets::close(std::uint32_t seed, std::span<const Tokens> marking, std::size_t give_up_at) {
   if (++set_number_ == std::numeric_limits<std::uint32_t>::max()) {
     member_.assign(member_.size(), 0);
@@ -51,7 +51,7 @@ void StubbornSets::add(std::uint32_t transition) {
   if (is_enabled_[transition] != 0) chosen_.push_back(transition);
 }
 
-/// Those that it could disable, or that could disable it.
+/// Adds the transitions that it could disable, or that could disable it.
 void StubbornSets::add_rivals(std::uint32_t transition) {
   for (const Touch& own : net_.of_transition(transition)) {
     if (own.consumes == 0) continue;
@@ -60,7 +60,7 @@ void StubbornSets::add_rivals(std::uint32_t transition) {
   }
 }
 
-/// Those without which it stays disabled.
+/// Adds the transitions without which it stays disabled.
 void StubbornSets::add_suppliers(std::uint32_t transition, std::span<const Tokens> marking) {
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   std::uint32_t scapegoat = 0;
@@ -75,7 +75,7 @@ void StubbornSets::add_suppliers(std::uint32_t transition, std::span<const Token
     if (touch.effect() > 0) add(touch.node);
 }
 
-/// Enabled ones count more: they are what makes the set expensive.
+/// Enabled suppliers count more, because they make the set expensive.
 std::size_t StubbornSets::suppliers_missing(std::uint32_t place) const {
   std::size_t cost = 0;
   for (const Touch& touch : net_.of_place(place))

@@ -8,11 +8,11 @@
 
 namespace tessera::explore {
 
-/// Chooses, in each marking, a part of the enabled transitions that leads to every dead marking nevertheless.
+/// Chooses, in each marking, a part of the enabled transitions that still leads to every dead marking.
 ///
-/// Source: Valmari's strong stubborn sets, closed in the usual way: with an enabled transition, those that
-/// share an input place with it of which one of the two takes tokens for good; with a disabled one, those
-/// that add to one of its missing places. Threads: one at a time.
+/// Source: Valmari's strong stubborn sets, closed in the usual way. With an enabled transition come those
+///         that share an input place with it, if one of the two removes tokens from it. With a disabled
+///         transition come those that add tokens to one of its missing places. Threads: one at a time.
 class StubbornSets {
  public:
   explicit StubbornSets(const PtNet& net);

@@ -8,13 +8,13 @@
 namespace tessera::explore {
 namespace {
 
-/// Whether a firing may take a token out of a unit for good.
+/// Whether a firing may remove a token from a unit.
 enum class Losses : std::uint8_t { forbidden, allowed };
 
-/// Looks for a set of places whose tokens no firing adds to: every transition that gives to the set takes
-/// from it, one token each (and the other way round, unless losses are allowed). Places are decided one by
-/// one, consequences follow, and wrong guesses are taken back (the trail). A set of at most one initial token
-/// is kept.
+/// Looks for a set of places whose number of tokens no firing increases: every transition that gives to
+/// the set takes from it, one token each (and vice versa, unless losses are allowed). Places are decided
+/// one by one, consequences follow, and wrong guesses are undone (the trail). A set is kept if it has
+/// at most one initial token.
 class UnitSearch {
  public:
   UnitSearch(const PtNet& net, const std::vector<char>& covered)
@@ -26,7 +26,7 @@ class UnitSearch {
     }
   }
 
-  /// The set around `place`; empty if none was found.
+  /// The set that contains `place`; empty: none was found.
   std::vector<std::uint32_t> around(std::uint32_t place, Losses losses) {
     losses_ = losses;
     guesses_left_ = guesses_per_place;
@@ -42,7 +42,8 @@ class UnitSearch {
   enum class State : std::uint8_t { open, in, out, never };
   static constexpr int guesses_per_place = 256;
 
-  /// Beside a place with the token of the unit no other with a token can be in it.
+  /// Whether the place may still be added: with the token of the unit in it, no other
+  /// place with a token may be.
   [[nodiscard]] bool is_open(std::uint32_t place) const {
     return state_[place] == State::open && (token_at_ == nowhere || net_.initial()[place] == 0);
   }
@@ -66,7 +67,7 @@ class UnitSearch {
     settled_ = std::min(settled_, length);
   }
 
-  /// Consequences of all decisions not yet settled; false: they contradict each other.
+  /// Draws the consequences of all decisions that are not settled yet. false: they contradict each other.
   bool settle() {
     while (settled_ < trail_.size()) {
       const std::uint32_t place = trail_[settled_++];
@@ -89,7 +90,7 @@ class UnitSearch {
 
   struct Sides {
     bool takes = false, gives = false;   // from, to a place in the set
-    unsigned takers = 0, givers = 0;     // open places that could
+    unsigned takers = 0, givers = 0;     // open places that could take or give
     std::uint32_t taker = 0, giver = 0;  // the last of them
   };
   [[nodiscard]] bool uneven(const Sides& sides) const {
@@ -117,7 +118,7 @@ class UnitSearch {
     return true;
   }
 
-  /// A guess that can be replaced by the next of its candidates.
+  /// A guess that can be replaced by its next candidate.
   struct Guess {
     std::size_t trail;                      // its length before
     std::size_t even;                       // the members before this one of the trail touch nothing uneven
@@ -145,8 +146,8 @@ class UnitSearch {
     }
   }
 
-  /// The ways to balance the first uneven transition, nullopt if all are even. Places of no unit yet are
-  /// tried first.
+  /// The ways to balance the first unbalanced transition; nullopt: all are balanced. Places that are in
+  /// no unit yet are tried first.
   std::optional<Guess> next_guess(std::size_t even) {
     for (; even < trail_.size(); ++even) {
       if (state_[trail_[even]] != State::in) continue;
@@ -185,7 +186,7 @@ std::vector<Unit> find_units(const PtNet& net) {
   std::vector<char> covered(net.places(), 0);
   const auto has_token = [&](std::uint32_t place) { return net.initial()[place] > 0; };
   UnitSearch search(net, covered);
-  // Units without losses first: they are larger.
+  // Units without losses come first, because they are larger.
   for (const Losses losses : {Losses::forbidden, Losses::allowed})
     for (std::uint32_t place = 0; place < net.places(); ++place) {
       if (covered[place] != 0) continue;

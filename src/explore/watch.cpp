@@ -40,7 +40,7 @@ void Watch::report(Clock::time_point now, std::uint64_t markings, std::uint64_t 
   constexpr auto interval = std::chrono::milliseconds(200);
   if (!limits_.progress || now - last_report_ < interval) return;
   const std::chrono::duration<double> since = now - last_report_;
-  // An exploration that is repeated with wider fields starts again at 0.
+  // The count starts again at 0 when an exploration is repeated with wider fields.
   const std::uint64_t more = markings - std::min(markings, last_markings_);
   limits_.progress({markings, static_cast<double>(more) / since.count(), bytes, now - start_});
   last_report_ = now;

@@ -16,32 +16,32 @@ struct Progress {
   std::chrono::duration<double> elapsed{};
 };
 
-/// When to give up, and whom to tell how far it has got.
+/// When to give up, and how to report progress.
 struct Limits {
   std::chrono::duration<double> time{std::numeric_limits<double>::infinity()};
-  std::uint64_t bytes = std::uint64_t{4} << 30U;  ///< of markings and what goes with them
-  std::uint64_t markings = std::numeric_limits<std::uint64_t>::max();  ///< about as many
-  const std::atomic<bool>* stop = nullptr;  ///< true: give up; may be set from a signal handler
+  std::uint64_t bytes = std::uint64_t{4} << 30U;                       ///< for markings and their tables
+  std::uint64_t markings = std::numeric_limits<std::uint64_t>::max();  ///< approximately
+  const std::atomic<bool>* stop = nullptr;                  ///< true: give up; may be set by a signal handler
   std::function<void(const Progress&)> progress = nullptr;  ///< called about every 0.2 s, in the same thread
 };
 
-/// What an answer cost.
+/// The cost of an answer.
 struct Effort {
   std::uint64_t markings = 0;  ///< stored
-  std::uint64_t bytes = 0;     ///< held at the most
+  std::uint64_t bytes = 0;     ///< largest amount in use
   std::chrono::duration<double> elapsed{};
 };
 
-/// Holds one task, of one or several explorations, to its limits.
+/// Keeps one task, of one or several explorations, within its limits.
 class Watch {
  public:
   explicit Watch(const Limits& limits);
 
-  /// False, for ever after, as soon as a limit is passed. Cheap enough for every few dozen markings.
+  /// false, from then on, as soon as a limit is exceeded. Cheap enough for every few dozen markings.
   [[nodiscard]] bool go_on(std::uint64_t markings, std::uint64_t bytes);
   /// Gives up for another reason.
   void give_up(std::string why) { why_ = std::move(why); }
-  /// Why it gave up: "the time limit of 60 s is reached"; empty while it goes on.
+  /// The reason for giving up: "the time limit of 60 s is reached"; empty while it goes on.
   [[nodiscard]] const std::string& why() const { return why_; }
   [[nodiscard]] Effort effort() const;
 

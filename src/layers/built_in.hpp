@@ -5,11 +5,11 @@
 
 namespace tessera::layers {
 
-/// The model of a channel: the author's, or the built-in one of its modes and timeouts. Lives as long as
-/// `model`.
+/// The communication model of a channel: the one that the specification names, or the built-in one for its
+/// modes and timeouts. Valid as long as `model`.
 ///
-/// Source of the built-in ones: non-blocking at both ends is the paper's fully asynchronous model (sec.
-/// IV-E); the others are made by the paper's recipe. docs/specification.md draws them.
+/// Source: paper, sec. IV-E. Non-blocking at both ends is its fully asynchronous model; the other built-in
+/// models are made in the same way. docs/specification.md draws them.
 [[nodiscard]] const spec::CommunicationModel& model_of(const spec::Model& model,
                                                        const spec::Channel& channel);
 

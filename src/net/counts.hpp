@@ -8,8 +8,8 @@
 
 namespace tessera::net {
 
-/// The size of a net, flat and drawn in layers. A page counts in the net that draws it; fused places count in
-/// `places` of the flat net and in no layer.
+/// The size of a net, as a flat net and layer by layer. A page counts in the net that contains it. Fused
+/// places count in `places` of the flat net and in no layer.
 struct Counts {
   struct Layer {
     std::size_t places = 0, transitions = 0, pages = 0;
@@ -26,8 +26,8 @@ struct Counts {
 /// "system", "agent", ...
 [[nodiscard]] const char* name_of(Layer layer);
 
-/// {"flat": {"places", "fused", "transitions", "arcs"}, "layers": {"system": {"places", "transitions",
-/// "pages"}, ...}}
+/// {"flat": {"places", "fused", "transitions", "arcs"},
+/// "layers": {"system": {"places", "transitions", "pages"}, ...}}
 [[nodiscard]] std::string to_json(const Counts& counts);
 
 }  // namespace tessera::net

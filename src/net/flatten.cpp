@@ -7,7 +7,7 @@
 namespace tessera::net {
 namespace {
 
-/// Refuses hierarchies that stand for no flat net.
+/// Rejects hierarchies that have no flat net.
 class Examination {
  public:
   Examination(const HierarchicalNet& net, diagnostics::Diagnostics& out) : net_(net), out_(out) {}
@@ -50,7 +50,7 @@ class Examination {
     if (node.fusion.valid() || node.tokens > 0 || node.operation.kind != Operation::Kind::none)
       out_.error("E405", span,
                  "page '" + node.name + "' is fused, marked or has an operation, which only places may");
-    // Children follow their parents, so this also excludes pages that contain themselves.
+    // Children follow their parents, so this also rejects pages that contain themselves.
     if (node.page <= drawn_in || net_.pages[node.page.value].parent != drawn_in ||
         reached_[node.page.value]++ > 0)
       out_.error("E404", span, "page '" + node.name + "' is reached twice");
@@ -75,7 +75,7 @@ class Examination {
 
   const HierarchicalNet& net_;
   diagnostics::Diagnostics& out_;
-  std::vector<std::uint32_t> reached_;     // per page: how many nodes stand for it
+  std::vector<std::uint32_t> reached_;     // per page: how many nodes refer to it
   std::vector<std::uint32_t> operations_;  // per fusion set: how many members have one
 };
 
@@ -169,7 +169,7 @@ class Flattening {
     }
   }
 
-  /// The arcs that the drawn ends stand for. Ends that fusion made one place become one heavier arc.
+  /// The arcs from or to the given nodes. Arcs whose places were fused into one become one heavier arc.
   void collect(PageId page, const std::vector<std::uint32_t>& ends, std::uint32_t Page::*port,
                std::vector<Arc>& arcs) {
     arcs.clear();
@@ -187,8 +187,8 @@ class Flattening {
     }
   }
 
-  /// The place behind a node: of a page, the place at its port, whose net may be entered through a page
-  /// again.
+  /// The place behind a node. For a page, it is the place at its port; the net may again
+  /// be entered through a page.
   [[nodiscard]] PlaceId resolve(PageId page, std::uint32_t node, std::uint32_t Page::*port) const {
     while (net_.pages[page.value].nodes[node].page.valid()) {
       page = net_.pages[page.value].nodes[node].page;
@@ -207,7 +207,7 @@ class Flattening {
   std::vector<std::uint32_t> first_node_;  // per page, into place_of_
   std::vector<PlaceId> place_of_;          // per node of every page
   std::vector<Arc> inputs_, outputs_;
-  std::vector<Seen> seen_;  // per place: the collection that met it last, and its arc there
+  std::vector<Seen> seen_;  // per place: the last collection that had it, and its arc there
   std::uint32_t collection_ = 0;
 };
 

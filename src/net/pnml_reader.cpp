@@ -63,7 +63,7 @@ class Positions {
   std::vector<std::size_t> starts_{0};
 };
 
-/// What an id of the document stands for.
+/// The element that an id of the document refers to.
 struct Element {
   enum class Kind : std::uint8_t { place, transition, reference_place, reference_transition, other } kind;
   std::uint32_t index = 0;  ///< of the place or transition, or into the references
@@ -206,7 +206,7 @@ class Reader {
   void enter(const xml_node& node, Element element) {
     const std::string_view id = node.attribute("id").value();
     if (id.empty()) {
-      // Arcs and pages are never referred to, so that a missing id of theirs harms nobody.
+      // Nothing refers to arcs and pages, so a missing id of theirs does no harm.
       if (element.kind != Element::Kind::other)
         out_.error("E424", positions_.of(node), "this " + std::string(local_name(node)) + " has no id");
       return;
@@ -239,7 +239,7 @@ class Reader {
     return missing;
   }
 
-  /// Names are kept where they are there and nobody else's; else the id, which is.
+  /// Keeps names that exist and are unique; otherwise uses the id, which is unique.
   void name_apart() {
     std::unordered_map<std::string, int> uses;
     for (const Place& place : places_) ++uses[place.name];
@@ -247,7 +247,7 @@ class Reader {
     const auto choose = [&](auto& elements, const std::vector<std::string>& ids) {
       for (std::size_t index = 0; index < elements.size(); ++index) {
         std::string& name = elements[index].name;
-        // The id must not be what another element is called, or the two would be one in every trace.
+        // The id must not be the name of another element, or traces could not tell the two apart.
         const bool unclear =
             name.empty() || uses[name] > 1 || (name != ids[index] && elements_.contains(name));
         if (unclear) name = ids[index];
@@ -300,7 +300,7 @@ class Reader {
            element.kind == Element::Kind::reference_transition;
   }
 
-  /// What a chain of references ends in. A chain is followed once: every link then remembers its end.
+  /// The end of a chain of references. A chain is followed once; then every link stores its end.
   std::optional<Element> resolved(Element element) {
     std::vector<std::uint32_t> chain;
     std::unordered_set<std::uint32_t> seen;
@@ -369,7 +369,7 @@ class Reader {
   std::vector<Transition> transitions_;
   std::vector<std::string> place_ids_, transition_ids_;
   std::vector<Reference> references_;
-  // Of references that have been followed; empty where that led nowhere, which has been said.
+  // References that have been followed; empty if the end does not exist, which has been reported.
   std::unordered_map<std::uint32_t, std::optional<Element>> resolutions_;
   std::vector<xml_node> arcs_;
   std::map<ArcKey, std::uint32_t> weights_;

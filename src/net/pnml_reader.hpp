@@ -12,9 +12,9 @@ inline constexpr std::uint32_t largest_pnml_number = 2147483647;
 
 /// The P/T net of a PNML document (the text of `out`).
 ///
-/// Pages, nested or not, become one flat net; reference nodes are replaced by what they refer to; parallel
-/// arcs add up. An element is called by its name, or by its id where the name is missing or given twice.
-/// Graphics and tool-specific parts are ignored. Spans point into the document.
+/// Pages, nested or not, become one flat net; reference nodes are replaced by the nodes that they refer to;
+/// parallel arcs add up. An element is called by its name, or by its id if the name is missing or used
+/// twice. Graphics and tool-specific parts are ignored. Spans refer to the document.
 ///
 /// Errors:  E420 not XML, E421 a document type with declarations of its own (entities are never expanded),
 ///          E422 not PNML, or no net or several, E423 not a P/T net (coloured, inhibitor arcs), E424 an
@@ -22,8 +22,7 @@ inline constexpr std::uint32_t largest_pnml_number = 2147483647;
 ///          range, E426 an arc that does not join a place and a transition, E427 a reference that leads
 ///          nowhere. Reports all, then nullopt.
 /// Threads: pure. Linear in the text up to sorting; no recursion, however deep the pages.
-/// Source:  ISO/IEC 15909-2, place/transition nets. Deviation: elements of extensions unknown to it are
-/// ignored.
+/// Source:  ISO/IEC 15909-2, place/transition nets. Deviation: elements of unknown extensions are ignored.
 [[nodiscard]] std::optional<Net> read_pnml(diagnostics::Diagnostics& out);
 
 }  // namespace tessera::net

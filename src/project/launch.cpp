@@ -91,7 +91,7 @@ std::string start_on_line(const Floor& floor) {
   return pose_text(start->at.x_m, start->at.y_m, start->heading_rad);
 }
 
-// The start pose of the specification belongs to its own track. On another one, the robot starts on the line.
+// The start pose of the specification belongs to its own track. On any other, the robot starts on the line.
 std::string start_pose(const spec::Simulation& simulation, const Floor& floor, const LaunchOptions& options) {
   if (!options.start.empty()) return options.start;
   if (!options.track.empty() || !simulation.track->start_x_m) return start_on_line(floor);
@@ -109,7 +109,7 @@ void add_floor(Command& command, const spec::Simulation& simulation, const Floor
 
 void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
   const spec::Simulation& simulation = *specification.model.simulation;
-  if (simulation.world.empty() && options.world.empty()) return;  // its drivers are C++ classes
+  if (simulation.world.empty() && options.world.empty()) return;  // the drivers are C++ classes
   append(command,
          {"--world",
           asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds")
@@ -121,7 +121,7 @@ void add_world(Command& command, const Specification& specification, const Launc
   add_drivers(command, specification.model);
 }
 
-// Those that a run of this kind has no driver for.
+// The real buffers that have no driver for a run of this kind.
 std::vector<std::string> missing_drivers(const spec::Model& model, const LaunchOptions& options,
                                          bool simulated) {
   const std::vector<std::string> without_real = model.without_driver(model.drivers);
@@ -182,7 +182,7 @@ bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated, 
   struct : Listener {
     void say(std::string_view) override {}
     void progress(std::string_view) override {}
-  } nobody;  // who builds the specification hears what is wrong with it
+  } nobody;  // the build reports what is wrong with the specification
   const std::optional<Specification> specification = read(options.spec, nobody);
   if (!specification) return true;
   const std::vector<std::string> missing = missing_drivers(specification->model, options, simulated);

@@ -8,20 +8,22 @@
 #include "project/build/controller.hpp"
 #include "project/process/process.hpp"
 
-/// Running a built controller.
+/// Starts a controller that has been built.
 namespace tessera::project {
 
-/// How a controller shall be run.
+/// How a controller is to be run.
 struct LaunchOptions {
   std::string spec = ".";
-  std::string duration;  ///< "60s"; empty: until stopped
+  std::string duration;  ///< "60s"; empty: no limit
   std::vector<std::string> set, inject;
   std::string parameters;  ///< file; empty: params.yaml of the project if there is one
   std::string record, record_values = "small", record_limit;
-  std::string folder;                                            ///< of the run's files (RunFolder)
-  std::filesystem::path base = std::filesystem::current_path();  ///< that relative names are relative to
-  bool accept_stuck = false;          ///< a subsystem that is stuck for good at the end is no failure
-  std::vector<std::string> hardware;  ///< paths of what has its real drivers in a simulated run
+  std::string folder;  ///< of the run's files (RunFolder)
+  /// relative names are relative to this folder
+  std::filesystem::path base = std::filesystem::current_path();
+  bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is not a failure
+  /// paths of the subsystems and buffers with real drivers in a simulated run
+  std::vector<std::string> hardware;
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
   VerificationGate gate;
@@ -31,26 +33,26 @@ struct LaunchOptions {
   std::uint64_t seed = 1;
 };
 
-/// The files a run leaves.
+/// The files that a run leaves.
 struct RunFiles {
   std::filesystem::path recording, trace, summary;
 };
 [[nodiscard]] RunFiles run_files(const LaunchOptions& options);
 
-/// The floor picture a run uses: of the command line, else of the specification.
+/// The floor picture that a run uses: the one on the command line, or else the one in the specification.
 struct Floor {
   std::filesystem::path image;
   double metres_per_pixel = 0.005;
 };
-/// nullopt: no track. Throws std::runtime_error when it names a file that is nowhere.
+/// nullopt: there is no track. Throws std::runtime_error if the file does not exist.
 [[nodiscard]] std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options);
 
-/// PATH=VALUE of every parameter that a run changes: those of the file, then those of the command line.
-/// Throws std::runtime_error when the file cannot be read.
+/// PATH=VALUE of every parameter that a run changes: first those of the file, then those of the command
+/// line. Throws std::runtime_error if the file cannot be read.
 [[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
                                                         const LaunchOptions& options);
 
-/// The bound on the recording of `run`, unless `record_limit` says otherwise; "none" is no bound.
+/// The limit of the recording of `run`, unless `record_limit` gives another one; "none" is no limit.
 inline constexpr const char* usual_record_limit = "1GB";
 
 /// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:
@@ -59,12 +61,12 @@ inline constexpr const char* usual_record_limit = "1GB";
 [[nodiscard]] bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated,
                                                 Listener& listener);
 
-/// The controller's command line. mode: "simulate" or "run"; simulated: of the simulated robot, in its world
-/// if it has one.
+/// The controller's command line. mode: "simulate" or "run"; simulated: use the simulated robot,
+/// in its world if it has one.
 [[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
                                          const std::string& mode, bool simulated);
 
-/// Where the controller of a run leaves a note if it dies in the middle of it.
+/// The file in which the controller of a run leaves a note if it dies during the run.
 [[nodiscard]] std::filesystem::path death_note(const RunFiles& files);
 
 /// The command of a controller that this process starts and waits for: it stops when this process ends, and

@@ -5,7 +5,7 @@
 namespace tessera::reduce {
 namespace {
 
-/// What fills the place and what empties it, if that can be fired as one.
+/// The transitions that fill a place and those that empty it, if each pair can be fired as one.
 class Agglomeration {
  public:
   Agglomeration(Work& work, std::uint32_t place)
@@ -40,7 +40,7 @@ class Agglomeration {
     return fill_.size() * empty_.size() <= fill_.size() + empty_.size();
   }
 
-  /// One token at a time, and no transition that does both.
+  /// Whether each moves one token at a time, and no transition both fills and empties the place.
   [[nodiscard]] bool is_simple() const {
     const auto single = [&](const Arcs& arcs) { return weight_at(arcs, index_) == 1; };
     const auto none = [&](const Arcs& arcs) { return weight_at(arcs, index_) == 0; };

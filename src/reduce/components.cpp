@@ -16,7 +16,7 @@ Colour mix(Colour a, Colour b) {
   return mixed ^ (mixed >> 32U);
 }
 
-/// Places and transitions as one list of elements, places first, with a colour that equal elements share.
+/// Places and transitions as one list of elements, places first. Equal elements have the same colour.
 class Colours {
  public:
   Colours(const net::Net& net, const std::vector<std::vector<std::uint32_t>>& sets)
@@ -26,7 +26,7 @@ class Colours {
       colours_.push_back(mix(hash(template_name(place.name)), place.tokens));
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
       colours_.push_back(mix(hash(template_name(net.transitions()[index].name)), sets[index].size()));
-    // Names tell most elements apart; a few rounds carry that to their surroundings.
+    // Names distinguish most elements; a few rounds pass the difference on to their neighbours.
     for (int round = 0; round < 4; ++round) refine();
   }
 
@@ -40,7 +40,7 @@ class Colours {
       const auto pass = [&](std::span<const net::Arc> arcs, Colour direction) {
         for (const net::Arc& arc : arcs) {
           const Colour by = direction + arc.weight;
-          // Sums do not depend on the order of the arcs.
+          // Sums are used because they do not depend on the order of the arcs.
           next[arc.place.value] += mix(colours_[transition], by);
           next[transition] += mix(colours_[arc.place.value], by);
         }
@@ -56,7 +56,7 @@ class Colours {
   std::vector<Colour> colours_;
 };
 
-/// Everything about a component in terms of its canonical order; equal descriptions are equal components.
+/// A component described in its canonical order. Components with equal descriptions are equal.
 using Description = std::vector<std::uint32_t>;
 
 class Split {
@@ -138,7 +138,7 @@ class Split {
       for (const std::uint32_t set : sets_of_[transition.value])
         text.push_back(local_sets.emplace(set, static_cast<std::uint32_t>(local_sets.size())).first->second);
     }
-    // Two components of different sizes could begin alike.
+    // Descriptions of components of different sizes could otherwise begin alike.
     text.push_back(static_cast<std::uint32_t>(component.places.size()));
     return text;
   }

@@ -11,8 +11,8 @@ namespace tessera::reduce {
 using net::Arc;
 using Arcs = std::vector<Arc>;  ///< in the order of their places
 
-/// A net that can be taken apart. Numbers of places and transitions stay valid; what was removed is not
-/// alive.
+/// A net from which elements can be removed. The numbers of places and transitions stay valid;
+/// removed elements are not alive.
 class Draft {
  public:
   struct Place {
@@ -22,7 +22,7 @@ class Draft {
   };
   struct Transition {
     Arcs inputs{}, outputs{};
-    std::uint32_t sequence = 0;         ///< what it fires
+    std::uint32_t sequence = 0;         ///< the sequence that it fires
     std::vector<std::uint32_t> sets{};  ///< of Preserve::sets, sorted
     bool alive = true;
   };
@@ -37,10 +37,10 @@ class Draft {
   void remove_place(std::uint32_t place);
   void remove_transition(std::uint32_t transition);
   void add_to_sets(std::uint32_t transition, const std::vector<std::uint32_t>& sets);
-  /// Moves the tokens of one firing. The transition is expected to be removed next, which reopens its places.
+  /// Moves the tokens of one firing. The caller removes the transition next, which reopens its places.
   void fire(std::uint32_t transition);
 
-  /// What changed and may now be reduced; UINT32_MAX when nothing is left.
+  /// A place that changed and may now be reduced; UINT32_MAX: none is left.
   std::uint32_t next_place() { return take(open_places_, place_is_open_); }
   std::uint32_t next_transition() { return take(open_transitions_, transition_is_open_); }
 
@@ -55,8 +55,8 @@ class Draft {
   std::vector<bool> place_is_open_, transition_is_open_;
 };
 
-/// Places and transitions with more arcs than this are left alone by the rules that look at their neighbours,
-/// so that the work stays linear in the net: the pages of a fleet all hang on one transition.
+/// The rules that look at neighbours skip places and transitions with more arcs than this, so that the work
+/// stays linear in the net: in a fleet, one transition is connected to all pages.
 inline constexpr std::size_t most_arcs = 24;
 [[nodiscard]] inline bool is_small(const Draft::Transition& transition) {
   return transition.inputs.size() + transition.outputs.size() <= most_arcs;
@@ -70,7 +70,7 @@ inline constexpr std::size_t most_arcs = 24;
 [[nodiscard]] std::vector<std::uint32_t> united(const std::vector<std::uint32_t>& a,
                                                 const std::vector<std::uint32_t>& b);
 
-/// What the rules share: the draft, and the way back to the original net.
+/// The data that all rules share: the draft, and the way back to the original net.
 struct Work {
   Draft& draft;
   const Preserve& what;
@@ -81,7 +81,7 @@ struct Work {
   std::vector<std::uint32_t>& delayed;
 };
 
-/// Each applies its rules to one place or transition that is alive; true if something was removed.
+/// Each function applies its rules to one place or transition that is alive. true: something was removed.
 bool reduce_place(Work& work, std::uint32_t place);
 bool agglomerate(Work& work, std::uint32_t place);
 bool reduce_transition(Work& work, std::uint32_t transition);

@@ -14,8 +14,8 @@ bool is_constant(const Draft& draft, std::uint32_t index) {
   });
 }
 
-/// Does `place` hold at least as many tokens as `other` after every firing, if it did before, and is it asked
-/// for no more?
+/// Whether `place` holds at least as many tokens as `other` after every firing, if it did before, and no
+/// transition needs more tokens of it.
 bool follows(const Draft& draft, std::uint32_t place, std::uint32_t other) {
   const Draft::Place &p = draft.places()[place], &q = draft.places()[other];
   if (p.tokens < q.tokens || q.consumers.size() + q.producers.size() > most_arcs) return false;
@@ -41,7 +41,7 @@ bool is_implicit(const Draft& draft, std::uint32_t index) {
   });
 }
 
-/// A start-up place: fires what empties it.
+/// Handles a start-up place: fires the transition that empties it.
 bool fire_start(Work& work, std::uint32_t index) {
   const Draft::Place& place = work.draft.places()[index];
   if (place.tokens == 0 || !place.producers.empty() || place.consumers.size() != 1) return false;

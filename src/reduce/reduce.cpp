@@ -8,7 +8,7 @@
 namespace tessera::reduce {
 namespace {
 
-/// Not a rule: every rule takes the transitions that it sees for real ones.
+/// Removes impossible transitions. This is not a rule: every rule assumes that all transitions are possible.
 void drop_impossible(const net::Net& net, Work& work) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     if (net.transitions()[index].condition.truth != net::Condition::Truth::never) continue;
@@ -17,7 +17,7 @@ void drop_impossible(const net::Net& net, Work& work) {
   }
 }
 
-/// Transitions first: they are cheap, and what is left of them decides about the places.
+/// Transitions come first: they are cheap, and the remaining ones decide about the places.
 void exhaust(Work& work) {
   for (;;) {
     if (const std::uint32_t transition = work.draft.next_transition(); transition != UINT32_MAX) {
@@ -30,7 +30,7 @@ void exhaust(Work& work) {
   }
 }
 
-/// The name of a transition that stands for several says where it begins and ends.
+/// The name of a transition that represents a sequence consists of the first and the last name.
 std::string joined_name(const std::string& first, const std::string& last) {
   return first == last ? first : first + " .. " + last;
 }
@@ -100,8 +100,8 @@ void Reduced::append(std::uint32_t sequence, std::vector<net::TransitionId>& to)
   }
 }
 
-/// Fires what was put off, so that a marking that is dead in the reduced net becomes dead in the original
-/// one: undoes the rules from the last to the first.
+/// Fires the delayed transitions, so that a dead marking of the reduced net becomes a dead marking of the
+/// original one. Undoes the rules from the last to the first.
 void Reduced::settle(std::vector<net::TransitionId>& trace) const {
   net::Marking marking = net::marking_after(*original_, trace);
   for (auto sequence = delayed_.rbegin(); sequence != delayed_.rend(); ++sequence) {

@@ -13,13 +13,13 @@
 /// Structural reductions of place/transition nets: a smaller net with the same answers.
 namespace tessera::reduce {
 
-/// What the reduced net has to keep, besides whether there is a dead marking.
+/// Facts that the reduced net must preserve, besides whether there is a dead marking.
 struct Preserve {
   /// Formulas over the tokens of these places: the reduced net reaches the same combinations of them.
   std::vector<net::PlaceId> observed{};
   /// For each set, whether from every reachable marking some continuation fires one of its transitions.
   std::vector<std::vector<net::TransitionId>> sets{};
-  /// Known to be safe (no place ever holds two tokens); allows more.
+  /// The net is known to be safe (no place ever holds two tokens), which allows more reductions.
   bool safe = false;
 };
 
@@ -27,25 +27,26 @@ struct Preserve {
 struct Rules {
   /// A transition with an input place that never gets enough tokens.
   bool dead_transitions = true;
-  /// Of two transitions with the same effect and the same needs, one.
+  /// One of two transitions with the same effect and the same needs.
   bool parallel_transitions = true;
-  /// A transition without effect that is in no set, if another one is enabled whenever it is.
+  /// A transition without effect, in no set, if another transition is enabled whenever it is.
   bool identity_transitions = true;
-  /// A place from which nothing is taken.
+  /// A place from which no transition takes.
   bool sink_places = true;
   /// A place that no firing lowers and that holds enough tokens from the start.
   bool constant_places = true;
-  /// A place that always holds at least as many tokens as another one that is asked for at least as many
+  /// A place that always holds at least as many tokens as another place of which at least as many are needed
   /// (Berthelot: an implicit place; here with one other place).
   bool implicit_places = true;
-  /// A marked place that nothing fills and that one transition empties, which needs nothing else and is
-  /// untouched: the transition is fired at once.
+  /// A marked place that no transition fills and that one transition empties. If that transition has no other
+  /// input and is untouched, it is fired at once.
   bool start = true;
-  /// An unmarked place whose consumers need nothing else and are untouched: what fills it is fired together
-  /// with what empties it (Berthelot; Thierry-Mieg, *Structural reductions revisited*, Petri Nets 2020).
+  /// An unmarked place whose consumers have no other input and are untouched. A transition that fills it is
+  /// fired together with one that empties it (Berthelot; Thierry-Mieg, *Structural reductions revisited*,
+  /// Petri Nets 2020).
   bool post_agglomeration = true;
-  /// An unmarked place whose one producer fills nothing else, competes with nobody and is untouched: it is
-  /// delayed until its token is needed. Only if the producer is in no set, or the net is safe.
+  /// An unmarked place whose only producer fills no other place, shares no input place and is untouched. The
+  /// producer is delayed until its token is needed. Only if the producer is in no set, or the net is safe.
   bool pre_agglomeration = true;
 };
 
@@ -69,8 +70,8 @@ struct Statistics {
   std::size_t start = 0, post_agglomeration = 0, pre_agglomeration = 0;
 };
 
-/// A smaller net and the way back. Observed places keep their number of tokens; places that are left keep
-/// their bound; whether a place that is gone was safe is not kept.
+/// A smaller net and the way back. Observed places keep their numbers of tokens, and remaining places keep
+/// their bounds. Whether a removed place was safe is lost.
 class Reduced {
  public:
   net::Net net;
@@ -105,11 +106,12 @@ class Reduced {
 
 /// Applies the rules until none applies any more.
 ///
-/// Preserved: whether a dead marking is reachable; Preserve. Not preserved: lengths of traces, the number of
-/// markings. The result refers to `net`, which must outlive it. Threads: pure. Linear in the net but for
-/// places and transitions with very many arcs, which are looked at less often. Source: Berthelot,
-/// *Transformations and decompositions of nets*, 1987; Thierry-Mieg 2020. Proofs of the deviations:
-/// docs/reductions.md.
+/// Preserved: whether a dead marking is reachable, and `what`. Not preserved: lengths of traces, number of
+/// markings. The result refers to `net`, which must outlive it.
+///
+/// Threads: pure. Linear in the net. Places and transitions with very many arcs are tried less often.
+/// Source:  Berthelot, *Transformations and decompositions of nets*, 1987; Thierry-Mieg 2020. Proofs of the
+///          deviations: docs/reductions.md.
 [[nodiscard]] Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on = {});
 
 }  // namespace tessera::reduce

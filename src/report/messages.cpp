@@ -22,7 +22,7 @@ struct Group {
   std::uint64_t count = 0;
 };
 
-/// What is no text, such as values and markings, is no message.
+/// Whether the event is a message: values and markings are not.
 bool is_message(const Event& event) {
   return event.kind() == Event::Kind::log || event.kind() == Event::Kind::stop ||
          event.kind() == Event::Kind::fault || event.kind() == Event::Kind::safe;
@@ -52,7 +52,7 @@ std::vector<Group> groups_of(const Recording& recording) {
   return groups;
 }
 
-/// Which of them are shown. The end is worth as much as what is bad.
+/// Selects the messages that are shown. The end has the same weight as faults.
 std::vector<bool> chosen_of(const std::vector<Group>& groups, std::size_t most) {
   std::vector<bool> chosen(groups.size(), false);
   for (const Weight weight : {Weight::bad, Weight::warning, Weight::plain}) {

@@ -67,7 +67,7 @@ void put_drive(std::string& html, const DrivenPath& drive) {
       error_svg(drive));
 }
 
-/// Those that matter, then the first, in their order; the rest is only counted.
+/// Shows the rows that matter, then the first others, in their order; the rest is only counted.
 template <class Row, class Matters>
 std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters) {
   if (rows.size() <= most) return 0;
@@ -163,7 +163,7 @@ bool has_failed(const Recording& recording) {
   });
 }
 
-/// What a reader has to know before the figures.
+/// Notices that a reader needs before the figures.
 void put_notices(std::string& html, const ReportInput& input) {
   const auto put_notice = [&](const std::string& text, std::string_view kind = "") {
     put(html, R"(<p class="panel notice{}">{}</p>)", kind, escaped(text));

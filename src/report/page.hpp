@@ -6,7 +6,7 @@
 
 namespace tessera::report {
 
-/// "4.07 laps, line lost 0.00 s, ...": what matters most, in one line.
+/// "4.07 laps, line lost 0.00 s, ...": the most important figures in one line.
 [[nodiscard]] std::string headline(const ReportInput& input);
 
 /// The HTML page.

@@ -28,7 +28,7 @@ std::string png_of(cairo_surface_t* surface) {
   return bytes;
 }
 
-/// The mean of the picture's pixels under one of the smaller picture, softened.
+/// The mean of the pixels that one pixel of the smaller picture covers, softened.
 std::uint32_t soft_grey(const sim::Track& floor, std::uint32_t x, std::uint32_t y, std::uint32_t block) {
   std::uint32_t sum = 0;
   std::uint32_t count = 0;
@@ -135,7 +135,7 @@ class FloorCanvas {
     cairo_stroke(canvas_);
   }
 
-  /// A disc with wheels beside and an arm to the eyes.
+  /// Draws the robot: a disc with wheels at its sides and an arm to the light sensors.
   void robot() {
     const auto& last = drive_.trace.points.back();
     const double arm = std::hypot(last.eye_x_m - last.x_m, last.eye_y_m - last.y_m);
@@ -197,7 +197,7 @@ PathColours path_colours(const DrivenPath& drive) {
   const auto& points = drive.trace.points;
   PathColours colours{.by_error = !points.empty() && drive.metrics.error_m.size() == points.size(),
                       .share = {}};
-  // Up to a round figure, so that one bad moment does not wash out the rest, and pictures compare.
+  // Rounded up, so that one large error does not hide the others, and pictures can be compared.
   colours.top = colours.by_error ? std::clamp(std::ceil(drive.metrics.max_error_m * 50) / 50, 0.02, 0.1)
                 : points.empty() ? 1
                                  : std::max(points.back().t_s, 1e-3);

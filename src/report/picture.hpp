@@ -7,7 +7,7 @@
 
 namespace tessera::report {
 
-/// What the colours of a path mean: seconds, or metres of error.
+/// The meaning of the colours of a path: seconds, or metres of error.
 struct PathColours {
   bool by_error = false;
   double top = 1;             ///< the value of the last colour
@@ -18,7 +18,7 @@ struct PathColours {
 /// The indices of at most about `count` points, first and last included.
 [[nodiscard]] std::vector<std::size_t> evenly_spaced_indices(std::size_t size, std::size_t count);
 
-/// The floor alone, no wider than 1200 pixels, softened so that a path stands out. PNG bytes.
+/// The floor alone, at most 1200 pixels wide, softened so that a path stands out. PNG bytes.
 [[nodiscard]] std::string floor_png(const sim::Track& floor);
 
 /// Floor, line, path, start and robot with a legend, about 1600 pixels wide. PNG bytes.

@@ -15,7 +15,7 @@ namespace tessera::report {
 /// What a robot did on a floor.
 struct DrivenPath {
   sim::Track floor;
-  sim::Skeleton line;  ///< may be empty: then there is no error to show
+  sim::Skeleton line;  ///< may be empty; the report then shows no error
   sim::Trace trace;
   sim::LineMetrics metrics;  ///< of line and trace
 };
@@ -31,7 +31,7 @@ struct Verdict {
   std::string note;      ///< may be empty
 };
 
-/// All that a report tells. What is not known stays empty and is left out of the page.
+/// The content of a report. Unknown parts stay empty and are left out of the page.
 struct ReportInput {
   Recording recording;
   std::optional<DrivenPath> drive;
@@ -54,11 +54,12 @@ struct File {
 /// "Several robots move in this world (rover, rover_2): ...", in one sentence.
 [[nodiscard]] std::string several_robots(const std::string& names);
 
-/// A page that needs nothing but itself (pictures inline, no scripts, no network; light and dark, prints
-/// well), and with a drive the picture of the path over the floor: index.html and path.png. All text from
-/// outside is escaped, and what is no text is not shown. The same input gives the same bytes. Memory and size
-/// stay bounded on long runs and large fleets: curves and time lines are thinned to what a page can show, of
-/// many subsystems the first are shown, and of many messages the most important.
+/// A page without external parts (pictures inline, no scripts, no network; light and dark, suitable
+/// for printing), and with a drive the picture of the path over the floor: index.html and path.png.
+/// All text from outside is escaped, and data that is no text is not shown. The same input gives the
+/// same bytes. Memory and size stay bounded for long runs and large fleets: curves and time lines
+/// are thinned to what a page can show; of many subsystems the first ones are shown, and of many
+/// messages the most important ones.
 ///
 /// Errors:  none of its own; throws std::bad_alloc.
 /// Threads: pure.

@@ -13,7 +13,7 @@ struct Character {
   std::size_t bytes = 1;
 };
 
-/// The first character of the text; nullopt: its first byte begins none.
+/// The first character of the text; nullopt: its first byte does not begin a character.
 std::optional<Character> first_of(std::string_view text) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   const unsigned char lead = byte(0);

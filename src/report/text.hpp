@@ -16,11 +16,11 @@ void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(to), format, std::forward<Args>(args)...);
 }
 
-/// For the text of an element or an attribute. Control characters, which HTML forbids, marks that turn the
-/// direction of writing, and bytes that are no UTF-8 become U+FFFD.
+/// Escapes text for an element or an attribute. Control characters, which HTML forbids, marks that change
+/// the direction of writing, and bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// At most so many bytes and lines of it, whole characters, with "…" for the rest.
+/// Cuts the text to that many bytes and lines of whole characters, with "…" for the rest.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most_bytes, std::size_t most_lines);
 
 /// 1234567 -> "1 234 567" with thin spaces.

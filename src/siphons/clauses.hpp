@@ -8,8 +8,8 @@
 
 namespace tessera::siphons {
 
-/// A question to a SAT solver that grows between answers. A literal is the number of a variable, negative for
-/// its negation.
+/// A question to a SAT solver that can be extended between answers. A literal is the number of a variable;
+/// a negative number is its negation.
 ///
 /// Threads: one. Gives up when the watch does.
 class Clauses {
@@ -23,9 +23,9 @@ class Clauses {
 
   /// A new variable.
   [[nodiscard]] int variable() { return ++last_; }
-  /// One of the literals is true.
+  /// Adds a clause: one of the literals is true.
   void add(const std::vector<int>& literals);
-  /// A literal that is true exactly if all of these are.
+  /// A literal that is true if and only if all of these are.
   [[nodiscard]] int all_of(const std::vector<int>& literals);
 
   enum class Answer : std::uint8_t { satisfied, contradiction, gave_up };

@@ -15,7 +15,7 @@ using explore::PtNet;
 using explore::Tokens;
 using explore::Touch;
 
-/// What is known and asked of a marking, as clauses.
+/// The question about a marking and the known facts, as clauses.
 class Statement {
  public:
   Statement(const PtNet& net, Clauses& clauses)
@@ -27,7 +27,7 @@ class Statement {
   [[nodiscard]] std::size_t units() const { return units_.size(); }
   [[nodiscard]] int marked(std::uint32_t place) const { return marked_[place]; }
 
-  /// A literal that is true exactly if the formula is.
+  /// A literal that is true if and only if the formula is.
   int literal(const Formula& formula) {
     std::vector<int> parts;
     switch (formula.kind) {
@@ -69,7 +69,7 @@ class Statement {
     return clauses_.all_of(needs);
   }
 
-  /// At most one place is marked: a chain of "one of the first n is".
+  /// At most one place of the unit is marked: a chain of "one of the first n is".
   void add_unit(const explore::Unit& unit) {
     int before = 0;
     for (const std::uint32_t place : unit.places) {

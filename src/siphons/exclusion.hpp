@@ -11,26 +11,26 @@ namespace tessera::siphons {
 
 struct Exclusion {
   enum class Kind : std::uint8_t {
-    excluded,   ///< no reachable marking is like that
+    excluded,   ///< no reachable marking satisfies the goal
     suspected,  ///< a marking is not excluded; it need not be reachable
     gave_up     ///< `why`
   } kind = Kind::gave_up;
   std::string why;
-  std::vector<net::PlaceId> marked;  ///< of suspected: the places that the marking marks
-  std::size_t units = 0, traps = 0;  ///< that were used
+  std::vector<net::PlaceId> marked;  ///< if suspected: the marked places of that marking
+  std::size_t units = 0, traps = 0;  ///< number of those that were used
 };
 
-/// Can a reachable marking be one of which `goal` is true? Asks for a marking that satisfies the goal, has
-/// one token in every unit (explore/units.hpp), and one in every trap that is marked initially; the traps are
-/// found one by one, each against the last marking that satisfied everything else. Where the goal is
-/// Formula::dead(), the empty places of such a marking are a siphon without a marked trap.
+/// Can a reachable marking satisfy `goal`? Searches for a marking that satisfies the goal, has one token in
+/// every unit (explore/units.hpp), and one in every trap that is marked initially. The traps are found one
+/// by one, each against the last marking that satisfied everything else. If the goal is Formula::dead(),
+/// the empty places of such a marking are a siphon without a marked trap.
 ///
-/// Only whether places are marked is considered: of "holds two tokens or more" no more is known than that the
-/// place is marked, and in no unit. Weights are therefore allowed, but say little.
+/// The clauses only say whether places are marked. "Holds two tokens or more" only implies that the place
+/// is marked and in no unit. So weights are allowed, but add little information.
 ///
-/// Threads: pure. Time: that of a SAT solver, which exceeds limits.time by one step of the solver at most.
-/// Source: Hack 1972; Esparza & Melzer, *Verification of safety properties using integer programming: beyond
-/// the state equation*, FMSD 16, 2000, refine by traps in the same way.
+/// Threads: pure. Time: that of a SAT solver, which exceeds limits.time by at most one step of the solver.
+/// Source: Hack 1972; Esparza & Melzer, *Verification of safety properties using integer programming:
+///         beyond the state equation*, FMSD 16, 2000, which refines by traps in the same way.
 [[nodiscard]] Exclusion exclude(const explore::PtNet& net, const explore::Formula& goal,
                                 const explore::Limits& limits);
 

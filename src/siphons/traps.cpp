@@ -14,7 +14,7 @@ bool puts_into(const PtNet& net, std::uint32_t transition, const PlaceSet& set) 
                              [&](const Touch& touch) { return touch.produces > 0 && set[touch.node] != 0; });
 }
 
-/// Is there a transition that takes from the place and puts nothing into the set?
+/// Whether a transition takes from the place and puts nothing into the set.
 bool leaks(const PtNet& net, std::uint32_t place, const PlaceSet& set) {
   return std::ranges::any_of(net.of_place(place), [&](const Touch& touch) {
     return touch.consumes > 0 && !puts_into(net, touch.node, set);
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> members(const PlaceSet& set) {
   return places;
 }
 
-/// Takes the place out, and the places that are no longer to be asked about after that.
+/// Removes the place, and appends the places that must be checked after that.
 void take_out(const PtNet& net, PlaceSet& set, std::uint32_t place, std::vector<std::uint32_t>& suspects) {
   set[place] = 0;
   for (const Touch& into : net.of_place(place)) {

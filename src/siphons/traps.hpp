@@ -4,21 +4,22 @@
 
 #include "explore/pt_net.hpp"
 
-/// Sets of places that keep a token once they have one, or never get one: what the structure of a net says
-/// about its reachable markings.
+/// Sets of places that keep a token once they have one, or never get one: facts about the reachable
+/// markings that follow from the structure of a net.
 namespace tessera::siphons {
 
-/// Per place: is it in the set?
+/// For each place, whether it is in the set.
 using PlaceSet = std::vector<char>;
 
-/// Takes places out until the set is a trap: every transition that takes from it also puts into it, so that a
-/// trap with a token never loses its last one. What is left is the largest trap within the set, maybe empty.
+/// Removes places until the set is a trap: every transition that takes from it also puts into it,
+/// so that a trap with a token never loses its last one. The result is the largest trap
+/// within the set; it may be empty.
 ///
-/// Linear in the places taken out and their surroundings, and in the net.
+/// Linear in the removed places and their neighbours, and in the net.
 /// Source: Commoner; Hack, *Analysis of production schemata by Petri nets*, 1972.
 void shrink_to_trap(const explore::PtNet& net, PlaceSet& set);
 
-/// The same, when only the places in `suspects` may have become wrong.
+/// The same if only the places in `suspects` may violate the condition.
 void shrink_to_trap(const explore::PtNet& net, PlaceSet& set, std::vector<std::uint32_t> suspects);
 
 /// The initially marked place of the set with the lowest number; places() if there is none.

@@ -22,7 +22,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The worlds or tracks that a run may name: those that are shipped, and those beside the specification.
+/// The worlds or tracks that a run may name: those of the installation, and those beside the specification.
 std::map<std::string, fs::path> assets_named(const fs::path& shipped, const fs::path& project,
                                              const char* ending) {
   std::map<std::string, fs::path> found;
@@ -50,7 +50,7 @@ void answer_with_analysis(httplib::Response& response, const std::string& member
                 {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
 }
 
-/// The number that an address ends with.
+/// The number at the end of an address.
 std::uint64_t number_in(const httplib::Request& request) {
   const std::string digits = request.matches[1];
   return digits.size() > 18 ? 0 : std::stoull(digits);

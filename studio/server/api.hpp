@@ -13,7 +13,7 @@
 
 namespace tessera::server {
 
-/// What the addresses under /api/ mean: docs/studio.md.
+/// Handles the requests under /api/ (docs/studio.md).
 class Api {
  public:
   struct Parts {
@@ -25,7 +25,7 @@ class Api {
     Recordings& recordings;
   };
   Api(const StudioOptions& options, Parts parts);
-  /// Declares the handlers. The server must not outlive this.
+  /// Declares the handlers. The server must not outlive this object.
   void serve_on(HttpServer& server);
 
  private:

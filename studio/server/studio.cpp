@@ -26,7 +26,7 @@ namespace {
 using httplib::Request;
 using httplib::Response;
 
-/// No foreign script, no foreign frame, nothing from elsewhere.
+/// Allows no foreign script, no foreign frame, and no content from elsewhere.
 httplib::Headers headers_of_all() {
   return {{"Content-Security-Policy",
            "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
@@ -93,7 +93,7 @@ struct Studio::Parts {
     http.Get("/.*", [this](const Request& request, Response& response) { serve_page(request, response); });
   }
 
-  /// Nobody is told of what has not changed: writing the same text again is no news.
+  /// Publishes only changes: writing the same text again is none.
   void look_at_file() {
     std::string revision = file.read().revision;
     if (revision == seen_revision) return;

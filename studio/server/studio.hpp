@@ -9,22 +9,22 @@
 namespace tessera::server {
 
 struct StudioOptions {
-  std::filesystem::path spec;   ///< the file that is edited; everything stays in its folder
+  std::filesystem::path spec;   ///< the file that is edited; the studio reads and writes only in its folder
   int port = 8417;              ///< 0: any
-  int tries = 50;               ///< the port and the next ones, until one is free
-  std::filesystem::path page;   ///< folder of the built page; need not exist
+  int tries = 50;               ///< `port` and the next ports, until one is free
+  std::filesystem::path page;   ///< folder of the built page; it need not exist
   std::filesystem::path share;  ///< worlds/ and tracks/
   std::string version;
   HttpLimits limits = {};
 };
 
-/// `tessera studio`: the page, and all it shows (docs/studio.md has the protocol). Serves on the loopback
-/// interface from construction to destruction; jobs and runs end with it.
+/// `tessera studio`: serves the page and its data (docs/studio.md has the protocol). It serves on the
+/// loopback interface from construction to destruction; jobs and runs end with it.
 ///
-/// Threads: made and destroyed by one.
+/// Threads: one thread makes and destroys it.
 class Studio {
  public:
-  /// Throws std::runtime_error: the folder cannot be opened, or all ports are taken.
+  /// Throws std::runtime_error if the folder cannot be opened or all ports are taken.
   explicit Studio(const StudioOptions& options);
   ~Studio();
   Studio(const Studio&) = delete;
@@ -32,7 +32,7 @@ class Studio {
 
   [[nodiscard]] int port() const;
   [[nodiscard]] const std::string& token() const;
-  /// What to open: "http://127.0.0.1:8417/#token=..."
+  /// The address to open: "http://127.0.0.1:8417/#token=..."
   [[nodiscard]] std::string url() const;
 
  private:

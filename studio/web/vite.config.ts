@@ -1,13 +1,13 @@
 import react from "@vitejs/plugin-react";
 import { defineConfig } from "vitest/config";
 
-// `npm run dev` serves the page by itself and passes what it asks on to a running `tessera studio`.
+// `npm run dev` serves the page itself and forwards its requests to a running `tessera studio`.
 export default defineConfig({
   plugins: [react()],
   base: "./",
   worker: { format: "es" },
   build: { target: "es2022", chunkSizeWarningLimit: 1800 },
   server: { host: "127.0.0.1", proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" } },
-  // ELK takes seconds where many builds run at once.
+  // ELK takes seconds while many builds run at once.
   test: { include: ["tests/{model,live}/**/*.test.ts"], testTimeout: 60_000 },
 });

@@ -34,8 +34,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-/// What g++ says about the subsystems of a specification's robot. stage: "-S -o /dev/null" finds what is
-/// unused too.
+/// What g++ says about the subsystems of a robot. stage: "-S -o /dev/null" also finds unused functions.
 Ran compile(const std::string& spec, const std::string& stage = "-fsyntax-only",
             const std::string& sources = "robot.control.cpp") {
   const Folder folder;

@@ -27,8 +27,7 @@ struct Generated {
   [[nodiscard]] const std::string& operator[](const std::string& path) const;
 };
 
-/// The whole walk; throws std::runtime_error with the diagnostics when a stage refuses. spec_path is what
-/// #line says.
+/// All stages. Throws std::runtime_error with the diagnostics if one fails. spec_path is the path in #line.
 Generated generate(const std::string& text, const std::string& spec_path = "spec.yaml");
 Generated generate_file(const std::filesystem::path& spec);
 

@@ -17,8 +17,8 @@
 #include "generated.hpp"
 #include "spec/parser.hpp"
 
-/// Every identifier that generated files contain, and words that libraries take, may be a name of the user's,
-/// or `check` refuses it.
+/// Every identifier in generated files, and words that libraries use, may be a name of the
+/// user, or `check` refuses it.
 namespace tessera::test {
 namespace {
 

@@ -18,7 +18,7 @@ std::size_t lines_of_cpp(const Generated& generated) {
   return lines;
 }
 
-/// What the paper spends: 6 lines on a place, 6 on a transition, 1 on an arc, 48 on a page (sec. V).
+/// Lines of code in the paper: 6 for a place, 6 for a transition, 1 for an arc, 48 for a page (sec. VII).
 std::size_t lines_of_the_paper(const Generated& generated) {
   const std::size_t pages = generated.pages.pages.size() - 1;  // the root is no page of another net
   return 6 * generated.net.places().size() + 6 * generated.net.transitions().size() +

@@ -1,6 +1,6 @@
-// The nets of the Model Checking Contest with known answers. They are data of their own: the environment
-// variable TESSERA_TEST_DATA names the folder that has them in its subfolder "pnml"; without it these tests
-// are skipped.
+// The nets of the Model Checking Contest with known answers. They are separate data: the environment
+// variable TESSERA_TEST_DATA names the folder that has them in its subfolder "pnml". Without
+// it, these tests are skipped.
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,7 @@ namespace tessera::test {
 
 /// How both ends of a channel behave, producer first.
 enum class Mix { async, both_block, receiver_blocks, sender_blocks };
-/// Agents on their own, in a ring (each control sends to that of the next agent), or in a ring in both
-/// directions.
+/// Agents alone, in a ring (each control sends to that of the next agent), or in a ring in both directions.
 enum class Topology { alone, ring, both_ways };
 /// One template and `count`, or every agent and channel written out.
 enum class Form { one_template, written_out };
@@ -23,8 +22,8 @@ struct Fleet {
   Mix between = Mix::async;  ///< of the channels between agents
   Topology topology = Topology::alone;
   Form form = Form::one_template;
-  /// The second behaviour of every control does not use the channels between agents, that of every motor does
-  /// not listen.
+  /// In the second behaviour, the control does not use the channels between agents, and
+  /// the motor does not receive.
   bool differing = false;
 };
 

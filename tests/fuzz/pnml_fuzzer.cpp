@@ -6,8 +6,7 @@
 #include "net/pnml.hpp"
 #include "net/pnml_reader.hpp"
 
-/// Whatever the text, the reader gives a net or says what is wrong; and a net survives being written and
-/// read.
+/// For every text, the reader returns a net or an error; and writing and reading preserves the net.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using tessera::diagnostics::Diagnostics;
   Diagnostics out("fuzz.pnml", std::string(reinterpret_cast<const char*>(data), size));

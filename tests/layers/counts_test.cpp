@@ -12,8 +12,7 @@ net::Counts counts_of(const spec::Model& model) {
   return net::count(built.pages, built.net);
 }
 
-// The line follower has 1 agent, 3 subsystems, 4 behaviours (init, follow, watch, drive), 8 communication
-// pages.
+// The line follower: 1 agent, 3 subsystems, 4 behaviours (init, follow, watch, drive), 8 communication pages.
 //
 //   layer          places                pages          transitions                      arcs
 //   system         in, out = 2           1 agent        t_in, t_out = 2                  2 * 2 = 4

@@ -33,8 +33,7 @@ TEST(LayerInvariants, ProveRandomModelsSafe) {
     EXPECT_EQ(why(random_model(seed)), "holds") << "seed " << seed;
 }
 
-// Waits of one channel in different branches of different behaviours: each is only bounded through its first
-// branch.
+// Waits of one channel in branches of different behaviours: each is bounded only through its first branch.
 TEST(LayerInvariants, BoundAnAcknowledgementWaitedForInSeveralBranches) {
   spec::Model model = pair({{B, B}, {B, B}, {B, N}}, spec::Transfer::parallel);
   auto& behaviours = model.definitions[0].subsystems[0].behaviours;

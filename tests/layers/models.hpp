@@ -43,12 +43,12 @@ struct Modes {
   spec::Mode send = spec::Mode::non_blocking, receive = spec::Mode::non_blocking;
   bool send_timeout = false, receive_timeout = false;
 };
-/// A control subsystem and an effector with one behaviour each and a channel y1 -> x1, y2 -> x2, ... per
-/// element.
+/// A control subsystem and an effector, one behaviour each, and a channel y1 -> x1,
+/// y2 -> x2, ... per element.
 spec::Model pair(const std::vector<Modes>& channels, spec::Transfer transfer = spec::Transfer::sequential);
 
-/// Some valid model: up to three agents with up to three subsystems, behaviours, buffers and channels of all
-/// modes.
+/// A valid model: up to three agents with up to three subsystems, behaviours, buffers
+/// and channels of all modes.
 spec::Model random_model(std::uint32_t seed);
 
 struct Built {

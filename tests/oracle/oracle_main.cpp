@@ -1,5 +1,5 @@
-// Judges random specifications by an independent reading of the design and compares with the command. See
-// README.md.
+// Judges random specifications by an independent reading of the design and compares the result with that
+// of the command. See README.md.
 #include <unistd.h>
 
 #include <cstdio>

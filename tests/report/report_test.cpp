@@ -10,8 +10,7 @@
 #include "report/messages.hpp"
 #include "report/text.hpp"
 
-// fontconfig, which cairo asks for a font, keeps what it read until the process ends and counts as leaking
-// it.
+// fontconfig, which cairo uses for fonts, keeps its data until the process ends, which counts as a leak.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
 

@@ -51,9 +51,8 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   *out << cost.allocations << " allocations, " << cost.locks << " locks";
 }
 
-/// Of a run of that length, with a recording, log lines, timeouts and a device. Allocations: until user code
-/// is called for the last time, because the judgement at the end (who is stuck?) takes memory as there is to
-/// say.
+/// The cost of a run of that length, with a recording, log lines, timeouts and a device. Allocations are
+/// counted until the last call of user code, because the check at the end for stuck subsystems allocates.
 [[nodiscard]] Cost cost_of_a_run(RunOptions::Clock clock, Duration duration) {
   TestSystem system;
   Script sender, receiver;

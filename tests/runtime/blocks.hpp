@@ -3,8 +3,8 @@
 #include "tessera/tables.hpp"
 
 /// The patterns of behaviours and communication blocks as rows of tables, for nets written by hand. `b` is
-/// the name of a behaviour, `p` that of a port, `in`/`out` the places that the block joins, all string
-/// literals.
+/// the name of a behaviour, `p` that of a port, `in`/`out` the places that the block joins. All of them are
+/// string literals.
 // clang-format off
 
 #define BEHAVIOUR_PLACES(b)                                                                      \

@@ -222,8 +222,8 @@ TEST(SafeCommand, IsGivenWhenInputsAreStaleAndEndsWhenTheyAreFreshAgain) {
   control.call = [](ScriptState& state) { state.out_x = 10 + static_cast<double>(state.context.iteration); };
   std::vector<double> commands;
   for (const auto& [at, command] : run_stale(100ms, control, 205ms).commands) commands.push_back(command);
-  // At 0 the motor is called once without a value (safe), then with 10; stale at 30; 11 at 100; stale at 130;
-  // 12 at 200.
+  // The motor is called at 0 once without a value (safe), then with 10; stale at 30; 11 at
+  // 100; stale at 130; 12 at 200.
   EXPECT_EQ(commands, (std::vector<double>{-1, 10, -1, 11, -1, 12, -1}));
 }
 

@@ -294,8 +294,7 @@ TEST(Inject, SaysWhatIsWrong) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------ line
-// follower
+// --------------------------------------------------------------------------------------- line follower
 
 /// The paper's example without its robot.
 void make_line_follower(TestSystem& system) {

@@ -77,8 +77,8 @@ TEST(Recording, DamagedEventsEndItThere) {
   std::string bytes = make_recording(system);
   const auto whole = read_bytes(bytes);
   ASSERT_TRUE(whole);
-  // "duration" ends the file: one event, one of text and one that says the end. The event before them gets an
-  // impossible transition.
+  // "duration" ends the file: one event, one of text and one that marks the end. The event before them
+  // gets an impossible transition.
   std::string damaged = bytes;
   damaged.replace(bytes.size() - 4 * sizeof(Event) + 8, 4, "\xff\xff\xff\x7f");
   const auto read = read_bytes(damaged);

@@ -20,8 +20,8 @@ namespace {
   return report.value_or(ScheduleReport{});
 }
 
-/// Two that write and read the same variable outside the net in two steps: a race that needs an interleaving
-/// of their firings.
+/// Two subsystems that write and read a variable outside the net in two steps: a race that only some
+/// interleavings of their firings show.
 struct Race : ::testing::Test {
   TestSystem system;
   int holder = 0;

@@ -1,5 +1,5 @@
-// Channels by communication models that are not built in: memory of several slots, timeouts beside the
-// channel.
+// Channels with communication models that are not built in: several slots of memory,
+// timeouts beside the channel.
 
 #include <gtest/gtest.h>
 

@@ -63,8 +63,8 @@ class RobotProcess {
   [[nodiscard]] std::int64_t struck_ns() const { return log_->struck_ns; }
   /// The last command of every device is the safe one.
   [[nodiscard]] bool is_safe() const;
-  /// When the last device got the safe command for good; 0: none has had another command. Precondition:
-  /// is_safe().
+  /// When the last device got the safe command for good; 0: none got another command.
+  /// Precondition: is_safe().
   [[nodiscard]] std::int64_t safe_since_ns() const;
   /// Processes that have commanded a device.
   [[nodiscard]] std::vector<pid_t> commanders() const;

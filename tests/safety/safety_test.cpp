@@ -187,7 +187,7 @@ TEST(Safety, ControllersDoNotOutliveTheirParent) {
        .command = run},
       {.name = "_exit below tessera run",
        .strike = does(Harm::underscore_exit, Place::control),
-       .says = "tessera: error: the controller has ended without a word",
+       .says = "tessera: error: the controller has ended without a message",
        .command = run},
   });
 }

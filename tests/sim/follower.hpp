@@ -14,6 +14,5 @@ struct Follower {
   bool search = false;  ///< cross gaps: go on straight, then turn to the side where the line was last seen
 };
 
-/// Drives through `world` (its trace is replaced) and reads the trace back. Throws std::runtime_error when
-/// anything fails.
+/// Drives in `world` (replaces its trace) and reads the trace. Throws std::runtime_error if anything fails.
 tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions world, double for_s);

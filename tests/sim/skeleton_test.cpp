@@ -202,8 +202,8 @@ TEST(Skeleton, OfARandomLoopKeepsItsLength) {
 }
 
 TEST(StartOn, IsTheStraightestStretchLookingAlongIt) {
-  const auto points =
-      arc({0.5, 0.5}, 0.3, M_PI / 2, 3 * M_PI / 2);  // half a circle, then straight on to the right
+  // Half a circle, then straight on to the right.
+  const auto points = arc({0.5, 0.5}, 0.3, M_PI / 2, 3 * M_PI / 2);
   Skeleton line{points, false};
   for (int i = 1; i <= 100; ++i) line.points.push_back({0.5 + 0.01 * i, 0.2});
   const auto start = start_on(line);

@@ -5,8 +5,7 @@
 
 #include "tessera/device.hpp"
 
-/// The world as generated controllers get it: from its shared library. nullptr and `error` when it does not
-/// open.
+/// The world from its shared library, as in generated controllers. nullptr and `error`: it does not open.
 std::unique_ptr<tessera::World> open_world(const tessera::WorldOptions& options, std::string& error);
 
 /// Files the tests share.

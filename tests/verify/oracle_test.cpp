@@ -84,8 +84,7 @@ std::optional<Truth> truth_of(const spec::Model& model, const net::Net& flat) {
 
 // ---------------------------------------------------------------------------------------------- runs
 
-/// The transitions that can be fired at some time from the initial marking; nullopt: it has too many
-/// markings.
+/// The transitions that can fire at some time from the initial marking; nullopt: there are too many markings.
 std::optional<std::set<std::uint32_t>> that_can_fire(const net::Net& net) {
   const auto graph = ReachabilityGraph::of(oracle::petri_net(net), 3000);
   if (!graph) return std::nullopt;

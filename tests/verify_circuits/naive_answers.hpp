@@ -8,14 +8,13 @@
 
 namespace tessera::test {
 
-/// What an exhaustive search over all markings of a flat net says, by the definitions of
-/// docs/verification.md.
+/// The result of a search over all markings of a flat net, by the definitions of docs/verification.md.
 struct NaiveAnswers {
   std::size_t markings = 0;
-  std::vector<bool>
-      stuck;  ///< per subsystem: from some marking it fires nothing ever again though it has not ended
-  std::vector<bool>
-      dry;  ///< per channel: from some marking it is never read again though its reader has not ended
+  /// Per subsystem: from some marking on it never fires again, although it has not ended.
+  std::vector<bool> stuck;
+  /// Per channel: from some marking on it is never read again, although its reader has not ended.
+  std::vector<bool> dry;
   std::vector<bool> reader_can_end;  ///< per channel
   bool deadlock = false;             ///< some dead marking is not final
 };

@@ -41,8 +41,8 @@ TEST(Waiting, BehavioursThatUseDifferentChannelsOfATreeGoOn) {
   EXPECT_TRUE(all(verify::flowing_channels(judged.structure, report.goes_on)));
 }
 
-/// A ring in which everybody sends to the next and waits for the last in one behaviour, and only rests in the
-/// other one.
+/// A ring. In one behaviour, each sends to the next and waits for the one before; in
+/// the other, it only rests.
 Judged ring(std::uint32_t size, bool receive_first) {
   SystemBuilder builder;
   for (std::uint32_t index = 0; index < size; ++index) builder.subsystem();

@@ -89,8 +89,7 @@ class EncoderBus final : public tessera::Receptor<arm::encoders::Real> {
   std::string port_;
 };
 
-// ------------------------------------------------------------------------------------------ simulated
-// drivers
+// ----------------------------------------------------------------------------------- simulated drivers
 
 /// The joints of a simulated arm, by agent: what SimulatedJoints moves and SimulatedEncoders sees.
 inline std::array<double, 6>& simulated_positions(const std::string& agent) {

@@ -7,18 +7,18 @@
 
 namespace tessera {
 
-/// The bytes of a recording as they come, while it is written or afterwards. One with a limit goes on in the
-/// next file where one is full.
+/// The bytes of a recording in order, while it is written or afterwards. A recording with a limit goes on
+/// in the next file when one file is full.
 ///
 /// Threads: one at a time.
 class GrowingRecording {
  public:
-  /// Where one with a limit begins.
+  /// The point at which to begin in a recording with a limit.
   enum class From : std::uint8_t {
-    oldest,  ///< at the first segment that is left; of a segment named by its number ("run.3.tsr") there
-    newest   ///< at the file itself
+    oldest,  ///< with the oldest segment that is left, or with the segment named by its number ("run.3.tsr")
+    newest   ///< with the file itself, which is the newest segment
   };
-  /// It need not exist yet. A symbolic link is none.
+  /// The file need not exist yet. A symbolic link counts as no file.
   GrowingRecording(std::string file, From from);
   ~GrowingRecording();
   GrowingRecording(const GrowingRecording&) = delete;
@@ -26,16 +26,16 @@ class GrowingRecording {
 
   struct Piece {
     std::string bytes;
-    bool begins = false;  ///< of a file: a RecordingReader of its own is due
+    bool begins = false;  ///< a file begins here: it needs a new RecordingReader
     bool more = false;    ///< there may be more at once
   };
-  /// At most so many bytes, of one file. Does not wait.
+  /// The next bytes of one file, at most `most`. Does not wait.
   [[nodiscard]] Piece next(std::size_t most);
 
  private:
   struct File {
     int descriptor = -1;
-    std::string run;  ///< its header without the number
+    std::string run;  ///< header of the current run without the segment number
     std::optional<std::uint64_t> segment;
   };
   [[nodiscard]] static File open(const std::string& file);

@@ -11,22 +11,22 @@
 
 namespace tessera {
 
-/// What can go wrong in a run, as the record tells it apart.
+/// The classes of faults in a recording.
 enum class Fault : std::uint8_t {
-  net = 1,  ///< the net cannot go on: no condition of `next` holds, or an error that none leads anywhere
+  net = 1,         ///< the net cannot go on: no condition of `next` holds, or an error has no entry of `next`
   assertion = 2,   ///< Context::assert_that
   exception = 3,   ///< user code or a condition has thrown
   not_finite = 4,  ///< an output is infinite or not a number
   device = 5,      ///< a real receptor or effector has thrown or refused
   stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
   stall = 7,       ///< a transition function takes longer than its watchdog
-  overrun = 8,     ///< its work has made the subsystem miss instants, which Overrun::fault forbids
-  limit = 9,       ///< a command to a real effector is beyond its limits, which are said to be a fault
-  crash = 10       ///< the process has died in the subsystem, or ended by exit
+  overrun = 8,     ///< the subsystem's own work made it miss instants, and Overrun::fault forbids that
+  limit = 9,       ///< a command is beyond the limits of its real effector, and `Limits::fault` is set
+  crash = 10       ///< the process has died, or called exit, in the subsystem
 };
-/// What has happened to the safe command of a device.
+/// The changes of the safe command of a device.
 enum class SafeEvent : std::uint8_t {
-  given = 1,   ///< the device has taken it, for a reason that it did not stand for before
+  given = 1,   ///< the device has taken it, for a reason that was not there before
   ended = 2,   ///< commands of the subsystem go to the device again
   refused = 3  ///< the device has not taken it; it is tried again
 };
@@ -38,73 +38,79 @@ inline constexpr const char* recording_file_name = "recording.tsr";
 inline constexpr std::string_view recording_magic = "TESSREC1";
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
-/// In place of the index of a subsystem: the layers above the subsystems.
+/// Stands in place of the index of a subsystem for the layers above the subsystems.
 inline constexpr std::uint32_t system_instance = 0xffffff;
 
-/// The file a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
-/// {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
-///  "transitions": [[name, instance]...], "parameters": [[path, value]...], "behaviours": [[name...]...] per
-///  instance, "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}, padding to a
-/// multiple of 8, then events of 24 bytes, the last of which is `end`. A recording without it was cut off:
-/// the controller was killed, or the disk was full; that loses its tail only. Nothing in it depends on the
-/// wall clock when the run's clock is simulated. A recording with a limit goes on in segments: files of their
-/// own, with "segment": number in the header, which begin with an event `marking`.
+/// The file that a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
+///
+///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
+///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
+///      "behaviours": [[name...]...] per instance,
+///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}
+///
+/// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
+///
+/// A recording without `end` was cut off, because the controller was killed or the disk was full; only its
+/// tail is lost. If the run's clock is simulated, nothing in the file depends on the wall clock. A recording
+/// with a limit goes on in segments: each segment is a file with "segment": number in its header, and its
+/// first event is `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
     firing = 1,   ///< subject: transition; version: of the channel it touched (0: none)
     log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level
     stop = 3,     ///< like log: why the run ended
     fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
-    overrun = 5,  ///< subject: how many instants of its rate the subsystem's work has made it miss
+    overrun = 5,  ///< subject: how many instants of its rate the subsystem missed by its own work
     call = 6,     ///< a transition function begins; subject: behaviour; version: iteration
     value = 7,    ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
-    /// Like log: the places that hold a token where a segment begins, a line each; version: 1: not known.
+    /// Like log: the places that hold a token where a segment begins, one per line; version: 1: not known.
     /// Not counted in `sequence`.
     marking = 8,
-    safe = 9,        ///< like log: "DEVICE: what", of the safe command of a real effector; version: SafeEvent
+    safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: SafeEvent
     parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
-    /// The last of a file. subject: how many events of the run are lost; version: 1: the next segment
+    /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
   };
   std::int64_t time_ns = 0;
   std::uint32_t subject = 0;
   std::uint32_t version = 0;
-  std::uint32_t sequence = 0;  ///< per instance, from 0; gaps are events lost
+  std::uint32_t sequence = 0;  ///< per instance, from 0; gaps are lost events
   std::uint32_t origin = 0;    ///< instance (or system_instance) * 256 + kind
 
   [[nodiscard]] Kind kind() const { return static_cast<Kind>(origin & 0xffU); }
   [[nodiscard]] bool has_text() const {
     return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call && kind() != Kind::end;
   }
-  /// Events' worth of space that its text takes.
+  /// How many events' worth of space the text takes.
   [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);
 
-/// What a value event says of a buffer besides its bytes. Written when a value is read into an input (of a
-/// real input: when it differs from the last), and when a transition function has changed an output.
+/// The flags of a value event. The event is written when a value is read into an input (a real input: only if
+/// the value differs from the last), and when a transition function has changed an output.
 struct ValueFlags {
   static constexpr std::uint32_t same = 1,  ///< as at the last event of this buffer; no bytes
-      hashed = 2,   ///< of more than "limit": instead of the bytes an uint64 each for their number and a hash
-      stamped = 4,  ///< input: an int64 before the bytes, when the sender wrote it
+      hashed = 2,   ///< more than "limit" bytes: their number and a hash, a uint64 each, replace them
+      stamped = 4,  ///< input: an int64 before the bytes says when the sender wrote the value
       valid = 8,    ///< input: as in Arrival
       fresh = 16,   ///< input: newer than all before
-      silent = 32,  ///< real input: the device had no value; no bytes. Until the next event of the buffer
+      silent = 32,  ///< real input: the device has no value, until the next event of the buffer; no bytes
       failed = 64;  ///< real input: the device has thrown; no bytes
 };
 
-/// An event of a buffer, taken apart.
+/// An event of a buffer, decoded.
 struct ValueEvent {
   std::uint32_t buffer = 0;
   std::uint32_t flags = 0;
   std::int64_t stamp_ns = 0;
-  std::string_view bytes;  ///< as tessera/value_encoding.hpp describes; of a hashed one number and hash
+  std::string_view
+      bytes;  ///< as tessera/value_encoding.hpp describes; of a hashed value, its number of bytes and hash
   [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
 };
 
-/// A recording read back.
+/// A recording that was read.
 struct Recording {
   struct TransitionName {
     std::string name;        ///< full path
@@ -127,37 +133,38 @@ struct Recording {
   std::vector<std::string> instances;
   std::vector<TransitionName> transitions;
   std::vector<std::vector<std::string>> behaviours;             ///< per instance
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< that the run was given
-  std::vector<std::string> injected;                            ///< faults, as `--inject`
-  std::optional<std::int64_t> duration_ns;                      ///< that the run was given
-  std::vector<Buffer> buffers;                                  ///< none: without values
-  std::uint64_t value_limit = 0;                                ///< larger ones are hashed
-  /// Of a recording with a limit: the number of this segment, from 0; of several read together the first.
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< given to the run
+  std::vector<std::string> injected;                            ///< planted faults, as `--inject`
+  std::optional<std::int64_t> duration_ns;                      ///< given to the run
+  std::vector<Buffer> buffers;                                  ///< empty: recorded without values
+  std::uint64_t value_limit = 0;                                ///< larger values are hashed
+  /// In a recording with a limit: the number of this segment, from 0. If several were
+  /// read together: of the first.
   std::optional<std::uint64_t> segment;
   std::vector<Entry> entries;
-  bool truncated = false;  ///< its end is missing: it was cut off, or is still being written
-  std::uint64_t lost = 0;  ///< events that are missing in between, as its end says
+  bool truncated = false;  ///< the end is missing: the recording was cut off, or is still being written
+  std::uint64_t lost = 0;  ///< events that are missing in between, as `end` says
 };
 
 /// "in", "out", "real_in", "real_out".
 [[nodiscard]] std::string_view name_of(Recording::Direction direction);
-/// Precondition: it is a value, which the reader has found whole.
+/// Precondition: the entry is a value that the reader has found complete.
 [[nodiscard]] ValueEvent value_of(const Recording::Entry& entry);
 
-/// Reads a recording piece by piece, also one that is still being written.
+/// Reads a recording piece by piece, even while it is still being written.
 class RecordingReader {
  public:
-  /// The next bytes of the file. Entries come into `recording` as soon as they are whole.
+  /// Takes the next bytes of the file. Entries come into `recording` as soon as they are complete.
   void feed(std::string_view bytes);
-  /// The header has been read; before that there is nothing in `recording`.
+  /// Whether the header has been read. Before that, `recording` is empty.
   [[nodiscard]] bool has_header() const { return has_header_; }
   /// Why nothing more will come: "is no recording of Tessera", "is damaged"; empty: more may come.
   [[nodiscard]] const std::string& problem() const { return problem_; }
-  /// The last event of the file has been read.
+  /// Whether the last event of the file has been read.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
-  /// Bytes of an entry, or of the header, that is not whole yet.
+  /// Bytes of an entry, or of the header, that is not complete yet.
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
-  /// Who reads a long one takes the entries out as they come.
+  /// A reader of a long recording takes the entries out as they come.
   [[nodiscard]] Recording& recording() { return recording_; }
 
  private:
@@ -171,14 +178,13 @@ class RecordingReader {
   Recording recording_;
 };
 
-/// Where segment `number` of the recording `path` is when it is no longer the newest: "run.tsr" ->
-/// "run.3.tsr".
+/// The path of a segment that is no longer the newest: "run.tsr" -> "run.3.tsr".
 [[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
 
-/// The other way: "run.3.tsr" -> "run.tsr"; empty: that is no name of a segment.
+/// The inverse: "run.3.tsr" -> "run.tsr"; empty: `path` is not that of a segment.
 [[nodiscard]] std::string without_segment_number(const std::string& path);
 
-/// The number in the header of a file; nullopt: it is no segment of a recording with a limit.
+/// The number in the header of a file; nullopt: the file is no segment of a recording with a limit.
 [[nodiscard]] std::optional<std::uint64_t> segment_number_in(const std::string& file);
 
 /// A folder stands for the recording_file_name in it. Of a recording with a limit, all segments that are left

@@ -6,7 +6,7 @@ namespace tessera {
 
 using Duration = std::chrono::nanoseconds;
 
-/// Counts from the start of the run; under the simulated clock nothing else than the simulation moves it.
+/// Counts from the start of the run. Under the simulated clock, only the simulation moves it.
 struct RunClock {
   using duration = Duration;
   using rep = duration::rep;

@@ -13,14 +13,14 @@
 #include <utility>
 
 /// How values of buffers are written into recordings: field after field, numbers little-endian, without the
-/// padding of the compiler, so that equal values have equal bytes. What they mean is said by a text
+/// padding of the compiler, so that equal values have equal bytes. A text describes the type
 /// (tessera/value_text.hpp reads it):
 ///
 ///     bool  int8 .. int64  uint8 .. uint64  float32  float64
 ///     string(N)            uint32 length and so many bytes
 ///     TYPE[N]              N of them
 ///     {name: TYPE, ...}    the fields in this order
-///     bytes(N)             a type that does not say what it is made of
+///   bytes(N)             a type that does not list its fields
 namespace tessera {
 
 template <class T>
@@ -28,21 +28,22 @@ concept Sequence = requires(T& value) {
   value.begin();
   value.end();
 };
-/// A structure that says what it is made of: a function `tessera_fields_of(const T&)` beside it gives a
-/// std::tuple of pointers to members (tessera/fields.hpp makes one). Their names are numbers unless
-/// `tessera_field_names_of(const T&)` says otherwise.
+/// A structure that lists its fields: a function `tessera_fields_of(const T&)` beside it gives a std::tuple
+/// of pointers to members (tessera/fields.hpp defines one). The names of the fields are numbers unless
+/// `tessera_field_names_of(const T&)` gives names.
 template <class T>
 concept WithFields = std::is_class_v<T> && requires(T& value) {
   tessera_fields_of(value);
 };
-/// BoundedString and what is like it.
+/// BoundedString and similar types.
 template <class T>
 concept BoundedText = requires(const T& value) {
   T::capacity();
   { value.view() } -> std::convertible_to<std::string_view>;
 };
 
-/// Takes the bytes of a value: keeps up to `limit` of them, and of more only their number and a hash.
+/// Takes the bytes of a value. It keeps them if there are at most `limit`, and otherwise
+/// only their number and a hash.
 class ValueSink {
  public:
   explicit ValueSink(std::size_t limit) : limit_(limit), bytes_(std::make_unique<std::byte[]>(limit)) {}
@@ -51,7 +52,7 @@ class ValueSink {
   void put(const void* bytes, std::size_t count);
 
   [[nodiscard]] bool whole() const { return total_ <= limit_; }
-  [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), filled_}; }  ///< if whole
+  [[nodiscard]] std::span<const std::byte> bytes() const { return {bytes_.get(), filled_}; }  ///< if complete
   [[nodiscard]] std::uint64_t size() const { return total_; }
   [[nodiscard]] std::uint64_t hash() const;
   friend bool operator==(const ValueSink& a, const ValueSink& b) {
@@ -66,7 +67,7 @@ class ValueSink {
   std::unique_ptr<std::byte[]> bytes_;
 };
 
-/// Hands the bytes out again; once they do not suffice, nothing.
+/// Hands the bytes out again. Once they do not suffice, it hands out nothing.
 class ValueSource {
  public:
   explicit ValueSource(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -80,7 +81,7 @@ class ValueSource {
     std::memcpy(to, left_.data(), count);
     left_ = left_.subspan(count);
   }
-  /// They were exactly as many as were taken.
+  /// Whether exactly as many bytes were there as were taken.
   [[nodiscard]] bool exact() const { return sufficed_ && left_.empty(); }
 
  private:
@@ -93,7 +94,7 @@ namespace encoding {
 template <class T>
 using Element = std::remove_cvref_t<decltype(*std::declval<T&>().begin())>;
 
-/// How many elements a sequence has; 0: that is not known from its type.
+/// How many elements a sequence has; 0: the type does not tell.
 template <class T>
 [[nodiscard]] constexpr std::size_t extent() {
   if constexpr (requires { std::tuple_size<T>::value; })
@@ -213,16 +214,16 @@ void take(T& value, ValueSource& from) {
 
 }  // namespace encoding
 
-/// How values of a type get into recordings and back.
+/// Encodes and decodes values of one type for recordings.
 struct ValueEncoding {
   std::string (*type)();  ///< as described above
-  std::size_t most;       ///< bytes of the longest value
+  std::size_t most;       ///< length of the longest value in bytes
   void (*put)(const void* value, ValueSink& to);
-  /// false: these are not the bytes of such a value, which may have changed all the same.
+  /// false: the bytes do not encode a value of this type. `value` may have changed all the same.
   bool (*take)(void* value, std::span<const std::byte> bytes);
 };
 
-/// nullptr: values of that type cannot be recorded, because they have no fixed extent.
+/// nullptr: values of that type cannot be recorded, because their size is not fixed.
 template <class T>
 [[nodiscard]] const ValueEncoding* value_encoding_of() {
   if constexpr (!encoding::possible<T>()) {

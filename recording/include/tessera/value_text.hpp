@@ -11,27 +11,26 @@
 
 namespace tessera {
 
-/// Reads values of recordings by what the header says of their type (tessera/value_encoding.hpp), without any
-/// C++ type.
+/// Reads values of recordings by the type in the header (tessera/value_encoding.hpp), without any C++ type.
 class ValueLayout {
  public:
-  /// nullopt: no such type.
+  /// nullopt: `type` describes no type.
   [[nodiscard]] static std::optional<ValueLayout> parse(std::string_view type);
 
   /// One number, bool or text of a value.
   struct Scalar {
     std::string_view text;     ///< of a string, and of unknown bytes in hexadecimal
-    double number = 0;         ///< of all others; of integers beyond 2^53 the nearest
-    std::int64_t integer = 0;  ///< of signed ones; unsigned ones as the bits are
+    double number = 0;         ///< of every other kind; for integers beyond 2^53 the nearest double
+    std::int64_t integer = 0;  ///< of signed integers; unsigned ones with the same bits
     enum class Kind : std::uint8_t { boolean, integer, natural, real, text } kind = Kind::real;
     bool single = false;  ///< of real: float32
-    /// As people write it; the shortest that gives the same number.
+    /// As people write it: the shortest text that gives the same number.
     [[nodiscard]] std::string shown() const;
   };
   /// path: "linear", "points[3].x"; empty for a value that is one scalar.
   using Visit = std::function<void(const std::string& path, const Scalar& scalar)>;
-  /// In the order of the bytes. false: these are not the bytes of such a value; what came before has been
-  /// visited.
+  /// Visits the scalars in the order of the bytes. false: the bytes do not encode such a value; the scalars
+  /// before the mistake have been visited.
   [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit) const;
 
   /// How many scalars every such value has.

@@ -13,20 +13,20 @@ template <std::size_t Capacity>
 class BoundedString {
  public:
   BoundedString() = default;
-  BoundedString(std::string_view text) { assign(text); }  // NOLINT(google-explicit-constructor)
-  BoundedString(const char* text)
-      : BoundedString(std::string_view(text)) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTBEGIN(google-explicit-constructor): text is a BoundedString wherever one is expected.
+  BoundedString(std::string_view text) { assign(text); }
+  BoundedString(const char* text) : BoundedString(std::string_view(text)) {}
 
-  operator std::string_view() const { return view(); }  // NOLINT(google-explicit-constructor)
+  operator std::string_view() const { return view(); }
+  // NOLINTEND(google-explicit-constructor)
   [[nodiscard]] std::string_view view() const { return {bytes_.data(), size_}; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] static constexpr std::size_t capacity() { return Capacity; }
 
   friend bool operator==(const BoundedString& a, std::string_view b) { return a.view() == b; }
-  friend bool operator==(const BoundedString& a, const char* b) {
-    return a.view() == b;
-  }  // else it is ambiguous
+  // Without this overload, a comparison with a literal is ambiguous.
+  friend bool operator==(const BoundedString& a, const char* b) { return a.view() == b; }
   friend bool operator==(const BoundedString& a, const BoundedString& b) { return a.view() == b.view(); }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// What is known about the value in an input buffer.
+/// The status of the value in an input buffer.
 struct Arrival {
   bool fresh = false;              ///< new since the last iteration
   bool timed_out = false;          ///< the last receive gave up waiting
@@ -15,19 +15,19 @@ struct Arrival {
   Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first value
 };
 
-/// What is known about the value in an output buffer.
+/// The status of the value in an output buffer.
 struct Departure {
   bool timed_out = false;  ///< the last blocking send gave up waiting for its acknowledgement
   Time stamp{};            ///< when it was last written to the channel
 };
 
-/// A value with its status. Of a structure, the fields and the status are members side by side
+/// A value with its status. If the value is a structure, its fields and the status are members side by side
 /// (`in.line.left`, `in.line.fresh`); the names of the status are reserved in specifications.
 template <class T, class Status, bool = std::is_class_v<T>>
 struct Buffer : T, Status {
   Buffer() : T{}, Status{} {}
-  Buffer(const T& value)
-      : T(value), Status{} {}  // NOLINT(google-explicit-constructor): a value is a buffer of it
+  // NOLINTNEXTLINE(google-explicit-constructor): a value is a buffer of it
+  Buffer(const T& value) : T(value), Status{} {}
   Buffer& operator=(const T& value) {
     static_cast<T&>(*this) = value;
     return *this;
@@ -35,7 +35,7 @@ struct Buffer : T, Status {
   friend T& payload(Buffer& buffer) { return buffer; }
 };
 
-/// Of a number or bool: converts to it.
+/// The same for a number or a bool: the buffer converts to it.
 template <class T, class Status>
 struct Buffer<T, Status, false> : Status {
   Buffer() = default;

@@ -13,7 +13,8 @@ namespace tessera {
 
 enum class LogLevel : std::uint8_t { info, warning, error };
 
-/// Where a Context passes what a transition function asks for. The executor implements it; a test may.
+/// Takes what a transition function asks for through its Context. The executor
+/// implements it; a test may, too.
 class ContextServices {
  public:
   virtual ~ContextServices() = default;
@@ -23,29 +24,30 @@ class ContextServices {
     log(LogLevel::error, reason);
     stop(reason);
   }
-  /// What the user asserts does not hold.
+  /// Called when an assertion of the user does not hold.
   virtual void broken(std::string_view assertion) {
     log(LogLevel::error, assertion);
     stop(assertion);
   }
 };
 
-/// What Context::assert_that throws where there is no run that could fail, as in a plain unit test.
+/// Thrown by Context::assert_that where there is no run that could fail, as in a plain unit test.
 class BrokenAssertion : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-/// What a transition function may ask besides its buffers. Generated contexts add `parameters`.
+/// Everything that a transition function may use besides its buffers. Generated contexts add `parameters`.
 ///
 /// Threads: only inside the transition function it was passed to.
 class Context {
  public:
   Time now{};                   ///< one value for the whole iteration
-  Duration period{};            ///< of the subsystem's rate; zero without one
+  Duration period{};            ///< of the subsystem's rate; zero if it has none
   std::uint64_t iteration = 0;  ///< i of the paper: counts over all behaviours of the subsystem
 
-  /// To the terminal and the record, with time and path. No allocation; text beyond 512 bytes is cut.
+  /// Writes to the terminal and the recording, with time and path. Allocates
+  /// nothing; cuts text at 512 bytes.
   template <class... Args>
   void log(fmt::format_string<Args...> format, Args&&... args) {
     print(LogLevel::info, format, fmt::make_format_args(args...));
@@ -66,15 +68,15 @@ class Context {
     if (services_ != nullptr) services_->emergency_stop(reason);
   }
 
-  /// States what must hold here, for `tessera simulate --schedules` to look for a run that breaks it. If it
-  /// does not hold, the run has failed: the text goes to the record, and the system stops safely, after this
-  /// transition function. In a plain unit test it throws BrokenAssertion.
+  /// States what must hold here; `tessera simulate --schedules` looks for a run that breaks it. If it does
+  /// not hold, the run has failed: the text goes to the recording, and the system stops safely after this
+  /// transition function. In a plain unit test, the function throws BrokenAssertion.
   template <class... Args>
   void assert_that(bool holds, fmt::format_string<Args...> format, Args&&... args) {
     if (!holds) report_broken(format, fmt::make_format_args(args...));
   }
 
-  /// nullptr (as in a plain unit test): log prints to standard error, stop does nothing.
+  /// services: nullptr, as in a plain unit test, makes `log` print to standard error and `stop` do nothing.
   void attach(ContextServices* services) { services_ = services; }
 
  private:

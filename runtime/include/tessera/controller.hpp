@@ -18,66 +18,67 @@ struct RunOptions {
     simulated,  ///< single-threaded, deterministic from the seed, as fast as the machine allows
     steady      ///< a thread per subsystem
   } clock = Clock::simulated;
-  bool realtime = false;             ///< simulated clock: not faster than the wall clock
-  std::optional<Duration> duration;  ///< unset: until the net ends or something stops it
+  bool realtime = false;             ///< simulated clock: never faster than the wall clock
+  std::optional<Duration> duration;  ///< unset: the run lasts until the net ends or something stops it
   std::uint64_t seed = 1;
-  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, not only where
-  /// they have to wait. Finds more of the interleavings that threads can have.
+  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, and not only
+  /// where they have to wait. This finds more of the interleavings that threads can have.
   bool interleave = false;
-  std::string recording;  ///< file; empty: none
+  std::string recording;  ///< path of the file; empty: none
   /// Which values of buffers the recording has.
   enum class Values : std::uint8_t {
     none,
-    small,  ///< those of at most small_value bytes; of others their size and a hash
+    small,  ///< values of at most small_value bytes; of longer ones, the size and a hash
     all
   } values = Values::small;
   static constexpr std::uint64_t small_value = 4096;
-  /// The recording goes on in a new file, its next segment, when one has so many bytes, and so many segments
-  /// are kept. 0: all of it is kept, in one file.
+  /// When the file of the recording has `segment_bytes` bytes, the recording goes on in a new file, its
+  /// next segment. The newest `segments` files are kept. 0: everything is kept, in one file.
   struct Limit {
     std::uint64_t segment_bytes = 0;
     std::uint32_t segments = 0;
   } record_limit;
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< --set PATH=VALUE, in order
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< as given by --set PATH=VALUE, in order
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
-  /// Steady clock without a world: with the simulated C++ drivers of the System in place of the real ones.
-  /// Under the simulated clock and with a world it is always so.
+  /// Steady clock without a world: uses the simulated C++ drivers of the System in place of the real ones.
+  /// Runs with the simulated clock or with a world always do.
   bool simulated_drivers = false;
-  /// Hardware in the loop: paths of subsystems and real buffers with their real drivers in a simulated run.
+  /// Hardware in the loop: paths of subsystems and real buffers that use their real
+  /// drivers in a simulated run.
   /// The simulated clock is then never faster than the wall clock, and the run cannot be paused.
   std::vector<std::string> hardware;
   std::optional<WorldOptions> world;
-  std::string world_library;  ///< shared library that opens it
-  bool monitor = false;       ///< can be watched while it runs (tessera/monitor.hpp)
-  /// Simulated clock, with `monitor`: begins paused; so many simulated seconds a second (0: as fast as
-  /// possible).
+  std::string world_library;  ///< shared library that opens the world
+  bool monitor = false;       ///< the run can be watched (tessera/monitor.hpp)
+  /// Simulated clock, with `monitor`: the run begins paused.
   bool paused = false;
+  // Simulated clock, with `monitor`: simulated seconds per second of real time. 0: as fast as possible.
   double speed = 1;
-  /// File of a run that is followed first (tessera verify --scenario); after it everything runs freely, and
-  /// `duration` begins. Simulated clock only.
+  /// File of a run that is followed first (tessera verify --scenario). When it has been followed,
+  /// everything runs freely, and `duration` begins. Simulated clock only.
   std::string scenario;
   std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
-  /// A subsystem that is stuck for good when the run ends is a warning, no failure.
+  /// A subsystem that is stuck for good when the run ends is a warning and not a failure.
   bool accept_stuck = false;
-  bool progress = false;  ///< a line on standard error that is rewritten
+  bool progress = false;  ///< shows the progress in one line on standard error, which is rewritten
   /// File that gets two lines if the process dies in the middle of the run: where it was
-  /// ("robot.control.follow"), and what has happened ("killed by SIGSEGV at address 0x0"). Empty: none.
+  /// ("robot.control.follow"), and what happened ("killed by SIGSEGV at address 0x0"). Empty: none.
   std::string death_note;
-  int parent = 0;        ///< process whose end ends the run, as SIGTERM does; 0: none
+  int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
 };
 
-/// What a run came to.
+/// The result of a run.
 struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
   double wall_s = 0;
   std::uint64_t firings = 0;
-  /// "duration", "net ended", "stopped: WHY", or the name of a signal: "SIGINT". Followed by
-  /// "; stuck for good: ..." where subsystems can never fire again while others can, which is a failure.
+  /// "duration", "net ended", "stopped: WHY", or the name of a signal ("SIGINT"). "; stuck for good: ..."
+  /// follows if some subsystems can never fire again while others can. That is a failure.
   std::string ended;
-  bool failed = false;  ///< a fault ended it, or a device has not taken its safe command
-  int signal = 0;       ///< that ended it; 0: none did
-  /// Of a world that was slower than real time: how far it has come while `simulated` passed.
+  bool failed = false;  ///< a fault ended the run, or a device has not taken its safe command
+  int signal = 0;       ///< the signal that ended the run; 0: none
+  /// If a world was slower than real time: how far the world came while `simulated` passed.
   std::optional<Duration> world_time;
   struct PerSubsystem {
     std::string path;
@@ -85,19 +86,19 @@ struct RunSummary {
   };
   std::vector<PerSubsystem> subsystems;
   std::uint64_t lost_events = 0;        ///< of the recording
-  std::uint64_t lines_not_printed = 0;  ///< the terminal did not take them
+  std::uint64_t lines_not_printed = 0;  ///< lines that the terminal did not take
   std::vector<std::string> warnings;    ///< e.g. the recording could not be written
 };
 
-/// Builds the system, checks its hash against the net of its tables, runs it. nullopt and `error` when it
-/// cannot start.
+/// Builds the system, checks its hash against the net of its tables, and runs it. If it cannot start, the
+/// result is nullopt, and `error` says why.
 ///
 /// Threads: one run at a time per process when it handles signals.
 [[nodiscard]] std::optional<RunSummary> execute(const System& system, const RunOptions& options,
                                                 std::string& error);
 
-/// The command line of a generated controller: `controller simulate|run [options]`, see --help. Returns the
-/// exit code.
+/// The command line of a generated controller: `controller simulate|run [options]`, see --help. Returns
+/// the exit code of the process.
 [[nodiscard]] int controller_main(const System& system, int argc, char** argv);
 
 }  // namespace tessera

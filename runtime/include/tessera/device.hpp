@@ -16,13 +16,13 @@
 
 namespace tessera {
 
-/// What every driver has in common: the life of a device.
+/// The life of a device, which all drivers have in common.
 ///
-/// The order of a run is: every driver is made; `open` of every device, one after the other, effectors first;
-/// the run with its reads, writes and heartbeats; the last safe command; `close` of every opened device, the
-/// last first.
+/// A run takes these steps in order: it makes every driver; it calls `open` of every device, one after the
+/// other, effectors first; it reads, writes and calls heartbeats; it gives the last safe command; it calls
+/// `close` of every opened device, the last one first.
 ///
-/// * The constructor only stores what it is told. It does not touch the device.
+/// * The constructor only stores what it is given. It does not touch the device.
 /// * Each effector is given its safe command at once after its `open`, so every device of the system has got
 ///   its safe command before the first transition fires.
 /// * If a device cannot be opened or refuses this first safe command, the run does not start. The devices
@@ -56,25 +56,27 @@ class Device {
 /// A real receptor R: read before every transition function of its virtual receptor.
 class RealReceptor : public Device {
  public:
-  /// Fills `value` (the bytes of the real buffer's type, or where an object of it is if it is more than
-  /// bytes). false: no value now; the buffer keeps the old one, not fresh.
+  /// Fills `value`: the bytes of the real buffer's type, or the place of an object of it if the type is not
+  /// trivially copyable. false: there is no value now; the buffer keeps the old one, which is not fresh.
   [[nodiscard]] virtual bool read(std::span<std::byte> value) = 0;
 };
 
-/// A real effector E: written after every transition function of its virtual effector, and with the safe
-/// command.
+/// A real effector E: written after every transition function of its virtual effector, and whenever the
+/// device gets the safe command.
 class RealEffector : public Device {
  public:
-  /// false: the device refused; the subsystem's error.
+  /// false: the device refused, which is the subsystem's error.
   [[nodiscard]] virtual bool write(std::span<const std::byte> value) = 0;
 };
 
-/// The driver of an effector that derives from this too lets the guardian process give its device the safe
-/// command after the controller has died (docs/safety.md). The guardian makes a driver from the same setup
-/// and calls `open`, `write` with the safe value, and `close`; if one of them fails, again, for a while.
+/// A driver of an effector that also derives from Guarded lets the guardian process give its device
+/// the safe command after the controller has died (docs/safety.md). The guardian makes a driver from
+/// the same setup and calls `open`, `write` with the safe value, and `close`. If one of them fails,
+/// it tries again for a while.
 ///
-/// So the driver has to work in another process: its device can be opened again after the process that had it
-/// open has died, and a second time while a controller that is only stopped still has it open.
+/// So the driver has to work in another process. Its device can be opened again after the process
+/// that had it open has died. It can also be opened a second time while a controller that is only
+/// suspended still has it open.
 class Guarded {
  public:
   virtual ~Guarded() = default;
@@ -97,37 +99,37 @@ struct WorldOptions {
   std::optional<double> start_x_m, start_y_m, start_heading_rad;  ///< unset: as the world file says
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
-  std::string trace;  ///< file that gets the path driven; empty: none
+  std::string trace;  ///< file that gets the path of the robot; empty: none
 };
 
-/// A simulated world: makes devices, and moves in lock-step with the clock.
+/// A simulated world. It makes devices and moves in lock-step with the clock.
 ///
-/// Threads: advance_to and the devices it made may be called from different threads (the world locks).
+/// Threads: advance_to and the devices may be called from different threads (the world locks).
 class World {
  public:
   virtual ~World() = default;
-  /// nullptr and `error` when the world has no such thing.
+  /// nullptr and `error` if the world has no such thing.
   [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
                                                                std::string& error) = 0;
   [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                                std::string& error) = 0;
-  /// Physics up to `time`; deterministic. Never goes back.
+  /// Computes the physics up to `time`, deterministically. Never goes back.
   virtual void advance_to(Time time) = 0;
-  /// Writes out the trace. false and `error` when that failed.
+  /// Writes the trace to its file. false and `error` if that failed.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 };
 
-/// What the world's shared library exports as `tessera_open_world`.
+/// The type of `tessera_open_world`, which the world's shared library exports.
 using OpenWorld = std::unique_ptr<World> (*)(const WorldOptions& options, std::string& error);
 
-/// A driver written by the user in C++ (`cpp: Class`) derives from Receptor<T> or Effector<T>, where T is the
-/// type of the real buffer, or the structure `Real` of the subsystem's header if the driver serves all its
-/// real buffers.
+/// A driver written by the user in C++ (`cpp: Class`) derives from Receptor<T> or Effector<T>.
+/// T is the type of the real buffer, or the structure `Real` of the subsystem's header if the driver
+/// serves all its real buffers.
 template <class T>
 class Receptor : public RealReceptor {
  public:
   using Value = T;
-  /// nullopt: no value now. An exception is the subsystem's error.
+  /// nullopt: there is no value now. An exception is the subsystem's error.
   virtual std::optional<T> read() = 0;
   [[nodiscard]] bool read(std::span<std::byte> value) final {
     const std::optional<T> now = read();
@@ -156,11 +158,11 @@ class Effector : public RealEffector {
   }
 };
 
-/// Makes the user's driver `Class` behind a real buffer of type `Value`; generated controllers call this.
-/// Base: RealReceptor or RealEffector.
+/// Makes the user's driver `Class` behind a real buffer of type `Value`. Generated controllers call this.
+/// Base is RealReceptor or RealEffector.
 ///
-/// Errors: throws DriverError if options are given that the driver does not know; what its constructor
-/// throws.
+/// Errors:  throws DriverError if options are given that the driver does not know, and whatever the
+///          constructor of the driver throws.
 template <class Base, class Value, class Class>
 [[nodiscard]] std::unique_ptr<Base> make_driver(const DriverSetup& setup) {
   static_assert(std::is_base_of_v<Base, Class>,

@@ -12,8 +12,8 @@
 
 namespace tessera {
 
-/// An option of a driver as the specification gives it: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`,
-/// `inverted: true`.
+/// An option of a driver as the specification gives it: `pin: 4`, `radius: 33 mm`, `device:
+/// /dev/ttyUSB0`, `inverted: true`.
 struct DriverOption {
   std::string_view name;
   std::variant<bool, double, std::string_view> value;
@@ -27,8 +27,8 @@ class DriverError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Tells a driver who it is and what the specification says about it. A driver whose constructor takes a
-/// `const tessera::DriverSetup&` is given one; every other driver is default-constructed and has no options.
+/// Tells a driver its path and its options in the specification. A driver whose constructor takes a `const
+/// tessera::DriverSetup&` is given one; every other driver is default-constructed and has no options.
 ///
 /// The constructor asks for every option that the driver knows. An option that it did not ask for is an
 /// error, so that a misspelled option does not go unnoticed.
@@ -38,8 +38,8 @@ class DriverError : public std::runtime_error {
 /// Threads: one at a time.
 class DriverSetup {
  public:
-  /// path: "robot[3].motor.left", or "arm.joints" for a driver of all real buffers of a subsystem. What the
-  /// options point to must outlive the setup. For unit tests of drivers, too.
+  /// path: "robot[3].motor.left", or "arm.joints" for a driver of all real buffers of a subsystem. The data
+  /// that the options refer to must outlive the setup. Unit tests of drivers may use this constructor, too.
   explicit DriverSetup(std::string path, std::vector<DriverOption> options = {});
 
   [[nodiscard]] const std::string& path() const { return path_; }
@@ -66,7 +66,7 @@ class DriverSetup {
   [[nodiscard]] Duration duration(std::string_view option) const;
   [[nodiscard]] Duration duration_or(std::string_view option, Duration otherwise) const;
 
-  /// Names of options that nobody has asked for: "pni", "speed".
+  /// Names of options that the driver has not asked for: "pni", "speed".
   [[nodiscard]] std::vector<std::string> unknown_options() const;
 
  private:
@@ -80,7 +80,7 @@ class DriverSetup {
 };
 
 /// Throws DriverError if options were given that the driver's constructor did not ask for. takes_setup:
-/// whether it could have.
+/// whether the constructor takes a setup, so that it could ask.
 void refuse_unknown_options(const DriverSetup& setup, bool takes_setup);
 
 }  // namespace tessera

@@ -2,8 +2,8 @@
 
 #include <tuple>
 
-/// Says what a structure is made of, so that the runtime can look through it: for numbers that are not
-/// finite, and to record its fields one by one. Stands at the end of the structure:
+/// Lists the fields of a structure. So the runtime can look for numbers that are not finite, and record the
+/// fields one by one. The macro stands at the end of the structure:
 ///
 ///     struct Velocity {
 ///       double linear{}, angular{};
@@ -18,7 +18,7 @@
   }                                                                                         \
   friend auto tessera_field_names_of(const Type&) { return #__VA_ARGS__; }
 
-// Each expansion goes one field further.
+// Each expansion handles one more field.
 #define TESSERA_EACH_FIELD(Type, field, ...) \
   &Type::field __VA_OPT__(, TESSERA_EACH_FIELD_AGAIN TESSERA_NO_ARGUMENTS(Type, __VA_ARGS__))
 #define TESSERA_EACH_FIELD_AGAIN() TESSERA_EACH_FIELD

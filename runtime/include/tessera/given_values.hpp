@@ -9,8 +9,8 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
-/// Values as people write them on a command line. The controller reads them when it starts, `tessera` before
-/// it builds one.
+/// Values as people write them on a command line. `tessera` reads them before it builds a controller; the
+/// controller reads them when it starts.
 namespace tessera {
 
 /// "60s", "1.5 min", "200ms", "2h", "90" (seconds). nullopt: none of these, or negative.
@@ -19,17 +19,17 @@ namespace tessera {
 /// "500MB" (in four segments), "100MBx5" (so many of that size); B, kB, MB, GB. nullopt: none of these.
 [[nodiscard]] std::optional<RunOptions::Limit> parse_record_limit(std::string text);
 
-/// The parameters of one subsystem, where they live.
+/// The parameters of one subsystem, and where they are stored.
 struct ParameterOwner {
   std::string path;  ///< "robot[3].control"
   std::span<const Bindings::Parameter> parameters;
 };
 
-/// Gives parameters new values, in order. PATH is a name (every subsystem that has it), or a subsystem's path
-/// and a name; `[*]` in the path stands for any index.
+/// Sets parameters in order. PATH is a name (every subsystem that has it), or a subsystem's path and a
+/// name; `[*]` in the path stands for any index.
 ///
 /// Errors: a path that names nothing (with the nearest that does), a value of another kind or out of range.
-/// Reports all, one per line, then false; assignments that are right take place all the same.
+///         Reports all, one per line, and returns false. Correct assignments take effect all the same.
 [[nodiscard]] bool set_parameters(std::span<const ParameterOwner> owners,
                                   std::span<const std::pair<std::string, std::string>> values,
                                   std::string& error);

@@ -9,18 +9,18 @@
 
 namespace tessera {
 
-/// A fixed array for images and clouds of points: a value like std::array, whose copies share their elements
-/// until one of them is written to. So a value goes through channels without being copied, and an output that
-/// is written to anew is copied once.
+/// A fixed array for images and clouds of points. It is a value like std::array, but copies share their
+/// elements until one of them is written to. So a value goes through channels without being copied. An
+/// output that is written to again is copied once.
 ///
-/// *Writing.* Whatever gives access to change - data(), begin() and [] of one that is not const - first makes
-/// sure that nobody shares the elements. Take `data()` or a range-based for once rather than [] a million
-/// times; what was taken must not be used after the array has been copied.
+/// *Writing.* Every access that could change elements - data(), begin() and [] of an array that is not
+/// const - first makes sure that nobody shares them. Call `data()` once, or use a range-based for, rather
+/// than calling [] a million times. Such a pointer must not be used after the array has been copied.
 ///
-/// *Memory.* There are at least as many blocks of a type as arrays of it, so writing finds a free one and
-/// allocates nothing; making an array may. Blocks are kept for later arrays of the type.
+/// *Memory.* There are at least as many blocks of a type as arrays of it. So writing finds a free block and
+/// allocates nothing; making an array may allocate. Blocks are kept for later arrays of the type.
 ///
-/// Threads: as an int; copies may be used by different threads at once.
+/// Threads: as an int; different threads may use different copies at once.
 template <class T, std::size_t N>
 class LargeArray {
  public:
@@ -76,7 +76,7 @@ class LargeArray {
   /// All blocks of the type, in a list that only grows.
   class Blocks {
    public:
-    /// Never destroyed: arrays with static life may outlive it.
+    /// Never destroyed, because arrays with static storage duration may outlive it.
     static Blocks& instance() {
       static Blocks& blocks = *new Blocks;
       return blocks;
@@ -97,7 +97,7 @@ class LargeArray {
       }
     }
     void one_array_less() { arrays_.fetch_sub(1, std::memory_order_acq_rel); }
-    /// Owned by the caller; nullptr: none was seen, which does not last for an array that shares its block.
+    /// Owned by the caller. nullptr: none is free at the moment.
     Block* free_one() {
       for (Block* block = first_.load(std::memory_order_acquire); block != nullptr; block = block->next) {
         std::uint32_t none = 0;
@@ -118,11 +118,12 @@ class LargeArray {
     return block_;
   }
 
-  /// The elements, which nobody else has. keeping: as they are.
+  /// The elements, which no other array shares after the call. keeping: they keep their values.
   std::array<T, N>& own(bool keeping = true) {
     while (block_->owners.load(std::memory_order_acquire) != 1) {
       Block* const own = Blocks::instance().free_one();
-      if (own == nullptr) continue;  // who shared it has taken the last one, and leaves us this
+      if (own == nullptr)
+        continue;  // the array that shared this block has taken the last free one, and left this one to us
       if (keeping) own->elements = block_->elements;
       block_->owners.fetch_sub(1, std::memory_order_acq_rel);
       block_ = own;

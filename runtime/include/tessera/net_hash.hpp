@@ -9,9 +9,9 @@
 
 namespace tessera {
 
-/// The identity of a flat net: the same for two nets with the same places, markings, transitions, arcs and
-/// kinds of condition, in whatever order they are stored. The generator embeds it; the controller computes it
-/// again from its tables before the first firing.
+/// The identity of a flat net. Two nets with the same places, markings, transitions, arcs and kinds of
+/// condition have the same hash, in whatever order they are stored. The generator embeds the hash; the
+/// controller computes it again from its tables before the first firing.
 class NetHash {
  public:
   void place(std::string_view name, std::uint32_t tokens) {
@@ -21,8 +21,8 @@ class NetHash {
     add(element);
   }
 
-  /// guard: "" | "go_on" | "terminal" | "error" | "next:K" | "elapsed". The order of inputs and outputs does
-  /// not count.
+  /// guard: "" | "go_on" | "terminal" | "error" | "next:K" | "elapsed". The order of inputs and
+  /// of outputs does not count.
   void transition(std::string_view name, std::vector<std::string_view> inputs,
                   std::vector<std::string_view> outputs, std::string_view guard) {
     Element element("transition");
@@ -45,8 +45,8 @@ class NetHash {
   }
 
  private:
-  // FNV-1a in two lanes with different offsets, finished by the mixer of splitmix64 so that sums do not
-  // cancel.
+  // FNV-1a in two lanes with different offsets, finished by the mixer of splitmix64 so
+  // that sums do not cancel out.
   struct Element {
     std::array<std::uint64_t, 2> lanes{0xcbf29ce484222325U, 0x9ae16a3b2f90404fU};
     explicit Element(std::string_view kind) { text(kind); }
@@ -58,7 +58,7 @@ class NetHash {
     }
     void text(std::string_view value) {
       for (char character : value) byte(static_cast<unsigned char>(character));
-      byte(0xff);  // a name is not a prefix of another
+      byte(0xff);  // so that no name is a prefix of another
     }
   };
   void add(const Element& element) {

@@ -7,12 +7,12 @@
 
 namespace tessera {
 
-/// What a process does about a signal while it, or its child, may move something. One table for the
-/// controller and for the program that started it.
+/// The reaction of a process to a signal while it, or its child, may move something. The controller
+/// and the program that started it use the same table.
 enum class SignalUse : std::uint8_t {
   stop,     ///< the run ends safely; exit code 128 + its number
   suspend,  ///< safe commands first, then the process stops until SIGCONT
-  ignore    ///< what caused it fails with an error code, which is looked at where it happens
+  ignore    ///< the call that caused it fails with an error code, which the caller checks
 };
 
 struct HandledSignal {
@@ -21,8 +21,8 @@ struct HandledSignal {
   SignalUse use;
 };
 
-/// Every signal that a process can catch and that would end or stop it otherwise, but for those that mean a
-/// crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP). Real-time signals stop a run too.
+/// Every signal that a process can catch and that would otherwise end or stop it, except those of a crash
+/// (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP). Real-time signals stop a run, too.
 inline constexpr std::array handled_signals{
     HandledSignal{SIGHUP, "SIGHUP", SignalUse::stop},        // the terminal was closed
     HandledSignal{SIGINT, "SIGINT", SignalUse::stop},        // Ctrl-C
@@ -41,17 +41,17 @@ inline constexpr std::array handled_signals{
     HandledSignal{SIGPIPE, "SIGPIPE", SignalUse::ignore},    // nobody reads what is written
     HandledSignal{SIGXFSZ, "SIGXFSZ", SignalUse::ignore},    // a file may not grow any more
     HandledSignal{SIGTTIN, "SIGTTIN", SignalUse::ignore},    // a background process reads its terminal
-    HandledSignal{SIGTTOU, "SIGTTOU", SignalUse::ignore},    // it writes there
+    HandledSignal{SIGTTOU, "SIGTTOU", SignalUse::ignore},    // a background process writes to its terminal
 };
 
-/// Calls `visit(number, use)` for each of them and each real-time signal.
+/// Calls `visit(number, use)` for each handled signal and each real-time signal.
 template <class Visit>
 void for_handled_signals(Visit visit) {
   for (const HandledSignal& signal : handled_signals) visit(signal.number, signal.use);
   for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) visit(number, SignalUse::stop);
 }
 
-/// "SIGHUP", "SIGRTMIN+3"; of others "signal 11".
+/// "SIGHUP", "SIGRTMIN+3"; for other signals "signal 11".
 [[nodiscard]] inline std::string signal_name(int number) {
   for (const HandledSignal& signal : handled_signals)
     if (signal.number == number) return signal.name;

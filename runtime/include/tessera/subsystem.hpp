@@ -19,7 +19,7 @@
 
 namespace tessera {
 
-/// Whether a T holds a floating-point number that is known here.
+/// Whether a T contains a floating-point number, as far as its type tells.
 template <class T>
 [[nodiscard]] constexpr bool has_floats() {
   if constexpr (std::is_floating_point_v<T>) {
@@ -50,7 +50,7 @@ template <class T>
   }
 }
 
-/// Puts `number` into every floating-point number of `value`: faults that are injected.
+/// Stores `number` in every floating-point number of `value`, to plant a fault.
 template <class T>
 void fill_floats(T& value, double number) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -64,7 +64,7 @@ void fill_floats(T& value, double number) {
   }
 }
 
-/// How an iteration ended: which of t4, t5, t6 of the behaviour is to fire.
+/// How an iteration ended: which of the transitions t4, t5, t6 of the behaviour is to fire.
 enum class Outcome : std::uint8_t { go_on, terminal, error };
 
 enum class ValueKind : std::uint8_t {
@@ -99,7 +99,7 @@ template <class T>
   return ValueKind::other;
 }
 
-/// How to keep values of a type that is more than its bytes, such as a LargeArray.
+/// How to store values of a type that is not trivially copyable, such as a LargeArray.
 struct ValueType {
   void (*construct)(void* where);
   void (*assign)(void* to, const void* from);
@@ -119,7 +119,7 @@ template <class T>
   }
 }
 
-/// Where the buffers and parameters of one subsystem live; filled by Subsystem::bind, used by the executor.
+/// The addresses of a subsystem's buffers and parameters. Subsystem::bind fills it, the executor uses it.
 struct Bindings {
   struct Incoming {
     std::string_view name;
@@ -128,7 +128,7 @@ struct Bindings {
     Arrival* arrival;
     const ValueType* type;                    ///< nullptr: bytes
     const ValueEncoding* encoding = nullptr;  ///< nullptr: cannot be recorded
-    void* part = nullptr;                     ///< of a real buffer: its part of `real`, or nullptr
+    void* part = nullptr;                     ///< of a real buffer: its member of `real`, or nullptr
   };
   struct Outgoing {
     std::string_view name;
@@ -142,16 +142,16 @@ struct Bindings {
   };
   struct RealOutgoing : Outgoing {
     std::shared_ptr<const void> safe;  ///< the safe command, of the same type
-    void* part = nullptr;              ///< its part of `real`, or nullptr
+    void* part = nullptr;              ///< its member of `real`, or nullptr
   };
-  /// What commands have to keep to.
+  /// The limits that commands must keep.
   struct Limits {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     double minimum = -infinity, maximum = infinity;
-    double per_second = infinity;  ///< the most that a command may change in a second
-    bool fault = false;            ///< a command beyond is a fault; else the limit is sent in its place
+    double per_second = infinity;  ///< the largest change of a command within a second
+    bool fault = false;  ///< a command beyond the limit is a fault; otherwise the limit is sent in its place
   };
-  /// Limits of a number in a real output, or of each element of an array there.
+  /// Limits of a number in a real output, or of each element of an array in it.
   struct RealLimit {
     std::string_view name;   ///< "left", "pose.x"
     std::size_t output = 0;  ///< into real_outputs
@@ -164,7 +164,7 @@ struct Bindings {
   };
   /// The structure of all real buffers, for a driver that serves all of them at once.
   struct Real {
-    std::shared_ptr<void> value;  ///< nullptr: no driver does
+    std::shared_ptr<void> value;  ///< nullptr: there is no such driver
     std::size_t size = 0;
   };
   struct Parameter {
@@ -182,7 +182,7 @@ struct Bindings {
   std::vector<Parameter> parameters;
   Real real;
 
-  /// Makes `real`; its members are the parts of the real buffers.
+  /// Makes `real`. Its members are the parts of the real buffers.
   template <class T>
   [[nodiscard]] T& all_real() {
     auto made = std::make_shared<T>();
@@ -207,7 +207,8 @@ struct Bindings {
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
     real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
   }
-  /// number: where it is in the real output that was bound last; an arithmetic type, or a std::array of one.
+  /// number: a member of the real output that was bound last. It is an arithmetic
+  /// type, or a std::array of one.
   template <class T>
   void limit(std::string_view name, T& number, const Limits& its) {
     const auto offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
@@ -270,18 +271,21 @@ class Subsystem {
  public:
   virtual ~Subsystem() = default;
   virtual void bind(Bindings& bindings) = 0;
-  /// The transition function of a behaviour, eq. (1) of the paper. May throw whatever the user's code throws.
+  /// Calls the transition function of a behaviour, eq. (1) of the paper. Throws
+  /// whatever the user's code throws.
   virtual void call(std::uint16_t behaviour) = 0;
-  /// Evaluates error and terminal condition, in this order. failed: the transition function has thrown.
+  /// Evaluates the error condition, then the terminal condition. failed: the
+  /// transition function has thrown.
   [[nodiscard]] virtual Outcome decide(std::uint16_t behaviour, bool failed) = 0;
-  /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed: it ended by error.
+  /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed:
+  /// the behaviour ended by error.
   [[nodiscard]] virtual int route(std::uint16_t behaviour, bool failed) = 0;
   virtual void keep_outputs() = 0;     ///< remembers the outputs as sent
-  virtual void restore_outputs() = 0;  ///< brings them back after a failed iteration
+  virtual void restore_outputs() = 0;  ///< restores the sent outputs after a failed iteration
   [[nodiscard]] virtual Context& context() = 0;
 };
 
-/// The typed part: what a user's transition functions are given.
+/// The typed part: the data that the user's transition functions are given.
 template <class InputsT, class MemoryT, class OutputsT, class ParametersT, class ContextT>
 class SubsystemOf : public Subsystem {
  public:

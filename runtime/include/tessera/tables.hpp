@@ -11,14 +11,15 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
-/// The net as generated controllers carry it: constant tables, read once at start. Generated code includes
-/// this and states which version it was made for.
+/// The net of a generated controller: constant tables, read once at start. Generated code includes this
+/// file and states which version of it was used.
 namespace tessera {
 
 inline constexpr int tables_version = 2;
 
-/// What a token in a place starts. The last two are no operations of the net: they latch, when the token
-/// arrives, which of the conditional transitions behind the place may fire.
+/// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
+/// they evaluate conditions when the token arrives, and store which of the conditional transitions
+/// behind the place may fire.
 struct Does {
   enum class Kind : std::uint8_t { nothing, call, count, write, read, decide, route } kind = Kind::nothing;
   std::string_view subject;  ///< behaviour (call, decide, route) or port (write, read)
@@ -38,22 +39,23 @@ struct Does {
 /// When an enabled transition may fire.
 struct Guard {
   enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
-  std::uint16_t entry = 0;  ///< of `next`, from 0
-  std::string_view port{};  ///< elapsed: whose timeout; empty: of the channel that the transition touches
+  std::uint16_t entry = 0;  ///< index into `next`, from 0
+  std::string_view
+      port{};  ///< elapsed: the port whose timeout it is; empty: of the channel that the transition touches
 };
 inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
     if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
 [[nodiscard]] constexpr Guard if_elapsed_at(std::string_view port) { return {Guard::Kind::elapsed, 0, port}; }
 
-/// A place of a subsystem; its name lacks the subsystem's path ("follow.snd.motion.2").
+/// A place of a subsystem. Its name lacks the path of the subsystem ("follow.snd.motion.2").
 struct Place {
   std::string_view name;
   Does does{};
 };
 
-/// inputs and outputs name places of the subsystem, or fused places of a channel as "port/place"
-/// ("motion/full").
+/// inputs and outputs name places of the subsystem ("in"), or fused places of a channel as
+/// "port/place" ("motion/full").
 struct Transition {
   std::string_view name;
   std::initializer_list<std::string_view> inputs, outputs;
@@ -62,7 +64,7 @@ struct Transition {
 
 enum class Side : std::uint8_t { send, receive };
 
-/// One end of a channel inside a subsystem: the block "motion" or "motion#2" and the buffer it carries.
+/// One end of a channel inside a subsystem: the block "motion" or "motion#2", and its buffer.
 struct Port {
   std::string_view name;
   Side side;
@@ -84,11 +86,11 @@ struct SubsystemNet {
 
 enum class Kind : std::uint8_t { control, receptor, effector };
 
-/// What a subsystem with a rate does about instants that its work made it miss.
+/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
 enum class Overrun : std::uint8_t {
   skip,      ///< leaves them out
-  catch_up,  ///< runs the iterations late, one after the other
-  fault      ///< leaves them out, and the iteration that comes late fails: its function is not called
+  catch_up,  ///< runs the missed iterations late, one after the other
+  fault      ///< leaves them out; the next iteration, which is late, fails without calling its function
 };
 
 /// How the operating system schedules the thread of a subsystem on the steady clock.
@@ -98,12 +100,12 @@ struct RealTime {
   int cpu = -1;      ///< the processor it stays on; -1: any
 };
 
-/// What a subsystem does about time and faults.
+/// How a subsystem treats time and faults.
 struct Policies {
   Overrun overrun = Overrun::skip;
-  Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: none is
+  Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: no watchdog
   bool operator_resets = false;     ///< effector: a fault or a stale input begins an emergency stop
-  bool non_finite_allowed = false;  ///< outputs to channels may be infinite or not a number
+  bool non_finite_allowed = false;  ///< outputs to channels may be infinite or NaN
   RealTime realtime{};
 };
 
@@ -159,7 +161,7 @@ struct VerifiedProperty {
 struct System {
   int tables_version;
   std::string_view name;
-  std::string_view net_hash;  ///< of the net that was verified; the controller refuses to start on another
+  std::string_view net_hash;  ///< of the verified net; the controller refuses to start with another net
   std::string_view verification_hash;
   std::span<const VerifiedProperty> verdicts;
   std::span<const Instance> instances;  ///< agent by agent

@@ -8,17 +8,18 @@
 
 namespace tessera {
 
-/// The layers of the system and of the agents: t_in and t_out of each. The driver of a run tells it which
-/// subsystems have ended and asks nothing else of the net.
+/// The layers of the system and of the agents: the transitions t_in and t_out of each. The driver of a run
+/// reports which subsystems have ended; nothing else in the net depends on it.
 ///
 /// Threads: the driver's.
 class UpperLayers {
  public:
   UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* lane);
 
-  /// Fires t_in of the system and of every agent: after this every subsystem may be entered.
+  /// Fires t_in of the system and of every agent. Then every subsystem may be entered.
   void enter(Time now);
-  /// Fires t_out of its agent if it was the last of it, and that of the system if that was the last agent.
+  /// Fires t_out of the agent if this was its last subsystem, and t_out of the system
+  /// if this was the last agent.
   void subsystem_ended(std::uint32_t instance, Time now);
   [[nodiscard]] bool ended() const { return agents_left_ == 0; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }

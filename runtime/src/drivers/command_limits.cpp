@@ -18,18 +18,19 @@ void* CommandLimits::place(const Limited& one) const {
   return static_cast<std::byte*>(bindings_->real_outputs[one.limit->output].value) + one.limit->offset;
 }
 
-/// excess: filled if it is the first of this one.
+/// excess: filled if it is the first excess of this command.
 void CommandLimits::limit(Limited& one, double allowed_s, Excess& excess) {
   const Bindings::Limits& limits = one.limit->limits;
   for (std::size_t element = 0; element < one.last.size(); ++element) {
     const double asked = one.limit->get(place(one), element);
     const double change = std::isinf(limits.per_second) ? limits.per_second : limits.per_second * allowed_s;
     const double last = one.last[element];
-    // What was safe is within the range, so the range and the change always have something in common.
+    // The safe command is within the range. So the range and the largest change
+    // always have values in common.
     const double sent =
         std::clamp(std::clamp(asked, last - change, last + change), limits.minimum, limits.maximum);
     if (sent == asked) continue;
-    // Of an integer, the last whole number within.
+    // For an integer, the nearest whole number within the limits.
     one.limit->set(place(one), element,
                    one.limit->whole ? (sent > asked ? std::ceil(sent) : std::floor(sent)) : sent);
     if (excess.name.empty()) excess = {one.limit->name, asked, sent, limits.fault, true};

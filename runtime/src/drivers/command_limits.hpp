@@ -10,28 +10,28 @@ namespace tessera {
 
 /// Keeps the commands of a subsystem within the limits of its real outputs.
 ///
-/// The most that a command may change is per_second times the time since the last one. A subsystem with a
-/// rate counts at most one period of that, any other at most 100 ms, so that a pause does not save up a jump.
-/// The safe command counts as the last one when it has been given.
+/// The largest change of a command is per_second times the time since the last command. For a subsystem
+/// with a rate, at most one period of that time counts; for any other, at most 100 ms. So a pause does not
+/// allow a jump. After the safe command has been given, it counts as the last command.
 ///
 /// Threads: the subsystem's.
 class CommandLimits {
  public:
   CommandLimits(const Bindings& bindings, Duration period);
 
-  /// A number that was asked for and may not be sent.
+  /// A number in a command that exceeds a limit.
   struct Excess {
     std::string_view name;  ///< "left", "pose.x"
     double asked = 0, sent = 0;
     bool fault = false;  ///< nothing must be sent
-    bool begins = true;  ///< the last command kept to this limit
+    bool begins = true;  ///< the last command kept this limit
   };
-  /// Puts what may be sent in the place of what may not. Returns the first excess that is a fault, else the
-  /// first that begins; nullptr: there is none.
+  /// Replaces the numbers that exceed their limits by numbers that may be sent. Returns the first excess
+  /// that is a fault, or else the first that begins; nullptr: there is none.
   [[nodiscard]] const Excess* apply(Time now);
-  /// The devices have got the safe command.
+  /// Call it when the devices have got the safe command.
   void note_safe(Time now);
-  /// They have got what `apply` has left.
+  /// Call it when the devices have got the command that `apply` has limited.
   void note_sent(Time now);
 
  private:

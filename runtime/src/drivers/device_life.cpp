@@ -14,7 +14,7 @@ DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(dr
       beating_.push_back({&driver, period});
 }
 
-/// Empty: it is open. Else why not.
+/// Opens the driver. Empty: it is open; otherwise the reason why not.
 std::string DeviceLife::opened(const DriverInUse& driver) {
   try {
     return driver.device->open() ? "" : "it refuses";

@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// The life of the drivers of one subsystem (tessera/device.hpp): opened, beating, closed.
+/// The life of the drivers of one subsystem (tessera/device.hpp): open, heartbeats, close.
 ///
 /// Threads: `open` and `close` the run's, the rest the subsystem's.
 class DeviceLife {
@@ -17,18 +17,18 @@ class DeviceLife {
   explicit DeviceLife(std::vector<DriverInUse> drivers);
 
   /// secure: gives the buffers of a driver that has just been opened their safe command. false: a device
-  /// could not be opened or secured, `error` says which; what was opened has to be closed.
+  /// could not be opened or secured, and `error` says which. Devices that were opened have to be closed.
   [[nodiscard]] bool open(const std::function<bool(const DriverInUse&)>& secure, std::string& error);
-  /// Closes what is open, the last first. Returns what went wrong.
+  /// Closes the open devices, the last one first. Returns what went wrong.
   std::vector<std::string> close();
-  /// Whether some driver wants heartbeats.
+  /// Whether a driver needs heartbeats.
   [[nodiscard]] bool beats() const { return !beating_.empty(); }
   /// When `beat` must be called next; Time::max(): never.
   [[nodiscard]] Time next_beat() const;
-  /// How a driver is called, so that nobody else calls it meanwhile.
+  /// Calls a driver in such a way that no other thread calls it at the same time.
   using Around = std::function<void(const DriverInUse&, const std::function<void()>&)>;
-  /// Calls the heartbeat of every driver for which it is due. What a driver throws gets out, after which its
-  /// next beat is a period later.
+  /// Calls the heartbeat of every driver for which it is due. Passes on what a driver throws; the next
+  /// heartbeat of that driver is a period later.
   void beat(Time now, const Around& around);
 
  private:
@@ -41,7 +41,7 @@ class DeviceLife {
 
   std::vector<DriverInUse> drivers_;
   std::vector<Beating> beating_;
-  std::size_t open_ = 0;  // so many are, from the first on
+  std::size_t open_ = 0;  // number of open drivers, from the first one on
 };
 
 }  // namespace tessera

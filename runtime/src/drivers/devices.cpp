@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-/// What differs between the two sides.
+/// The differences between receptors and effectors.
 struct ReceptorKind {
   using Base = RealReceptor;
   static constexpr bool effector = false;
@@ -71,7 +71,7 @@ bool opens_real_driver(const RunOptions& options, std::string_view path) {
          std::ranges::any_of(options.hardware, [&](const std::string& name) { return is_in(path, name); });
 }
 
-/// Hardware that is named is found by this.
+/// Also notes that the hardware of this name was found.
 bool DeviceFinder::is_hardware(const std::string& path) {
   if (!simulates_devices(options_)) return true;
   bool found = false;
@@ -126,7 +126,7 @@ std::unique_ptr<typename Kind::Base> DeviceFinder::find_one(const std::string& p
   return nullptr;
 }
 
-/// true: one driver serves all, or should.
+/// true: one driver serves all real buffers, or should.
 template <class Kind>
 bool DeviceFinder::find_whole(const std::string& subsystem, const Bindings& bindings,
                               SubsystemDevices& devices) {

@@ -11,17 +11,17 @@
 
 namespace tessera {
 
-/// Opens the world of the options' shared library; it stays loaded until the process ends. nullptr without
-/// `error`: the options ask for none.
+/// Opens the world of the shared library in `options`; the library stays loaded until the process ends.
+/// nullptr without `error`: the options ask for no world.
 [[nodiscard]] std::unique_ptr<World> open_world(const RunOptions& options, std::string& error);
 
-/// Whether the simulated drivers of the system stand behind its real buffers, where no hardware is asked for.
+/// Whether real buffers have the simulated drivers of the system unless the options ask for hardware.
 [[nodiscard]] bool simulates_devices(const RunOptions& options);
 
-/// Whether the real driver stands behind a subsystem or a real buffer in such a run.
+/// Whether a subsystem or a real buffer has its real driver in such a run.
 [[nodiscard]] bool opens_real_driver(const RunOptions& options, std::string_view path);
 
-/// A driver of a subsystem, and which of the real buffers it serves.
+/// A driver of a subsystem, and the real buffers that it serves.
 struct DriverInUse {
   std::string path;  ///< "robot.motor.left", or "arm.joints"
   Device* device = nullptr;
@@ -33,21 +33,21 @@ struct DriverInUse {
 struct SubsystemDevices {
   std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs
   std::vector<std::unique_ptr<RealEffector>> effectors;  ///< as Bindings::real_outputs
-  std::vector<DriverInUse> drivers;                      ///< behind them, owned by them
+  std::vector<DriverInUse> drivers;                      ///< the drivers of both, which own them
 };
 
-/// Makes the drivers behind real buffers. A simulated run gets simulated ones: what the options ask of the
-/// world, then the simulated drivers of the system. A real one (and the hardware in a simulated run) gets the
-/// real drivers of the system. Neither ever gets the others.
+/// Makes the drivers of real buffers. In a simulated run, the devices of the world that the options name
+/// come first, then the simulated drivers of the system. A real run, and the hardware in a simulated run,
+/// uses the real drivers of the system. No run mixes them otherwise.
 class DeviceFinder {
  public:
   DeviceFinder(const System& system, const RunOptions& options, World* world)
       : system_(system), options_(options), world_(world) {}
 
-  /// subsystem: its path. What it cannot find, or what cannot be made, is nullptr; `complaints` then says
-  /// why.
+  /// subsystem: its path. A driver that is not found, or cannot be made, is nullptr; `complaints` says why.
   [[nodiscard]] SubsystemDevices find(const std::string& subsystem, const Bindings& bindings);
-  /// One sentence per buffer that got no device and per name that is none; empty: all is well.
+  /// One sentence per buffer that got no device, and per unknown name; empty: there is
+  /// nothing to complain about.
   [[nodiscard]] std::string complaints() const;
 
  private:

@@ -14,8 +14,8 @@ thread_local constinit const void* in_call = nullptr;
 
 }  // namespace
 
-/// One thread at a time calls the driver of a device. Others come only when something has gone wrong, so this
-/// costs no system call as a rule.
+/// One thread at a time calls the driver of a device. Another thread comes only if something has gone
+/// wrong, so the lock normally costs no system call.
 class Effectors::Lock {
  public:
   Lock(Device& device, Busy busy) : device_(device) {
@@ -58,11 +58,12 @@ Effectors::Effectors(std::vector<Group> devices, std::span<const std::unique_ptr
 Effectors::Answer Effectors::command(Time now) {
   for (Device& device : devices()) {
     const Lock lock(device, Busy::waits);
-    // Looked at under the lock: the safe command of another thread is then the later one.
+    // Checked under the lock: the safe command of another thread is then the later one.
     if (control_.withholds_commands()) return Answer::withheld;
     if (!write(device, now)) return Answer::refused;
     device.safe = false;
-    // Who withholds commands, and then finds the device in use, counts on this thread to know.
+    // A thread that withholds commands and then finds the device in use relies on
+    // this thread to notice that.
     device.owes = false;
     device.owes = control_.withholds_commands();
     if (device.standing.kind != SafeReason::Kind::none) device.since = now;
@@ -95,7 +96,7 @@ bool Effectors::make_safe(SafeReason why, Busy busy, bool owing_only) {
   return all;
 }
 
-/// Under the device's lock.
+/// Call it with the device's lock.
 bool Effectors::write_safe(Device& device, SafeReason why) {
   bool taken = true;
   for (std::size_t index = device.its.first; index < device.its.first + device.its.count; ++index) {
@@ -105,7 +106,7 @@ bool Effectors::write_safe(Device& device, SafeReason why) {
           drivers_[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) && taken;
     } catch (const abi::__forced_unwind&) {
       throw;
-    } catch (...) {  // the others must get theirs
+    } catch (...) {  // the other devices must get theirs
       taken = false;
     }
   }
@@ -158,7 +159,7 @@ void Effectors::record(RecordingLane* lane) {
     if (const Lock lock(device, Busy::leaves_out); lock) record(device, *lane);
 }
 
-/// Under the device's lock.
+/// Call it with the device's lock.
 void Effectors::record(Device& device, RecordingLane& lane) {
   std::array<char, 256> text, reason;
   const auto put = [&](SafeEvent what, auto format, const auto&... values) {

@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-/// How a run is told to end, and who has ended already. Shared by all threads of a run.
+/// How a run is told to end, and which subsystems have stalled. Shared by all threads of a run.
 ///
 /// Threads: any, unless said otherwise. Never blocks for long, never allocates after construction.
 class RunControl {
@@ -21,14 +21,14 @@ class RunControl {
       : ended_(std::make_unique<std::atomic<bool>[]>(instances)),
         stalled_(std::make_unique<std::atomic<bool>[]>(instances)) {}
 
-  /// The first reason counts; longer than 512 bytes is cut. fault: the run failed.
+  /// Only the first reason counts; it is cut at 512 bytes. fault: the run failed.
   void request_stop(std::string_view reason, bool fault);
   [[nodiscard]] bool stopping() const { return state_.load(std::memory_order_acquire) != 0; }
   /// Only after the threads of the run have ended.
   [[nodiscard]] std::string_view reason() const { return {reason_.data(), length_}; }
   [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_acquire); }
 
-  /// The process ends although user code runs still: what that asks for from now on does not return.
+  /// The process ends although user code is still running: calls from that code no longer return.
   void abandon() { abandoned_.store(true, std::memory_order_release); }
   [[nodiscard]] bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
 
@@ -37,9 +37,9 @@ class RunControl {
     return ended_[instance].load(std::memory_order_acquire);
   }
 
-  /// The process is about to stop for a while: until resume nothing but safe commands goes to devices.
+  /// The process is about to be suspended: until resume, only safe commands go to devices.
   void suspend() { suspended_.store(true, std::memory_order_seq_cst); }
-  /// valid_from: values sent before are no news to effectors.
+  /// valid_from: effectors ignore values that were sent before.
   void resume(Time valid_from) {
     valid_from_.store(valid_from, std::memory_order_relaxed);
     suspended_.store(false, std::memory_order_seq_cst);
@@ -47,23 +47,23 @@ class RunControl {
   [[nodiscard]] bool suspended() const { return suspended_.load(std::memory_order_seq_cst); }
   [[nodiscard]] Time valid_from() const { return valid_from_.load(std::memory_order_relaxed); }
 
-  /// The emergency stop begins, unless it stands already: nothing but safe commands goes to devices until an
-  /// operator ends it. why: as request_stop.
+  /// Begins the emergency stop, unless one is in force already: only safe commands go to devices until an
+  /// operator ends it. why: as in request_stop.
   void begin_emergency(std::string_view why);
-  /// An operator ends it. valid_from: as of resume. false: there was none.
+  /// Ends the emergency stop for an operator. valid_from: as in resume. false: there was none.
   bool end_emergency(Time valid_from);
   [[nodiscard]] bool emergency() const { return emergency_.load(std::memory_order_seq_cst); }
-  /// How many have begun so far.
+  /// The number of emergency stops so far.
   [[nodiscard]] std::uint32_t emergencies() const { return emergencies_.load(std::memory_order_seq_cst); }
-  /// Why it stands, or stood last.
+  /// The reason of the emergency stop that is in force, or of the last one.
   [[nodiscard]] std::string emergency_reason() const;
   /// An eventfd that is written to when an emergency stop begins or ends; -1: none.
   void tell_of_emergencies(int descriptor) { news_.store(descriptor, std::memory_order_release); }
 
-  /// Only safe commands may go to devices.
+  /// Whether only safe commands may go to devices.
   [[nodiscard]] bool withholds_commands() const { return stopping() || suspended() || emergency(); }
 
-  /// Its transition function has run longer than its watchdog allows, and has not returned.
+  /// The transition function has run longer than its watchdog allows, and has not returned.
   void mark_stalled(std::uint32_t instance, bool stalled) {
     stalled_[instance].store(stalled, std::memory_order_seq_cst);
   }
@@ -77,7 +77,7 @@ class RunControl {
   std::atomic<std::uint32_t> state_{0}, emergencies_{0};
   std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
   std::atomic<int> news_{-1};
-  mutable std::mutex emergency_mutex_;  // of what follows; nobody holds it for longer than a copy takes
+  mutable std::mutex emergency_mutex_;  // guards the members below; it is held no longer than a copy takes
   std::array<char, 512> emergency_reason_{};
   std::size_t emergency_length_ = 0;
   std::atomic<Time> valid_from_{Time::min()};

@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-/// Where one buffer stands in the structure of all.
+/// The position of one buffer in the structure of all real buffers.
 struct Part {
   void* at;
   std::size_t size;
@@ -34,8 +34,8 @@ class ReceptorPart final : public RealReceptor {
   ReceptorPart(std::shared_ptr<Shared<RealReceptor>> shared, Part part, std::size_t number)
       : shared_(std::move(shared)), part_(part), number_(number) {}
 
-  /// Parts are asked in their order, though some may be left out: no later one than the last begins a new
-  /// reading.
+  /// The parts are read in order, though some may be left out. A part that is not after the
+  /// last one begins a new reading.
   bool read(std::span<std::byte> value) override {
     if (number_ <= std::exchange(shared_->asked, number_)) {
       shared_->has_value = false;  // if it throws

@@ -8,9 +8,9 @@
 
 namespace tessera {
 
-/// One device per real buffer, for a driver that serves all real buffers of a subsystem. The driver is read
-/// once an iteration, with the first buffer that is asked for; it is written once, with the last buffer of
-/// the command. What is behind `bindings.real` must outlive them.
+/// Makes one device per real buffer for a driver that serves all real buffers of a subsystem. The driver is
+/// read once per iteration, when the first buffer is read. It is written once, when the last buffer of a
+/// command is written. The data behind `bindings.real` must outlive the devices.
 [[nodiscard]] std::vector<std::unique_ptr<RealReceptor>> parts_of(std::unique_ptr<RealReceptor> driver,
                                                                   const Bindings& bindings);
 [[nodiscard]] std::vector<std::unique_ptr<RealEffector>> parts_of(std::unique_ptr<RealEffector> driver,

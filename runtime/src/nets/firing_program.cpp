@@ -18,7 +18,7 @@ struct Rows {
   }
 };
 
-/// Sorted by place, each place once; false: a place that does not exist, or a weight out of range.
+/// Sorts the arcs by place and merges arcs of one place. false: an unknown place, or a weight out of range.
 [[nodiscard]] bool tidy(std::vector<Arc>& arcs, std::size_t places, std::uint32_t bound) {
   std::ranges::sort(arcs, {}, &Arc::place);
   std::size_t kept = 0;
@@ -112,7 +112,7 @@ class FiringCompilation {
       for (const Arc& arc : inputs_[t]) number_place(arc.place);
       for (const Arc& arc : outputs_[t]) {
         number_place(arc.place);
-        if (walked_[arc.place]) continue;  // a place that many give to and many take from is walked once
+        if (walked_[arc.place]) continue;  // visits a place with many producers and consumers only once
         walked_[arc.place] = true;
         const auto next = consumers_[arc.place];
         open.insert(open.end(), next.begin(), next.end());

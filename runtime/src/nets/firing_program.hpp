@@ -10,30 +10,30 @@
 
 namespace tessera {
 
-/// A net compiled for a NetExecutor: rows of 32-bit numbers, numbered anew in the order in which tokens walk,
-/// so that consecutive firings touch neighbouring memory however the net was written down. Immutable.
+/// A net compiled for a NetExecutor: rows of 32-bit numbers, renumbered in the order in which tokens move,
+/// so that consecutive firings touch neighbouring memory, whatever the order in the net. Immutable.
 ///
 /// Two kinds of transitions need less than the general rule:
-/// *Sole*: takes one token from one place, which nobody else takes from, without a condition, and does not
-/// give
-///   back to it. It is enabled exactly when that place is marked; nothing is counted for it.
-/// *Direct*: sole, and gives one token to one place without an operation, from which only another sole
-///   transition takes. Such a firing is one record: from, to, and who is enabled by it.
+/// * *Sole*: takes one token from one place from which no other transition takes, has no condition,
+///   and does not give a token back to that place. It is enabled exactly when that place is marked, so
+///   nothing is counted for it.
+/// * *Direct*: sole, and gives one token to one place without an operation, from which only another sole
+///   transition takes. Such a firing is one record: from, to, and the transition that it enables.
 struct FiringProgram {
   static constexpr std::uint32_t none = UINT32_MAX;
 
-  /// What a direct firing needs. from: of every sole transition.
+  /// The data of a direct firing. from: set for every sole transition.
   struct Hop {
     enum class Kind : std::uint32_t { general, sole, direct } kind = Kind::general;
     std::uint32_t from = none, to = none;
     std::uint32_t next = none;  ///< the transition that takes from `to`
   };
-  /// What the general rule needs.
+  /// The data of the general rule.
   struct Arcs {
     std::uint32_t takes = 0, takes_end = 0;  ///< into takes
     std::uint32_t gives = 0, gives_end = 0;  ///< into gives
     std::uint32_t condition = none;          ///< the transition in the net, if it has one
-    bool operates = false;                   ///< gives to a place with an operation
+    bool operates = false;                   ///< gives a token to a place with an operation
   };
   struct Take {
     std::uint32_t place, weight;
@@ -60,7 +60,7 @@ struct FiringProgram {
   std::vector<std::uint32_t> rank;  ///< per transition; 0 has the highest priority
   std::uint32_t ranks = 1;
   std::vector<std::uint32_t> original_transition, original_place;    ///< index in the net, per own number
-  std::vector<std::uint32_t> number_of_transition, number_of_place;  ///< the way back
+  std::vector<std::uint32_t> number_of_transition, number_of_place;  ///< the inverse
 };
 
 /// Errors: see NetExecutor::load.

@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// The whole flat net that the tables of a controller stand for, by names: what was verified, what the hash
-/// is of, and what the transitions of a recording are called. Execution uses Plan.
+/// The whole flat net of a controller's tables, by names. It is the net that was verified and of which the
+/// hash was computed; recordings name its transitions. Execution uses Plan.
 struct FlatNet {
   struct FlatPlace {
     std::string name;
@@ -37,8 +37,8 @@ struct AgentSpan {
 };
 [[nodiscard]] std::vector<AgentSpan> agents_of(const System& system);
 
-/// Every name in the tables must resolve (Plan checks that); an end of an arc that does not is left out, so
-/// that the hash differs.
+/// Every name in the tables must resolve (Plan checks that). An end of an arc that does not resolve is
+/// left out, so that the hash differs.
 [[nodiscard]] FlatNet net_of(const System& system);
 
 }  // namespace tessera

@@ -126,7 +126,7 @@ template <class Turns>
   }
 }
 
-/// After its firing: if it is enabled still, and no token it gave made it wait.
+/// After its firing: it waits for another turn if it is still enabled and does not wait already.
 template <class Turns>
 [[gnu::always_inline]] inline void NetMachine::wait_again(std::uint32_t transition, Turns& turns) {
   const Hop& hop = program_.hops[transition];
@@ -146,7 +146,7 @@ template <class Turns>
     status_[transition] -= waiting;
     if (status_[transition] != 0) return false;
     if (arcs.condition != FiringProgram::none && !condition_holds(arcs.condition)) {
-      if (faulted_) wait_again(transition, turns);  // it threw; the next run asks again
+      if (faulted_) wait_again(transition, turns);  // the condition threw; the next run asks it again
       return false;
     }
   }
@@ -201,7 +201,7 @@ NetExecutor::Outcome NetMachine::run_with(Turns& turns, std::uint64_t most) {
   }
 }
 
-/// The loop in which the time goes. `turns` are kept in registers, apart from general firings.
+/// The loop that takes most of the time. `turns` are kept in registers, except for general firings.
 template <bool observed, class Turns>
 std::uint64_t NetMachine::fire_while_undisturbed(Turns& turns, std::uint64_t most) {
   const Hop* const hops = program_.hops.data();
@@ -318,7 +318,7 @@ void NetMachine::sleep_until_attention() {
 }
 
 void NetMachine::fault_by(std::exception_ptr thrown, const char* what, const std::string& name) {
-  if (std::exchange(faulted_, true)) return;  // the first one is reported
+  if (std::exchange(faulted_, true)) return;  // only the first fault is reported
   try {
     std::rethrow_exception(std::move(thrown));
   } catch (const std::exception& exception) {

@@ -15,13 +15,13 @@
 
 namespace tessera {
 
-/// What a NetExecutor is made of. Enabling is incremental: per transition that is not sole the machine counts
-/// the input places that hold too few tokens, and a firing corrects the counts of the transitions behind the
-/// places it changes.
+/// The implementation of a NetExecutor. Enabling is incremental: for each transition that is not sole, the
+/// machine counts the input places that hold too few tokens. A firing updates the counts of the transitions
+/// behind the places that it changes.
 ///
-/// A transition waits in `turns` from when it becomes enabled until its turn comes; one that has been
-/// disabled meanwhile is passed over then. So an enabled transition that does not wait is the one that fires,
-/// or one whose condition was false; an arriving token makes it wait again.
+/// A transition waits in `turns` from the moment when it becomes enabled until its turn comes. One that was
+/// disabled in the meantime is then skipped. So an enabled transition that does not wait is the one that
+/// fires, or one whose condition was false; an arriving token makes the latter wait again.
 ///
 /// Threads: stop and reconsider from any, the rest from one.
 class NetMachine {
@@ -38,7 +38,8 @@ class NetMachine {
   using Hop = FiringProgram::Hop;
   // Bits of attention_.
   static constexpr std::uint32_t stop_asked = 1, reconsider_asked = 2, operation_finished = 4;
-  // Per transition: 2 * places with too few tokens, + 1 while it waits for its turn. 0: enabled, waits not.
+  // Per transition: 2 * places with too few tokens, + 1 while it waits for its
+  // turn. 0: enabled, not waiting.
   static constexpr std::uint32_t waiting = 1, missing_one = 2;
 
   void mark_initially();
@@ -81,15 +82,16 @@ class NetMachine {
   NetExecutor::Options options_;
   FiringProgram program_;
 
-  std::vector<std::uint32_t> tokens_;       // per place: those without an operation or with a finished one
-  std::vector<std::uint32_t> in_work_;      // per place: those with an operation that has not finished
+  std::vector<std::uint32_t> tokens_;       // per place: tokens without an operation or with a finished one
+  std::vector<std::uint32_t> in_work_;      // per place: tokens whose operation has not finished
   std::vector<std::uint32_t> status_;       // per transition that is not sole
   std::vector<std::uint32_t> conditional_;  // transitions with a condition
   std::vector<std::uint32_t> unstarted_;    // places, once per token whose operation is to be started
   std::vector<WorkerPool::Finished> finished_;  // scratch of collect_finished
-  std::uint64_t submitted_ = 0;                 // operations at the workers that have not been collected
+  // operations that were given to the workers and have not been collected
+  std::uint64_t submitted_ = 0;
 
-  std::vector<std::uint32_t> rings_;  // of the turns
+  std::vector<std::uint32_t> rings_;  // for the turns
   std::vector<FairTurns> ranks_;
   std::vector<std::uint64_t> occupied_;
   std::vector<FairTurns> fair_;      // one, if there is one rank and no lot; otherwise:
@@ -99,7 +101,7 @@ class NetMachine {
   std::string fault_;
   std::atomic<std::uint32_t> attention_{0};
   WakeWord wake_;
-  std::unique_ptr<WorkerPool> workers_;  // last, so that its threads end first
+  std::unique_ptr<WorkerPool> workers_;  // the last member, so that its threads end first
 };
 
 }  // namespace tessera

@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-/// The net of a subsystem made ready to be fired: names resolved to indices, arcs in compressed rows.
+/// The net of a subsystem, prepared for firing: names resolved to indices, arcs in compressed rows.
 /// Instances with the same tables share one. Immutable; can be moved, not copied.
 struct Plan {
   static constexpr std::uint32_t none = UINT32_MAX;
@@ -20,10 +20,11 @@ struct Plan {
     const TransitionEntry* departure = nullptr;  ///< the first of those that take from it; nullptr: none
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
-    std::uint16_t slot = 0;     ///< that is written or read, from 0
-    std::uint64_t ways = 0;     ///< of decide and route: bit i: a transition takes a token that says i
-    bool timed = false;         ///< a timeout counts from the arrival of its token
-    bool idle = false;          ///< nothing happens when a token arrives; not `out`
+    std::uint16_t slot = 0;     ///< slot that is written or read, from 0
+    /// of decide and route: bit i is set if a transition takes a token that says i
+    std::uint64_t ways = 0;
+    bool timed = false;  ///< a timeout counts from the arrival of its token
+    bool idle = false;   ///< an arriving token does nothing, and the place is not `out`
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;
@@ -43,7 +44,8 @@ struct Plan {
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
     std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
     bool last = false;                      ///< in departures: of its place
-    bool tells_of_timeout = false;  ///< of a place that a timeout counts from: elapsed, or the other way
+    /// takes from a place from which a timeout counts: an elapsed transition, or one of its alternatives
+    bool tells_of_timeout = false;
   };
   struct PortEntry {
     std::vector<std::uint16_t> needs;  ///< different sets of fused places its transitions take, as bits

@@ -5,8 +5,8 @@
 namespace tessera {
 namespace {
 
-/// Some microseconds in all, about what it costs to sleep and be woken. The first pause is long enough for
-/// the side at work to have a dozen turns out of its cache before the two meet again.
+/// Some microseconds in all, about the cost of sleeping and being woken. The first pause is long enough for
+/// the working side to have a dozen turns in its cache before the two meet again.
 constexpr int first_pause = 32, longest_pause = 64;
 
 void pause() {

@@ -14,39 +14,39 @@
 
 namespace tessera {
 
-/// The fused places of one channel as one atomic word, and the memory the two sides share.
+/// The fused places of one channel as one atomic word, and the memory that the two sides share.
 ///
-/// The word holds: the marking (a bit per fused place), what each side waits for (a bit per *need*), which
-/// side fired last, and a version that every firing raises. A need is a set of fused places that some
-/// transition of a side takes from, together. Every firing of a transition that touches the channel is one
-/// compare-and-swap:
+/// The word holds: the marking (a bit per fused place), what each side waits for (a bit per *need*),
+/// which side fired last, and a version that every firing raises. A need is a set of fused places
+/// that some transition of a side takes from, together. Every firing of a transition that touches the
+/// channel is one compare-and-swap:
 ///
 ///     (marking & need) == need   ->   (marking & ~need) | produced
 ///
-/// *No wake-up is lost.* A side that can fire nothing registers the needs it waits for by a compare-and-swap
-/// that is refused when, in the very word it replaces, one of them may be taken. So every later change of the
-/// word sees the registration, and whoever makes a change after which a registered need may be taken wakes
-/// that side: a firing (it changes the marking and who fired last) and a registration that shrinks (it may
+/// *No wake-up is lost.* A side that can fire nothing registers the needs that it waits for. It does so
+/// by a compare-and-swap that fails if one of the needs may be taken in the very word that it replaces.
+/// So every later change of the word sees the registration. If a registered need may be taken after a
+/// change, the side that made the change wakes the registered side. Only two changes can have this effect:
+/// a firing (it changes the marking and who fired last) and a registration that shrinks (it may release
+/// the other side, see below).
 /// release the other side, see below). Nothing else can make a need takeable.
+/// *Fairness.* A side that has been passed over says so when it registers again: it had registered,
+/// was woken, and found that the other side had fired again. From then on, the side that fired last
+/// does not take while the other is registered for a need that is met; it registers itself instead.
+/// This cannot block. The two sides cannot both be the last to fire, so the registered side may take.
+/// It has been woken by the change that met its need (above). Then it either takes, becomes the one that
+/// fired last, and wakes the first side; or it takes another way and withdraws the registration (before it
+/// runs any user code), which wakes the first side, too. Transitions that only give are never held back.
+/// A registration names each need and not their union, because a side must not be held back for a need
+/// that is met only in part. The first registration holds nobody back. Otherwise two busy sides would
+/// sleep and wake each other at every single turn.
 ///
-/// *Fairness.* A side that has been passed over - it registered, was woken, and found the other side at it
-/// again - says so when it registers once more. From then on the side that fired last does not take again
-/// while the other is registered for a need that is met; it registers itself instead. This cannot block: the
-/// two sides cannot both be the last to fire, so the registered side may take; it has been woken by the
-/// change that met its need (above); it either takes, after which it is the one that fired last and the first
-/// side is woken, or it takes another way and withdraws the registration (before it runs any user code),
-/// which wakes the first side too. Transitions that only give are never held back. A registration names needs
-/// exactly, not their union, because a side must not be held back for a need that is met in part. The first
-/// registration holds nobody back: were it to, two busy sides would sleep and wake each other at every single
-/// turn.
+/// The memory has one or more slots. A slot belongs to the side that has taken the token with which the
+/// net protects it. That token passes through the word, whose compare-and-swaps acquire and release, so
+/// the bytes need no atomics.
 ///
-/// The memory has one or more slots; each belongs to whoever has taken the token the net protects it with.
-/// That token passes through the word, whose compare-and-swaps acquire and release, so the bytes need no
-/// atomics.
-///
-/// Threads: one thread per side, or one for both, which then needs no exchange that others could interfere
-/// with;
-///         `connect` before they start.
+/// Threads: one thread per side, or one thread for both, which then needs no compare-and-swap;
+///          `connect` before they start.
 class alignas(64) SharedChannel {
  public:
   /// type: of the values, if they are more than their bytes.
@@ -56,21 +56,22 @@ class alignas(64) SharedChannel {
   SharedChannel(const SharedChannel&) = delete;
   SharedChannel& operator=(const SharedChannel&) = delete;
 
-  /// needs: what that side's transitions take, as sets of bits; nobody is woken when `waker` is nullptr.
+  /// needs: the sets of fused places that the side's transitions take, as bits.
+  /// waker: nullptr wakes nobody.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
-  /// One thread runs both sides.
+  /// Both sides run in one thread.
   void set_single_threaded();
 
-  /// Takes `taken` (one of the needs of that side, as bits, or nothing) and gives `produced`. 0: not now.
-  /// Otherwise the version that this firing made, and the registration of `side` is void.
+  /// Takes `taken` (one of the needs of that side, as bits, or nothing) and gives `produced`. 0: it cannot
+  /// fire now. Otherwise: the version that this firing made; the registration of `side` is removed.
   [[nodiscard]] std::uint32_t fire(Side side, std::uint16_t taken, std::uint16_t produced);
 
   /// Registers exactly `wants` (bit i: needs[i]; 0 withdraws). A side that is registered already insists on
-  /// its turn. false: one of them may be taken now; nothing changed.
+  /// its turn. false: one of the needs may be taken now, and nothing was changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
 
-  /// Whether a side has registered, and whether it may take one of the needs that it registered for. Threads:
-  /// any.
+  /// Whether a side has registered, and whether it may take one of the needs for which
+  /// it registered. Threads: any.
   enum class Waiting : std::uint8_t { no, in_vain, may_take };
   [[nodiscard]] Waiting waiting(Side side) const {
     const Word word{word_.load(std::memory_order_acquire)};
@@ -78,17 +79,17 @@ class alignas(64) SharedChannel {
     return waits_for_met_need(word, side) ? Waiting::may_take : Waiting::in_vain;
   }
 
-  /// Nothing can be taken before somebody gives: with the usual blocks, the other side is at the memory,
-  /// which runs no user code and is soon over.
+  /// Whether nothing can be taken before a side gives. With the built-in models this means that the other
+  /// side is at the memory, which runs no user code and is soon over.
   [[nodiscard]] bool held() const { return marking() == 0; }
-  /// Waits, awake, for that to be over; false: it takes too long.
+  /// Waits actively until that is over; false: it takes too long.
   [[nodiscard]] bool outwait() const;
 
   /// A value in transit.
   struct Memory {
     std::vector<std::byte> bytes;
     Time stamp{};
-    std::uint64_t sequence = 0;  ///< of the write that left it; 0: none yet
+    std::uint64_t sequence = 0;  ///< of the write that stored the value; 0: none yet
     bool valid = false;
   };
   /// Only while the calling side holds the token that protects the slot.
@@ -100,8 +101,8 @@ class alignas(64) SharedChannel {
   [[nodiscard]] std::uint16_t marking() const;
 
  private:
-  /// Bits 0-9 marking, 10-19 wants of the sender, 20-29 wants of the receiver, 30 the receiver fired last, 31
-  /// a side insists, 32-63 version.
+  /// Bits 0-9 marking, 10-19 wants of the sender, 20-29 wants of the receiver, 30 the receiver fired last,
+  /// 31 a side insists, 32-63 version.
   struct Word {
     std::uint64_t bits = 0;
 
@@ -123,8 +124,8 @@ class alignas(64) SharedChannel {
     [[nodiscard]] Word after_firing(Side side, std::uint16_t taken, std::uint16_t given) const;
   };
   struct alignas(64) Party {
-    std::uint64_t seen = 0;        // the word as this side left or found it; its own
-    bool single_threaded = false;  // the same for both; here, where looking costs nothing
+    std::uint64_t seen = 0;        // the word as this side left or found it; only this side uses it
+    bool single_threaded = false;  // the same for both sides; stored here, where reading it costs nothing
     Waker* waker = nullptr;
     std::uint32_t instance = 0;
     std::vector<std::uint16_t> needs;
@@ -144,11 +145,11 @@ class alignas(64) SharedChannel {
   [[nodiscard]] std::uint32_t fire_alone(Side side, std::uint16_t taken, std::uint16_t produced);
   [[nodiscard]] const Party& party(Side side) const { return parties_[static_cast<std::size_t>(side)]; }
 
-  std::atomic<std::uint64_t> word_;  // alone in its cache line, as each side's own are in theirs
+  std::atomic<std::uint64_t> word_;  // alone in its cache line; so are the data of each side
   std::array<Party, 2> parties_;
   std::vector<Memory> slots_;
   const ValueType* type_;
-  alignas(64) std::uint64_t writes_ = 0;  // the sender's own
+  alignas(64) std::uint64_t writes_ = 0;  // used by the sender only
 };
 
 inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint16_t wants) const {
@@ -160,13 +161,13 @@ inline SharedChannel::Word SharedChannel::Word::after_firing(Side side, std::uin
   std::uint64_t next = bits + one_version;
   if (next < one_version) next += one_version;  // version 0 means "no channel" in a recording
   const std::uint64_t waited = bits & field << wants_shift(side);
-  if (waited != 0) next &= ~(waited | insisting);  // it waits no more, and has had its turn
+  if (waited != 0) next &= ~(waited | insisting);  // the side waits no longer, and has had its turn
   next = (next & ~std::uint64_t{taken}) | given;
   return {side == Side::receive ? next | receiver_last : next & ~receiver_last};
 }
 
-/// Starts from the word as it was: to read it first would fetch its cache line twice, once to look and once
-/// to change.
+/// Starts from the last known word. To load it first would fetch its cache line twice:
+/// to read it and to change it.
 inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::uint16_t produced) {
   Party& own = parties_[static_cast<std::size_t>(side)];
   if (own.single_threaded) return fire_alone(side, taken, produced);

@@ -7,18 +7,18 @@
 
 namespace tessera {
 
-/// The transitions that wait for their turn, each at most once, in a ring: first come, first served. A value
-/// to be copied: the ring belongs to its maker.
+/// The transitions that wait for their turn, each at most once, in a ring: first come, first served. The
+/// object can be copied; the ring belongs to its maker.
 class FairTurns {
  public:
-  /// ring: a power of two of numbers, at least as many as can wait.
+  /// ring: its size is a power of two, and at least the number of transitions that can wait.
   explicit FairTurns(std::span<std::uint32_t> ring)
       : ring_(ring.data()), mask_(static_cast<std::uint32_t>(ring.size() - 1)) {}
 
   [[nodiscard]] bool empty() const { return first_ == end_; }
   void push(std::uint32_t transition) { ring_[end_++ & mask_] = transition; }
   [[nodiscard]] std::uint32_t pop() { return ring_[first_++ & mask_]; }
-  /// Moves one that waits to the front; the one in front takes its place. choice: below count().
+  /// Moves a waiting transition to the front; the one in front takes its place. choice: below count().
   void bring_forward(std::uint32_t choice) {
     std::swap(ring_[first_ & mask_], ring_[(first_ + choice) & mask_]);
   }
@@ -27,13 +27,13 @@ class FairTurns {
  private:
   std::uint32_t* ring_;
   std::uint32_t mask_;
-  std::uint32_t first_ = 0, end_ = 0;  // modulo 2^32, of which the ring's size is a divisor
+  std::uint32_t first_ = 0, end_ = 0;  // modulo 2^32, which is a multiple of the ring's size
 };
 
-/// The same with a ring per rank of priority, and by lot where asked. A value to be copied.
+/// The same with one ring per rank of priority, in random order if requested. The object can be copied.
 class RankedTurns {
  public:
-  /// rank: per transition. ranks: a ring each. occupied: one bit each, rounded up to words, all 0.
+  /// rank: per transition. ranks: one ring each. occupied: one bit each, rounded up to words, all 0.
   RankedTurns(std::span<const std::uint32_t> rank, std::span<FairTurns> ranks,
               std::span<std::uint64_t> occupied)
       : rank_(rank.data()), ranks_(ranks.data()), occupied_(occupied) {}

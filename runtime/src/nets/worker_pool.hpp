@@ -16,22 +16,21 @@ class WorkerPool {
  public:
   struct Finished {
     std::uint32_t place;
-    std::exception_ptr thrown;  ///< null: it came to its end
+    std::exception_ptr thrown;  ///< null: the operation returned
   };
 
-  /// on_finished: called by a worker after `collect` has got something to give. Starts `threads` threads.
+  /// on_finished: called by a worker when `collect` has something to return. Starts `threads` threads.
   WorkerPool(std::uint32_t threads, std::function<void()> on_finished);
-  /// Waits for the operations that run; those that have not begun never do.
+  /// Waits for the operations that run; those that have not begun will not run.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// operation: has to live until it is collected or not_begun.
+  /// operation: must live until `collect` or `halt` returns its place.
   void submit(std::uint32_t place, const std::function<void()>& operation);
-  /// Appends what has finished since the last call.
+  /// Appends the operations that have finished since the last call.
   void collect(std::vector<Finished>& finished);
-  /// Waits for the operations that run, and appends the places of those that had not begun, which are
-  /// dropped.
+  /// Waits for the operations that run. Drops those that have not begun, and appends their places.
   void halt(std::vector<std::uint32_t>& not_begun);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// The marking of the flat net after the firings of a recording so far: a segment of a recording begins with
-/// it, so that it can be checked without those before.
+/// The marking of the flat net after the recorded firings so far. A segment of a recording begins with it,
+/// so that the segment can be checked without earlier ones.
 ///
 /// Threads: one at a time.
 class MarkingTrack {
@@ -19,15 +19,15 @@ class MarkingTrack {
   static constexpr std::uint32_t none = UINT32_MAX;
   MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channels);
 
-  /// Its places hold tokens, and its version is the next of its channel: all that it follows from has fired.
-  /// Always so once the marking is not known any more.
+  /// Whether the input places hold tokens, and the version is the next of its channel: every firing before
+  /// it has been recorded. Always true once the marking is not known any more.
   [[nodiscard]] bool may_fire(const Event& firing) const;
-  /// Of one that may not fire, because events are missing, the marking is not known any more.
+  /// If the transition cannot fire because events are missing, the marking is not known any more.
   void fire(const Event& firing);
   [[nodiscard]] bool known() const { return known_; }
-  /// From now on firings come in any order.
+  /// From now on, firings come in any order.
   void forget() { known_ = false; }
-  /// Names of the places that hold a token, a line each.
+  /// Names of the places that hold a token, one per line.
   [[nodiscard]] std::string marked() const;
 
  private:

@@ -97,7 +97,7 @@ void RecordingLane::push(const Event& event) {
     ring_[pushed_++ & (ring_.size() - 1)] = event;
 }
 
-/// In pieces of the size of an event, the last filled up.
+/// Pushes the bytes in pieces of the size of an event; the last piece is padded.
 void RecordingLane::push_bytes(const void* bytes, std::size_t count) {
   const auto* next = static_cast<const char*>(bytes);
   while (count > 0) {
@@ -142,7 +142,7 @@ std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_vi
                                          std::unique_ptr<MarkingTrack> track) {
   std::unique_ptr<Recorder> recorder(new Recorder);
   if (!recorder->file_.open(path, header, error, limit, std::move(track))) return nullptr;
-  // About 24 MB of rings, up to a quarter of a second at a million events a second for each.
+  // About 24 MB of rings. Each can hold up to a quarter of a second at a million events per second.
   const std::size_t least = std::max<std::size_t>(512, 8 * longest / sizeof(Event));
   const std::size_t capacity =
       mode == Mode::direct
@@ -161,14 +161,14 @@ Recorder::~Recorder() {
 }
 
 void Recorder::write_until_closed() {
-  WakeWord never;  // only its timeout ends the wait: producers must not pay for waking a writer
+  WakeWord never;  // only its timeout ends the wait, so that producers never have to wake the writer
   try {
     while (closing_.load(std::memory_order_acquire) == 0) {
       drain();
       file_.flush();
       never.sleep(never.ticket(), monotonic_ns() + drain_period_ns);
     }
-  } catch (const std::exception& exception) {  // no memory: what comes now is lost, and counted
+  } catch (const std::exception& exception) {  // no memory: events that come now are lost, and counted
     file_.fail(exception.what());
   }
 }
@@ -178,9 +178,9 @@ void Recorder::drain() {
   for (const auto& lane : lanes_) lane->drain();
 }
 
-/// Segments can be checked by themselves because every firing comes after those it follows from. A firing
-/// waits for those as long as its thread and theirs need, however busy the machine is: only when one of them
-/// is lost, or events are soon lost, the rest is written as it comes.
+/// Segments can be checked by themselves because every firing comes after those on which it depends. A
+/// firing waits for those as long as the threads need, however busy the machine is. Only if one of them is
+/// lost, or events will soon be lost, the rest is written as it comes.
 void Recorder::drain_in_order() {
   bool moved = true, give_up = false;
   while (moved && !give_up) {
@@ -215,7 +215,7 @@ Recorder::Result Recorder::close() {
   for (const auto& lane : lanes_) lost += lane->lost();
   file_.put_end(lost);
   file_.close();
-  if (!file_.failure().empty()) {  // of closing too
+  if (!file_.failure().empty()) {  // also an error of closing
     lost = file_.lost();
     for (const auto& lane : lanes_) lost += lane->lost();
   }

@@ -18,14 +18,13 @@
 
 namespace tessera {
 
-/// Where the bytes of a recording go. Errors are remembered, not thrown; after one nothing is written any
-/// more.
+/// Writes the bytes of a recording. Errors are remembered, not thrown; after an error nothing is written.
 ///
 /// Threads: one at a time.
 class RecordingFile {
  public:
-  /// track: from the start of the run; not nullptr if there is a limit. false and `error` when it cannot be
-  /// created, or the limit is too small for the header.
+  /// track: from the start of the run; not nullptr if there is a limit. false and `error` if the file
+  /// cannot be created, or if the limit is too small for the header.
   [[nodiscard]] bool open(const std::string& path, std::string_view header, std::string& error,
                           RunOptions::Limit limit = {}, std::unique_ptr<MarkingTrack> track = nullptr);
   RecordingFile() = default;
@@ -34,18 +33,19 @@ class RecordingFile {
   ~RecordingFile();
 
   void append(const Event& event);
-  /// The order of what follows is not known: neither is the marking that a later segment begins with.
+  /// The order of later events is not known. So the marking at the start of a
+  /// later segment is unknown, too.
   void forget_marking() {
     if (track_ != nullptr) track_->forget();
   }
-  /// The last event of all, which tells a run that has ended from one that was cut off. lost: events that
-  /// are missing.
+  /// Writes the last event, which distinguishes a run that has ended from one that was cut off.
+  /// lost: number of missing events.
   void put_end(std::uint64_t lost);
   void flush();
   void close();
   /// Nothing is written any more.
   void fail(std::string_view why) { failure_ = why; }
-  /// The run has ended: a pipe that nobody reads is waited for two seconds more. Threads: any.
+  /// The run has ended: waits at most two seconds more for a pipe that nobody reads. Threads: any.
   void hurry() { hurry_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
   [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
@@ -65,7 +65,7 @@ class RecordingFile {
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;
   std::uint64_t pieces_left_ = 0;  // of the text of the last event
-  std::int64_t last_ns_ = 0;       // the latest event
+  std::int64_t last_ns_ = 0;       // time of the latest event
   int descriptor_ = -1;
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
@@ -74,31 +74,31 @@ class RecordingFile {
   std::atomic<bool> hurry_{false};
 };
 
-/// Events of one thread on their way to the file: appended at once, or through a ring to a thread that
-/// writes. A full ring loses the event and counts it; nothing ever waits.
+/// Passes the events of one thread to the file: directly, or through a ring to a thread that writes. If the
+/// ring is full, the event is lost and counted; nothing ever waits.
 ///
 /// Threads: the producer's; drain on the writer's.
 class RecordingLane {
  public:
-  /// capacity 0: append at once.
+  /// capacity 0: events are appended directly.
   RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity);
 
   void firing(Time time, std::uint32_t transition, std::uint32_t version);
   void overrun(Time time, std::uint32_t missed);
   void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
   void call(Time time, std::uint32_t behaviour, std::uint64_t iteration);
-  /// head: at most sizeof(Event) bytes, before the others.
+  /// head: at most sizeof(Event) bytes that are written before the others.
   void value(Time time, std::uint32_t buffer, std::uint32_t flags, std::span<const std::byte> head,
              std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
-  /// What is in the ring goes to the file; in_order: up to a firing that follows from one which is not there
-  /// yet. true: there was something.
+  /// Writes the content of the ring to the file. in_order: only up to a firing that depends on one that is
+  /// not in the file yet. true: there was something.
   bool drain(bool in_order = false);
-  /// The writer's view of it.
+  /// The state of the ring as the writer sees it.
   struct Backlog {
-    bool waits = false;     ///< something is in the ring
-    bool is_high = false;   ///< so much that events are soon lost
-    bool has_lost = false;  ///< a firing, for ever
+    bool waits = false;     ///< the ring is not empty
+    bool is_high = false;   ///< the ring is so full that events will soon be lost
+    bool has_lost = false;  ///< a firing has been lost for good
   };
   [[nodiscard]] Backlog backlog() const;
 
@@ -113,9 +113,9 @@ class RecordingLane {
   std::uint32_t sequence_ = 0;
   std::uint64_t lost_ = 0;
   RecordingFile& file_;
-  std::vector<Event> ring_;         // empty: append at once; otherwise a power of two
-  std::uint64_t pushed_ = 0;        // the producer's
-  std::uint64_t seen_drained_ = 0;  // the producer's last look at drained_
+  std::vector<Event> ring_;         // empty: events are appended directly; otherwise a power of two
+  std::uint64_t pushed_ = 0;        // used by the producer only
+  std::uint64_t seen_drained_ = 0;  // the value of drained_ that the producer saw last
   alignas(64) std::atomic<std::uint64_t> published_{0};
   std::atomic<bool> has_lost_firings_{false};
   alignas(64) std::atomic<std::uint64_t> drained_{0};
@@ -125,8 +125,8 @@ class RecordingLane {
 class Recorder {
  public:
   enum class Mode : std::uint8_t { direct, threaded };
-  /// nullptr and `error` when the file cannot be created.
-  /// longest: bytes of the longest value. limit, track: as RecordingFile::open.
+  /// nullptr and `error` if the file cannot be created. longest: length of the longest value in bytes.
+  /// limit, track: as in RecordingFile::open.
   [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, std::string_view header,
                                                       std::uint32_t instances, Mode mode, std::string& error,
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
@@ -141,7 +141,7 @@ class Recorder {
     std::uint64_t lost = 0;
     std::string failure;
   };
-  /// Writes what is left. Only after the producers have ended.
+  /// Writes the remaining events. Only after the producers have ended.
   [[nodiscard]] Result close();
 
  private:

@@ -18,12 +18,13 @@
 namespace tessera {
 namespace {
 
-constexpr std::int64_t pipe_patience_ns = 2'000'000'000;  // at the end, with a pipe that nobody reads
+// at the end of the run, for a pipe that nobody reads
+constexpr std::int64_t pipe_patience_ns = 2'000'000'000;
 constexpr int look_up_ms = 50;
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
-/// Segments that an earlier recording of that name has left would be read with this one. Other files of such
-/// a name are not ours to remove or to write over: false and `error`.
+/// Removes segments of an earlier recording with that name, which would be read together with this one.
+/// Other files with such a name are neither removed nor overwritten: false and `error`.
 bool remove_segments(const std::string& path, std::string& error) {
   namespace fs = std::filesystem;
   const fs::path whole(path);
@@ -66,7 +67,7 @@ bool RecordingFile::open(const std::string& path, std::string_view header, std::
   return false;
 }
 
-/// The file and its header.
+/// Opens the file and writes its header.
 bool RecordingFile::open_segment() {
   descriptor_ = ::open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
   if (descriptor_ < 0) return false;
@@ -79,7 +80,7 @@ bool RecordingFile::open_segment() {
   }
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
-  start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // with the padding
+  start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // including the padding
   start.append(recording_magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
@@ -109,7 +110,7 @@ void RecordingFile::put(const Event& event) {
   if (filled_ == buffer_.size()) flush();
 }
 
-/// Each segment ends with an event that says so.
+/// Tracks the marking. Each segment ends with an event that says so.
 void RecordingFile::keep_track(const Event& event) {
   if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
     begin_segment(event.time_ns);
@@ -127,7 +128,7 @@ void RecordingFile::put_end(std::uint64_t lost) {
   if (failure_.empty()) put_end(lost, /*goes_on=*/false);
 }
 
-/// The last one gets its number, the one that is too old goes.
+/// Gives the last segment its number, and removes the oldest one if there are too many.
 void RecordingFile::begin_segment(std::int64_t time_ns) {
   put_end(0, /*goes_on=*/true);
   flush();
@@ -183,7 +184,8 @@ void RecordingFile::write_all(const char* bytes, std::size_t count) {
   }
 }
 
-/// Of a pipe. Its reader may be slow; once the run is at its end it must read on, or lose the rest.
+/// Waits for room in a pipe. Its reader may be slow; but once the run is at its end, the reader must
+/// go on, or the rest is lost.
 void RecordingFile::await_room(std::int64_t& stuck_ns) {
   pollfd room{.fd = descriptor_, .events = POLLOUT, .revents = 0};
   if (poll(&room, 1, look_up_ms) > 0) return;

@@ -35,7 +35,7 @@ ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffe
     outputs_.emplace_back(number++, output.value, output.encoding, limit);
 }
 
-/// Looks at the value; `written` becomes what it is now.
+/// Whether the value has changed; `written` becomes the value now.
 bool ValueRecorder::changed(Buffer& buffer) {
   buffer.now.clear();
   buffer.encoding->put(buffer.value, buffer.now);
@@ -79,7 +79,7 @@ void ValueRecorder::real_input(std::size_t index, Time now, Reading reading) {
   const bool failed = reading == Reading::failed;
   if (std::exchange(buffer.silent, true) && !failed) return;
   lane_.value(now, buffer.number, failed ? ValueFlags::failed : ValueFlags::silent, {}, {});
-  // Whether the device has no value or throws again is said anew.
+  // Whether the device has no value, or throws again, is recorded again.
   if (failed) buffer.silent = false, buffer.known = false;
 }
 

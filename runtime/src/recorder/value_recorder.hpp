@@ -9,13 +9,13 @@
 
 namespace tessera {
 
-/// Writes the values of one subsystem's buffers into its lane, when they change, and when its transition
-/// functions begin: what `simulate --from` needs to run the user's code again.
+/// Writes the values of one subsystem's buffers into its lane when they change and when its transition
+/// functions begin. `simulate --from` needs them to run the user's code again.
 ///
-/// *Order of buffers.* Those of a subsystem are numbered one after the other: inputs, outputs, real inputs,
-/// real outputs.
+/// *Order of buffers.* The buffers of a subsystem are numbered in this order: inputs, outputs,
+/// real inputs, real outputs.
 ///
-/// Threads: the subsystem's. Nothing but the constructor allocates.
+/// Threads: the subsystem's. Only the constructor allocates.
 class ValueRecorder {
  public:
   /// limit: of larger values only size and hash are written.
@@ -25,11 +25,11 @@ class ValueRecorder {
   void call(Time now, std::uint32_t behaviour, std::uint64_t iteration) {
     lane_.call(now, behaviour, iteration);
   }
-  /// newer: than all that have been read.
+  /// newer: than all values that have been read.
   void input(std::size_t index, Time now, bool newer);
   enum class Reading : std::uint8_t { value, silent, failed };
   void real_input(std::size_t index, Time now, Reading reading);
-  /// Those that have changed.
+  /// Records the outputs that have changed.
   void outputs(Time now);
 
  private:
@@ -40,8 +40,8 @@ class ValueRecorder {
     const void* value;
     const ValueEncoding* encoding;  // nullptr: not recorded
     ValueSink written, now;
-    bool known = false;   // `written` is what the recording says
-    bool silent = false;  // the recording says so
+    bool known = false;   // `written` is the value in the recording
+    bool silent = false;  // the recording says that the device has no value
   };
   [[nodiscard]] static bool changed(Buffer& buffer);
   void write(Buffer& buffer, Time now, std::uint32_t flags, std::span<const std::byte> stamp);
@@ -61,7 +61,7 @@ void for_buffers(const Bindings& bindings, Visit visit) {
   for (const Bindings::RealOutgoing& buffer : bindings.real_outputs) visit(Direction::real_output, buffer);
 }
 
-/// How many buffers a subsystem has, as they are numbered.
+/// The number of buffers of a subsystem that are numbered.
 [[nodiscard]] std::uint32_t count_buffers(const Bindings& bindings);
 
 }  // namespace tessera

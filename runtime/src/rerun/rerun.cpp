@@ -14,7 +14,7 @@ namespace {
 
 using Entry = Recording::Entry;
 
-/// All of it.
+/// Plays the whole recording.
 class Play {
  public:
   Play(const System& system, RunOptions options, const Recording& recording)
@@ -50,7 +50,7 @@ class Play {
     return options;
   }
 
-  /// Why it cannot be run again from this recording; empty: it can.
+  /// The reason why this recording cannot be run again; empty: it can.
   [[nodiscard]] std::string complaint() const {
     const System& system = assembly_.system;
     if (recording_.net_hash != system.net_hash)
@@ -82,7 +82,7 @@ class Play {
     return "";
   }
 
-  /// The controller's buffers must be those of the recording.
+  /// Checks that the controller's buffers are those of the recording.
   [[nodiscard]] std::string complaint_of_buffers(const LooseParts& parts) const {
     std::size_t number = 0;
     std::string wrong;
@@ -106,7 +106,7 @@ class Play {
     return wrong;
   }
 
-  /// The header is that of a recording of this net, but a damaged file may say anything.
+  /// The header belongs to a recording of this net, but the events of a damaged file may be arbitrary.
   [[nodiscard]] std::string complaint_of_events(const LooseParts& parts) const {
     if (recording_.instances.size() != parts.parts.size()) return "it is damaged";
     for (const Entry& entry : recording_.entries) {
@@ -166,7 +166,7 @@ class Play {
     if (difference && (!report_.first || difference->at < report_.first->at)) report_.first = difference;
   }
 
-  /// A stop that user code asked for then but not now, or the other way round.
+  /// Compares whether user code asked for a stop now and in the recording.
   void compare_stop() {
     std::string recorded = "goes on";
     bool asserted = false;
@@ -195,7 +195,7 @@ class Play {
   Assembly assembly_;
   SimulatedClock clock_;
   std::vector<std::unique_ptr<RerunSubsystem>> subsystems_;
-  std::optional<Difference> stopped_;  // when and where user code asked for it
+  std::optional<Difference> stopped_;  // when and where user code asked for a stop
   RerunReport report_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-/// Where user code did something else than in the recording.
+/// A point where user code did something else than in the recording.
 struct Difference {
   std::string subsystem;
   Time at{};                ///< of the call of the transition function, or of the decision
@@ -19,33 +19,33 @@ struct Difference {
   std::string recorded, computed;
 };
 
-/// What came of running user code again.
+/// The result of running user code again.
 struct RerunReport {
   std::string recording;
-  Duration recorded{};  ///< how long the run was
+  Duration recorded{};  ///< duration of the recorded run
   struct PerBuffer {
     std::string path;
-    std::uint64_t differing = 0;  ///< iterations after which it held another value
+    std::uint64_t differing = 0;  ///< iterations after which the buffer held another value
   };
   struct PerSubsystem {
     std::string path;
     std::uint64_t iterations = 0;  ///< that were run again and compared
-    std::uint64_t decisions = 0;   ///< that were made in another way
+    std::uint64_t decisions = 0;   ///< conditions that were decided differently
     std::vector<PerBuffer> outputs;
   };
   std::vector<PerSubsystem> subsystems;
-  std::optional<Difference> first;  ///< by time; nullopt: it does what it did
+  std::optional<Difference> first;  ///< by time; nullopt: the code does what it did
 };
 
-/// Runs the user's code of a controller again on what a recording says it was given: every transition
-/// function and condition is called at the time, with the iteration and with the inputs that are recorded,
-/// and what it makes of them is compared with what is recorded. Whatever it makes, the next inputs and the
-/// path through the net are the recorded ones, so every difference is the user code's own, and none follows
-/// from another but by way of what the subsystem remembers. Devices, world and channels are not needed;
-/// parameters, seed and injected faults are the recorded ones, after which those of the options come.
+/// Runs the user's code of a controller again on recorded data. Every transition function and every
+/// condition is called at the recorded time, with the recorded iteration and inputs. The results are
+/// compared with the recorded ones. Whatever the results are, the next inputs and the path through the net
+/// are the recorded ones. So every difference is caused by the user code itself; it can affect later
+/// iterations only through the memory of the subsystem. Devices, world and channels are not needed.
+/// Parameters, seed and planted faults are the recorded ones, followed by those of the options.
 ///
-/// Errors: a recording that cannot be read, is of another net or of other types of buffers, lacks values or
-/// events or its beginning: nullopt and `error`.
+/// Errors: a recording that cannot be read, that belongs to another net or has other types of buffers, or
+///         that lacks values, events or its beginning: nullopt and `error`.
 ///
 /// Threads: as execute.
 [[nodiscard]] std::optional<RerunReport> rerun(const System& system, RunOptions options,

@@ -24,7 +24,7 @@ using Entry = Recording::Entry;
   return std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
 }
 
-/// What made the recorded iteration fail; nullptr: it did not.
+/// The fault that made the recorded iteration fail; nullptr: it did not fail.
 [[nodiscard]] const Entry* recorded_failure(const RecordedMoment& moment) {
   for (const Entry* entry : moment.rest) {
     if (entry->event.kind() != Event::Kind::fault) continue;
@@ -36,20 +36,20 @@ using Entry = Recording::Entry;
   return nullptr;
 }
 
-/// No user code makes it happen again.
+/// Whether the fault has a cause outside of user code, so that it does not happen again.
 [[nodiscard]] bool comes_from_outside(const Entry& fault) {
   const auto kind = static_cast<Fault>(fault.event.version);
   return kind == Fault::device || kind == Fault::stall;
 }
 
-/// Takes every command: that one was refused is recorded.
+/// Takes every command. A refusal is taken from the recording.
 class DeafEffector final : public RealEffector {
   bool write(std::span<const std::byte>) override { return true; }
 };
 
 }  // namespace
 
-/// Gives what is recorded of a real input.
+/// Returns the recorded values of a real input.
 class RerunSubsystem::RecordedReceptor final : public RealReceptor {
  public:
   RecordedReceptor(const Held& held, const ValueEncoding& encoding) : held_(held), encoding_(encoding) {}
@@ -139,7 +139,7 @@ void RerunSubsystem::call(const RecordedMoment& moment) {
   unfinished_ = &moment;
 }
 
-/// Only now is it known that the recorded one had ended, too.
+/// Called late, because only now it is known that the recorded call had ended, too.
 void RerunSubsystem::finish_call() {
   const RecordedMoment* const moment = std::exchange(unfinished_, nullptr);
   if (moment == nullptr) return;
@@ -182,7 +182,7 @@ void RerunSubsystem::compare_outputs() {
   }
 }
 
-/// The first field that is another.
+/// Names the first field that differs.
 void RerunSubsystem::name_difference(const Output& output, const Held& held, std::string_view computed) {
   const std::string name = recording_.buffers[output.number].path.substr(report_.path.size() + 1);
   if (held.hashed || !output.layout) return differ(name, "a large value", "another");
@@ -220,7 +220,7 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
   const Plan::PlaceEntry& entry = plan_->places[place];
   switch (entry.does) {
     case Does::Kind::nothing:
-    case Does::Kind::call:  // recorded for itself
+    case Does::Kind::call:  // recorded separately
       break;
     case Does::Kind::count:
       operations_.count();
@@ -240,8 +240,8 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
   }
 }
 
-/// The channel gets what is recorded. Of newer values the number grows; older ones have the numbers 1 and 2
-/// in turns, for a value with the number of the last is none that is read.
+/// Puts the recorded value into the channel. The sequence number of newer values grows. Older values
+/// alternate between the numbers 1 and 2, because a value with the same number as the last one is not read.
 void RerunSubsystem::read(std::uint16_t port, std::uint16_t slot, const RecordedMoment& moment) {
   const PortLink& link = parts().ports[port];
   Time now = at_;
@@ -262,7 +262,7 @@ void RerunSubsystem::read(std::uint16_t port, std::uint16_t slot, const Recorded
     now = Time(Duration(entry->event.time_ns));
     return operations_.read(port, slot, now);
   }
-  link.channel->memory(slot).sequence = reads_[link.buffer].last;  // nothing new
+  link.channel->memory(slot).sequence = reads_[link.buffer].last;  // no new value
   operations_.read(port, slot, now);
 }
 

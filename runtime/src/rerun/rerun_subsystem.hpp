@@ -15,31 +15,31 @@
 
 namespace tessera {
 
-/// A firing or a call, and what is recorded of its subsystem until the next one.
+/// A firing or a call, and everything that is recorded about its subsystem until the next one.
 struct RecordedMoment {
   const Recording::Entry* head;
   std::vector<const Recording::Entry*> rest;
 };
 
-/// The user's code of one subsystem, run again on what is recorded (rerun).
+/// The user's code of one subsystem, run again on recorded data (rerun).
 ///
 /// Threads: one.
 class RerunSubsystem {
  public:
-  /// first_buffer: how the recording numbers those of this subsystem. part, which is taken, was checked
-  /// against the recording; that, control and clock must outlive this.
+  /// first_buffer: number of the subsystem's first buffer in the recording. part: is moved from; it was
+  /// checked against the recording. recording, control and clock must outlive this object.
   RerunSubsystem(LoosePart& part, std::uint32_t first_buffer, const Recording& recording, RunControl& control,
                  const Clock& clock);
 
-  /// The next one of this subsystem.
+  /// Plays the next moment of this subsystem.
   void play(const RecordedMoment& moment);
   [[nodiscard]] const RerunReport::PerSubsystem& report() const { return report_; }
   [[nodiscard]] const std::optional<Difference>& first() const { return first_; }
-  /// Where the last moment was.
+  /// The position of the last moment.
   [[nodiscard]] Difference here() const { return {report_.path, at_, iteration_, "", "", ""}; }
 
  private:
-  /// What the recording says of a buffer up to now.
+  /// The value of a buffer at this point of the recording.
   struct Held {
     std::string bytes;  // of a hashed value: number and hash
     bool hashed = false, silent = false, failed = false;

@@ -26,7 +26,7 @@ namespace {
   return value;
 }
 
-/// As the user wrote it, before it means anything.
+/// The options as the user wrote them, before they are interpreted.
 struct Words {
   std::string duration, parameter_file, record_limit;
   std::vector<std::string> parameters, drivers;
@@ -88,13 +88,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
           "simulated clock is then not faster than the wall clock")
       ->allow_extra_args(false);
   command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
-  command.add_option("--summary", line.summary, "Write what the run came to as JSON; - is standard output");
+  command.add_option("--summary", line.summary, "Write the result of the run as JSON; - is standard output");
   command.add_flag("--accept-stuck", options.accept_stuck,
                    "A subsystem that waits for ever, while others go on, is no failure");
   command.add_flag("--progress", options.progress, "Show progress on standard error");
-  command.add_option(
-      "--death-note", options.death_note,
-      "Write to this file where and of what the process died, if it dies in the middle of the run");
+  command.add_option("--death-note", options.death_note,
+                     "If the process dies during the run, write to this file where and why");
   command
       .add_option(
           "--parent", options.parent,
@@ -102,7 +101,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->check(CLI::PositiveNumber);
 }
 
-/// What is wrong with the words; empty: nothing, and the options are filled.
+/// Returns what is wrong with the words; empty: nothing, and the options are filled.
 [[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
   if (!words.duration.empty()) {
     options.duration = parse_duration(words.duration);
@@ -138,7 +137,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   return "";
 }
 
-/// What the controller was made of, and what is known about that.
+/// The net and the verdicts from which the controller was made.
 [[nodiscard]] std::string about(const System& system) {
   std::string text =
       fmt::format("{}\nnet {}\nverification {}\n", system.name, system.net_hash, system.verification_hash);
@@ -256,7 +255,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_option("--schedules", line.schedules,
                        "Try so many seeds from --seed on, interleaved; report the first whose run fails");
   simulate->add_option("--from", line.from,
-                       "Run user code again on what this recording says it was given; compare what it does");
+                       "Run user code again on the inputs of this recording, and compare the results");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   simulate->add_flag("--controlled", words.controlled,
                      "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");

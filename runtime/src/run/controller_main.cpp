@@ -17,7 +17,8 @@
 namespace tessera {
 namespace {
 
-constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;  // and its number
+// The exit code after a signal is exit_signal plus the number of the signal.
+constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
 
 [[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
   if (file == "-") return static_cast<bool>(std::cout << json << std::flush);
@@ -27,8 +28,9 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;  // and its numbe
 }
 
 [[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
-  const console::Session session;  // a terminal that takes nothing does not hold up the end
-  // Whoever asks for a file shows what is in it.
+  // Does not delay the end if the terminal takes nothing.
+  const console::Session session;
+  // A user who asks for a summary file shows its content.
   if (summary.failed && line.summary.empty()) console::say(summary_lines(summary));
   if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);

@@ -51,21 +51,22 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
-/// The devices of all subsystems are open while it lives.
+/// Keeps the devices of all subsystems open while it exists.
 class OpenDevices {
  public:
   explicit OpenDevices(Assembly& assembly) : assembly_(assembly) {}
   OpenDevices(const OpenDevices&) = delete;
   OpenDevices& operator=(const OpenDevices&) = delete;
-  /// Only for a run that ends by an exception; every other one has given the safe command and called `close`.
+  /// Acts only if the run ends by an exception; every other run has given the safe
+  /// command and called `close`.
   ~OpenDevices() {
     if (!open_) return;
     for (const auto& executor : assembly_.executors) executor->leave();
     close();
   }
 
-  /// Effectors come first, so that they are safe soon. false and `error`: the run must not start; nothing is
-  /// open any more.
+  /// Effectors are opened first, so that they are safe soon. false and `error`: the run must not start;
+  /// no device is open any more.
   [[nodiscard]] bool open(std::string& error) {
     open_ = true;
     for (const bool effectors : {true, false})
@@ -99,7 +100,7 @@ class OpenDevices {
   bool open_ = false;
 };
 
-/// Everything but what only the driver of the run knows.
+/// Everything except what only the driver of the run knows.
 template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
                                               std::string& error) {
@@ -160,7 +161,7 @@ template <class Run>
 
 [[nodiscard]] std::optional<RunSummary> with_lost_lines(std::optional<RunSummary> summary,
                                                         const Assembly& assembly, console::Session& session) {
-  if (!summary && assembly.guardian != nullptr) assembly.guardian->dismiss();  // it has not started
+  if (!summary && assembly.guardian != nullptr) assembly.guardian->dismiss();  // the run has not started
   if (summary) summary->lines_not_printed = session.settle();
   return summary;
 }
@@ -171,15 +172,15 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
   const auto instances = static_cast<std::uint32_t>(system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
-  // Before the first driver is made, until the last is gone. Only the steady clock can be suspended.
+  // From before the first driver is made until the last is gone. Only the steady clock can be suspended.
   using Suspension = StopSignals::Suspension;
   const StopSignals signals(nothing_real ? Suspension::usual
                             : simulated  ? Suspension::ends_run
                                          : Suspension::noted);
-  // Before there are threads.
+  // Must run before there are threads.
   Companions companions(system, options);
   if (!companions.start_guardian(error)) return std::nullopt;
-  // Nothing real waits because somebody reads slowly what is printed.
+  // Nothing real waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
   companions.watch();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t schedules_progress_period_ns = 200'000'000;
 
-/// Keeps the terminal to itself while it lives.
+/// Turns the output of the runs off while it exists.
 class Quiet {
  public:
   Quiet() { console::silence(true); }

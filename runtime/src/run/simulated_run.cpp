@@ -15,14 +15,14 @@
 namespace tessera {
 namespace {
 
-/// Keeps simulated time from running ahead of the wall clock; a signal or a command ends the wait.
+/// Keeps simulated time from running ahead of real time. A signal or a command ends the wait.
 class Pace {
  public:
-  /// hardware: time that was lost is not made up for, so that it never goes faster than the wall clock.
+  /// hardware: lost time is not made up for, so that simulated time is never faster than real time.
   Pace(bool realtime, bool hardware, RemoteControl* remote, const StopSignals& signals)
       : speed_(realtime || hardware ? 1 : 0), hardware_(hardware), remote_(remote), signals_(signals) {}
 
-  /// From here time counts anew: it has stood still, or goes faster or slower now.
+  /// Counts time from here again: it has stood still, or its speed has changed.
   void restart(Time now) {
     start_ = now;
     start_ns_ = monotonic_ns();
@@ -41,7 +41,7 @@ class Pace {
       if (hardware_) restart(time);
       return true;
     }
-    if (recorder != nullptr) recorder->flush();  // there is time, and whoever watches sees what has happened
+    if (recorder != nullptr) recorder->flush();  // there is time for it, and an observer sees the events
     if (remote_ != nullptr) return remote_->wait_for(Duration(left_ns), signals_);
     timespec left{.tv_sec = left_ns / 1'000'000'000, .tv_nsec = left_ns % 1'000'000'000};
     pollfd signal{.fd = signals_.descriptor(), .events = POLLIN, .revents = 0};
@@ -116,7 +116,7 @@ void SimulatedRun::move_to(Assembly& assembly, Time time) {
   survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); });
 }
 
-/// All devices at this instant, not when their subsystems have their next turn.
+/// Gives safe commands to all devices at this instant, and not at the next turns of their subsystems.
 void SimulatedRun::follow_emergency(Assembly& assembly) {
   using News = EmergencyWatch::News;
   const RunControl& control = assembly.control;
@@ -127,8 +127,8 @@ void SimulatedRun::follow_emergency(Assembly& assembly) {
   }
 }
 
-/// Whoever takes its turn has it to the end, however often it is interrupted: so the run is the same.
-/// true: it was paused meanwhile.
+/// A subsystem finishes its turn, however often the turn is interrupted, so that the run stays the same.
+/// true: the run was paused in the meantime.
 bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   bool waited = false;
   while ((unfinished_ || !ready_.empty()) && !assembly.control.stopping()) {
@@ -155,7 +155,8 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
   Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
-  for (const auto& executor : assembly.executors) executor->insist();  // nobody waits for who refuses
+  // does not wait for a device that refuses
+  for (const auto& executor : assembly.executors) executor->insist();
   calls_.reset();
   return ending;
 }
@@ -177,7 +178,7 @@ std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLay
   return std::nullopt;
 }
 
-/// Time passes until the step can be made; false: it never can.
+/// Lets time pass until the step can be made. false: it can never be made.
 bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index) {
   const Scenario::Step& step = assembly.scenario->steps[index];
   SubsystemExecutor& executor = *assembly.executors[step.instance];
@@ -210,7 +211,7 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
     if (has_ended_[instance] || executor.firings() != firings_at_scenario_end_[instance]) continue;
     stuck += (stuck.empty() ? "" : "; ") + executor.whereabouts(assembly.system);
   }
-  if (stuck.empty() || ending.failed) return ending;  // why it failed says more
+  if (stuck.empty() || ending.failed) return ending;  // the reason of the failure says more
   ending.text += "; stuck since the scenario: " + stuck;
   ending.failed = true;
   return ending;

@@ -24,15 +24,15 @@ struct Ending {
   std::string text;  ///< as RunSummary::ended
   bool failed = false;
   Time at{};
-  int signal = 0;                        ///< that ended it; 0: none did
-  std::optional<Duration> world_time{};  ///< of a world that was slower than real time: how far it has come
+  int signal = 0;                        ///< the signal that ended the run; 0: none
+  std::optional<Duration> world_time{};  ///< if a world was slower than real time: how far it came
 };
 
-/// Runs all subsystems in one thread, in simulated time. At each instant the subsystems that have something
-/// to do take turns in an order drawn from the seed, each until it has to wait, or firing by firing
-/// (RunOptions::interleave); when none has, time jumps to the next deadline, and the
-/// world with it. A scenario comes first: its subsystems take turns as it says, and time waits for them
-/// alone. Everything but the wall clock's speed follows from tables, seed and user code.
+/// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that have
+/// something to do take turns in an order drawn from the seed, each until it has to wait, or firing by
+/// firing (RunOptions::interleave). When none has anything to do, time jumps to the next deadline, and the
+/// world moves with it. A scenario comes first: its subsystems take turns as it says, and time waits only
+/// for them. Everything except the real-time speed depends only on tables, seed and user code.
 class SimulatedRun final : public Waker {
  public:
   SimulatedRun(std::uint32_t instances, std::uint64_t seed);
@@ -42,10 +42,11 @@ class SimulatedRun final : public Waker {
 
  private:
   [[nodiscard]] Ending run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
-  /// nullopt: followed to its end, or there is none.
+  /// nullopt: the scenario was followed to its end, or there is none.
   [[nodiscard]] std::optional<Ending> follow_scenario(Assembly& assembly, UpperLayers& upper);
   [[nodiscard]] bool follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index);
-  /// Says who has done nothing since the scenario: that is what it was for.
+  /// Names the subsystems that have done nothing since the scenario, because a
+  /// scenario is there to show them.
   [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
   [[nodiscard]] std::uint32_t draw_ready();
   [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
@@ -57,14 +58,14 @@ class SimulatedRun final : public Waker {
   std::mt19937_64 random_;
   std::vector<std::uint32_t> ready_;
   std::vector<bool> is_ready_, has_ended_;
-  std::optional<std::uint32_t> unfinished_;  // has fired, and its turn is not over
-  std::unique_ptr<RemoteControl> remote_;    // only of a run that is watched
+  std::optional<std::uint32_t> unfinished_;  // has fired, and its turn has not ended
+  std::unique_ptr<RemoteControl> remote_;    // only for a run that is watched
   DeadlineQueue deadlines_, beats_;
   EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   StuckWatch stuck_;
   std::optional<CallWatch> calls_;
-  std::optional<Monitor> monitor_;  // the last: it looks at the others
+  std::optional<Monitor> monitor_;  // the last member: it looks at the others
 };
 
 }  // namespace tessera

@@ -25,11 +25,15 @@ namespace tessera {
 namespace {
 
 constexpr Duration world_step = std::chrono::milliseconds(1);
-constexpr Duration longest_world_step = std::chrono::milliseconds(10);  // what a stop may have to wait for
-constexpr Duration most_behind = std::chrono::milliseconds(200);  // that a slow world tries to make up for
+// A stop may have to wait for one step of the world.
+constexpr Duration longest_world_step = std::chrono::milliseconds(10);
+// A slow world makes up for at most this delay.
+constexpr Duration most_behind = std::chrono::milliseconds(200);
 constexpr Duration progress_step = std::chrono::milliseconds(200);
-constexpr Duration security_delay = std::chrono::milliseconds(20);  // then devices get their safe command
-constexpr Duration first_patience = std::chrono::seconds(1);        // then it says whom it waits for
+// After this delay, the devices of threads that have not ended get their safe command.
+constexpr Duration security_delay = std::chrono::milliseconds(20);
+// After this time, a message says which threads the end waits for.
+constexpr Duration first_patience = std::chrono::seconds(1);
 
 [[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
   return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
@@ -53,7 +57,7 @@ void SteadyRun::tell_supervisor() const {
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
 }
 
-/// By pthread_exit.
+/// The thread has ended by pthread_exit.
 void SteadyRun::complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control) {
   std::array<char, 256> place_room, reason_room;
   const std::string_view place = where_a_subsystem_is(executor, place_room);
@@ -66,7 +70,7 @@ void SteadyRun::complain_of_ended_thread(SubsystemExecutor& executor, RunControl
 }
 
 void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
-  // However this thread ends (user code may call pthread_exit), its devices are left safe.
+  // However this thread ends (user code may call pthread_exit), it leaves its devices safe.
   struct Leaving {
     SteadyRun& run;
     SubsystemExecutor& executor;
@@ -75,7 +79,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
     bool orderly = false;
     ~Leaving() {
       if (!orderly) complain_of_ended_thread(executor, control);
-      if (control.stopping()) run.tell_supervisor();  // now: the devices may take their time
+      if (control.stopping()) run.tell_supervisor();  // now, because the devices may take long
       if (!control.has_ended(instance)) executor.leave();
       executor.insist();
       run.gone_[instance].store(true, std::memory_order_release);
@@ -84,8 +88,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
   } leaving{*this, executor, instance, control};
   const AlternateStack stack;
   survives_in_thread(control, executor.path(), [&] {
-    // Releases are exact to what the timer can do; by default the kernel may add 50 us to spare itself a
-    // wake-up.
+    // Makes releases as exact as the timer allows. By default, the kernel may add 50 us to save a wake-up.
     prctl(PR_SET_TIMERSLACK, 1UL);
     const Instance& its = *executor.operations().parts().instance;
     if (const std::string denied = schedule_this_thread(its.policies.realtime); !denied.empty()) deny(denied);
@@ -104,8 +107,8 @@ void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
   }
 }
 
-/// Until there may be something to do. Heartbeats are no work of the net: a subsystem that does nothing else
-/// is at rest (Stillness).
+/// Sleeps until there may be something to do. Heartbeats are not part of the net: a subsystem that does
+/// nothing else is at rest (Stillness).
 void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
                       const SubsystemExecutor::Progress& progress) const {
   const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
@@ -116,7 +119,7 @@ void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_
     beat = executor.beat(clock_.now());
 }
 
-/// One warning a run: a thousand threads may be denied the same.
+/// One warning per run, because a thousand threads may be denied the same.
 void SteadyRun::deny(const std::string& what) {
   if (denied_.exchange(true, std::memory_order_relaxed)) return;
   console::print(LogLevel::warning, clock_.now(), "tessera",
@@ -125,8 +128,8 @@ void SteadyRun::deny(const std::string& what) {
                              what));
 }
 
-/// A world that is slower than real time falls behind: it is moved in short steps, so that nobody waits long
-/// for it, and what it cannot make up for is left out (Ending::world_time).
+/// A world that is slower than real time falls behind. It moves in short steps, so that no thread waits
+/// long for it. The delay that it cannot make up for is left out (Ending::world_time).
 void SteadyRun::run_world(World& world, RunControl& control) {
   const AlternateStack stack;
   const bool survived = survives_in_thread(control, "the world", [&] {
@@ -138,7 +141,7 @@ void SteadyRun::run_world(World& world, RunControl& control) {
       if (left_out > Duration::zero()) say_world_is_slow();
       world_time_ = std::min(now - left_out, world_time_ + longest_world_step);
       world.advance_to(world_time_);
-      if (world_time_ + longest_world_step < clock_.now() - left_out) continue;  // it catches up
+      if (world_time_ + longest_world_step < clock_.now() - left_out) continue;  // the world catches up
       next = std::max(next, clock_.now()) + world_step;
       if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next));
     }
@@ -175,7 +178,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
       continue;
     for (std::thread& thread : threads) thread.join();
     for (std::uint32_t instance = started_; instance < assembly.executors.size(); ++instance) {
-      assembly.executors[instance]->leave();  // there was no thread for it
+      assembly.executors[instance]->leave();  // no thread could be made for it
       assembly.executors[instance]->insist();
     }
     securing.collect(lane_of_system(assembly));
@@ -246,7 +249,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       if (stillness.changed()) look_for_stuck(assembly, stillness, securing, now);
       progress.update(now);
       assembly.signals.raise_due(now);
-      // Watchdogs first: what they find is told.
+      // Watchdogs come first, so that their findings are reported.
       const Time watched = watchdogs.check(now);
       const Time next =
           std::min({end, stillness.next(), watched, assembly.signals.next(), liveness.show(now)});
@@ -255,7 +258,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
   }
 }
 
-/// Devices first; subsystems whose user code runs long do not look for themselves.
+/// Secures the devices first: a subsystem whose user code runs long does not check by itself.
 void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
                                  RecordingLane* lane) const {
   using News = EmergencyWatch::News;
@@ -267,7 +270,8 @@ void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& 
   }
 }
 
-/// Safe commands first; then the process stops until somebody continues it, and the clock of the run with it.
+/// Gives the safe commands. Then the process is suspended until another process continues it, and the
+/// clock of the run stops with it.
 void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
   RunControl& control = assembly.control;
   RecordingLane* const lane = lane_of_system(assembly);
@@ -369,7 +373,7 @@ void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, 
   }
 }
 
-/// Of a subsystem, of a thread that secures devices, or a signal.
+/// Waits for news of a subsystem, or of a thread that secures devices, or for a signal.
 void SteadyRun::await_news(Time until) const {
   std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
                                 pollfd{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0}};

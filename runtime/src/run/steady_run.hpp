@@ -19,9 +19,9 @@
 
 namespace tessera {
 
-/// Runs every subsystem in a thread of its own, in real time; one more moves the simulated world, if there is
-/// one. The calling thread fires the transitions of the upper layers, watches the clock and the signals, and
-/// wakes everybody when the run is to end.
+/// Runs every subsystem in a thread of its own, in real time. One more thread moves the simulated world, if
+/// there is one. The calling thread fires the transitions of the upper layers, watches the clock and the
+/// signals, and wakes all threads when the run is to end.
 class SteadyRun final : public Waker {
  public:
   explicit SteadyRun(std::uint32_t instances);
@@ -53,7 +53,8 @@ class SteadyRun final : public Waker {
   void look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
   void await_news(Time until) const;
-  /// Until the threads of all subsystems have ended. Says which it waits for, and secures their devices.
+  /// Waits until the threads of all subsystems have ended. Reports which it waits for,
+  /// and secures their devices.
   void await_threads(const Assembly& assembly, Securing& securing);
   void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
   void secure_devices(Securing& securing) const;
@@ -66,12 +67,12 @@ class SteadyRun final : public Waker {
   std::vector<bool> collected_;
   StuckWatch stuck_;
   int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
-  std::uint32_t started_ = 0;  // threads of the first so many instances
+  std::uint32_t started_ = 0;  // number of instances whose threads have been started
   bool duration_over_ = false;
-  Time world_time_{};                // the world's thread's, while that runs
-  bool world_is_slow_ = false;       // the same
-  std::atomic<bool> denied_{false};  // that real time was not permitted has been said
-  std::optional<Monitor> monitor_;   // the last: it looks at the others
+  Time world_time_{};                // used by the world's thread while it runs
+  bool world_is_slow_ = false;       // used by the world's thread while it runs
+  std::atomic<bool> denied_{false};  // it has been reported that real time was not permitted
+  std::optional<Monitor> monitor_;   // the last member: it looks at the others
 };
 
 }  // namespace tessera

@@ -6,10 +6,10 @@
 
 namespace tessera {
 
-/// What a run came to, as JSON for machines.
+/// The result of a run as JSON.
 [[nodiscard]] std::string summary_json(const RunSummary& summary, const RunOptions& options);
 
-/// A few lines for people: how it ended and what each subsystem did.
+/// The result of a run in a few lines for people: how it ended and what each subsystem did.
 [[nodiscard]] std::string summary_lines(const RunSummary& summary);
 
 }  // namespace tessera

@@ -20,7 +20,7 @@ constexpr std::array names{Name{SIGSEGV, "SIGSEGV"}, Name{SIGBUS, "SIGBUS"},   N
                            Name{SIGILL, "SIGILL"},   Name{SIGABRT, "SIGABRT"}, Name{SIGSYS, "SIGSYS"},
                            Name{SIGTRAP, "SIGTRAP"}};
 
-/// Into a buffer of fixed size, without allocation.
+/// Formats into a buffer of fixed size, without allocation.
 template <class... Values>
 [[nodiscard]] std::string_view put(std::span<char> room, fmt::format_string<Values...> format,
                                    Values&&... values) {

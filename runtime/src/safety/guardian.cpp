@@ -23,7 +23,7 @@ using Stage = Guardian::Shared::Stage;
 
 constexpr std::int64_t longest_start_ns = 10'000'000'000, longest_end_ns = 2'000'000'000;
 
-/// Looks every millisecond until `done`, or until the limit is over.
+/// Checks every millisecond until `done`, or until the time limit.
 template <class Done>
 [[nodiscard]] bool await(std::int64_t limit_ns, Done done) {
   const std::int64_t until_ns = monotonic_ns() + limit_ns;
@@ -35,7 +35,7 @@ template <class Done>
   return true;
 }
 
-/// true: it is not there any more.
+/// Whether the child process is gone.
 [[nodiscard]] bool collect(pid_t process) {
   const pid_t found = waitpid(process, nullptr, WNOHANG);
   return found == process || (found < 0 && errno == ECHILD);
@@ -60,7 +60,7 @@ std::unique_ptr<Guardian> Guardian::start(const System& system, const RunOptions
     if (news >= 0) close(news);
     return nullptr;
   }
-  // The bytes are zeros, which both processes may take for a Shared that starts.
+  // The bytes are zeros. Both processes may treat them as a Shared in the stage `starts`.
   auto* const shared = static_cast<Shared*>(memory);
   if (process == 0) live_as_guardian(system, options, *shared, news, controller);
   std::unique_ptr<Guardian> guardian(new Guardian(shared, news, process));
@@ -78,7 +78,7 @@ std::unique_ptr<Guardian> Guardian::start(const System& system, const RunOptions
 Guardian::~Guardian() {
   tell();
   const auto gone = [this] { return collect(process_); };
-  // One that was not dismissed waits for the end of this process.
+  // A guardian that was not dismissed waits for the end of this process.
   if (shared_->stage.load() == Stage::dismissed && !await(longest_end_ns, gone)) {
     kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);

@@ -32,10 +32,11 @@ namespace {
 using Stage = Guardian::Shared::Stage;
 
 constexpr int guardian_looks_every_ms = 50;
-constexpr int dies_within_ms = 50;  // after it has said that it dies; a core dump takes longer
+// A process that has announced its death dies within this time; a core dump takes longer.
+constexpr int dies_within_ms = 50;
 constexpr std::int64_t between_guardian_attempts_ns = 5'000'000;
 
-/// A driver of the guardian's own, and the safe values of the buffers that it serves.
+/// A driver that the guardian has made, and the safe values of the buffers that it serves.
 struct Patient {
   std::string path;
   Bindings* bindings = nullptr;
@@ -44,7 +45,7 @@ struct Patient {
   std::size_t first = 0;  // of Bindings::real_outputs
 };
 
-/// What is behind them.
+/// The subsystem whose buffers the drivers serve.
 struct Subject {
   std::unique_ptr<Subsystem> subsystem;
   Bindings bindings;
@@ -57,7 +58,8 @@ void say_as_guardian(const std::string& text) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
 }
 
-/// Opens the device, gives the safe command, and closes it. false, or an exception: not this time.
+/// Opens the device, gives the safe command, and closes it. false, or an exception:
+/// it did not work this time.
 [[nodiscard]] bool treat(const Patient& patient) {
   if (!patient.device->open()) return false;
   bool taken = true;
@@ -75,7 +77,7 @@ void say_as_guardian(const std::string& text) {
   while (monotonic_ns() < until_ns) {
     try {
       if (treat(patient)) _exit(0);
-    } catch (...) {  // tried again
+    } catch (...) {  // the caller tries again
     }
     const timespec pause{.tv_sec = 0, .tv_nsec = between_guardian_attempts_ns};
     nanosleep(&pause, nullptr);
@@ -92,7 +94,7 @@ class GuardianProcess {
     for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
   }
 
-  /// Until the controller has ended, or does not need it any more.
+  /// Watches until the controller has ended, or does not need the guardian any more.
   void watch() {
     for (;;) {
       const bool ended = controller_.await_end(news_, guardian_looks_every_ms);
@@ -144,7 +146,7 @@ class GuardianProcess {
     return patient.first < outputs.size();
   }
 
-  /// Counted in looks of this process, not in time: a machine that sleeps or is overloaded holds up both.
+  /// Counts the looks of this process and not the time: a machine that sleeps or is overloaded delays both.
   [[nodiscard]] bool stands_still() {
     constexpr auto enough = static_cast<unsigned>(
         std::chrono::duration_cast<std::chrono::milliseconds>(Guardian::stands_still_after).count() /
@@ -159,7 +161,7 @@ class GuardianProcess {
     return ++looks_ >= enough && !treated_;
   }
 
-  /// By SIGSTOP, or by a debugger.
+  /// Whether the controller was stopped by SIGSTOP, or by a debugger.
   [[nodiscard]] bool is_stopped() const {
     std::array<char, 512> text{};
     const int file = open(fmt::format("/proc/{}/stat", pid_).c_str(), O_RDONLY | O_CLOEXEC);
@@ -167,7 +169,7 @@ class GuardianProcess {
     const ssize_t count = read(file, text.data(), text.size());
     close(file);
     const std::string_view stat(text.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    const std::size_t name_end = stat.rfind(')');  // the name may hold anything
+    const std::size_t name_end = stat.rfind(')');  // the name may contain any character
     if (name_end == std::string_view::npos || name_end + 2 >= stat.size()) return false;
     return stat[name_end + 2] == 'T' || stat[name_end + 2] == 't';
   }
@@ -178,7 +180,8 @@ class GuardianProcess {
     outlive();
   }
 
-  /// It may hold a device, or write to it, until it is gone; a core dump may take long.
+  /// Waits until the controller is gone, because it may hold a device or write to it.
+  /// A core dump may take long.
   void outlive() {
     if (!controller_.await_end(-1, dies_within_ms)) {
       make_safe("the controller is dying");
@@ -187,7 +190,7 @@ class GuardianProcess {
     make_safe("the controller has died");
   }
 
-  /// A process for each driver, so that one that hangs or crashes holds up no other.
+  /// Uses one process per driver, so that a driver that hangs or crashes delays no other.
   void make_safe(const std::string& why) {
     shared_.has_acted = true;
     treated_ = true;
@@ -242,7 +245,7 @@ class GuardianProcess {
   bool treated_ = false;  // since the last beat
 };
 
-/// It lives as long as the controller does, whoever wants to end both.
+/// Makes sure that this process lives as long as the controller, whatever signals end both.
 void become_independent(const System& system) {
   setsid();
   prctl(PR_SET_NAME, "tessera-guard");
@@ -251,7 +254,8 @@ void become_independent(const System& system) {
                         signal == SIGILL || signal == SIGABRT || signal == SIGSYS || signal == SIGTRAP;
     std::signal(signal, needed ? SIG_DFL : SIG_IGN);
   }
-  // Above every thread of the controller, if one asks for real time and that is permitted.
+  // The priority is above that of every thread of the controller, if one asks for real
+  // time and that is permitted.
   int highest = 0;
   for (const Instance& instance : system.instances)
     highest = std::max(highest, instance.policies.realtime.priority);

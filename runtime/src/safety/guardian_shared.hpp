@@ -8,24 +8,24 @@
 
 namespace tessera {
 
-/// In memory that both processes have mapped.
+/// Stored in memory that both processes have mapped.
 struct Guardian::Shared {
   enum class Stage : std::uint32_t {
     starts,    ///< the guardian makes its drivers
     ready,     ///< it watches the life of the controller
     failed,    ///< it cannot make its drivers
-    beating,   ///< it watches the beats too
+    beating,   ///< it also watches the beats
     dismissed  ///< it ends
   };
   std::atomic<Stage> stage{Stage::starts};
   std::atomic<bool> dying{false}, has_acted{false};
   std::atomic<std::uint64_t> beats{0};
-  char error[1024]{};  ///< of failed
+  char error[1024]{};  ///< set if it failed
 };
 static_assert(std::atomic<Guardian::Shared::Stage>::is_always_lock_free &&
               std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-/// The life of the guardian's process. Does not return.
+/// The main function of the guardian's process. Does not return.
 [[noreturn]] void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared,
                                    int news, pid_t controller);
 

@@ -22,11 +22,12 @@ namespace tessera {
 namespace {
 
 constexpr std::array deadly{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP};
-constexpr std::int64_t recorder_settles_ns = 12'000'000;  // two of its rounds
+constexpr std::int64_t recorder_settles_ns = 12'000'000;  // two rounds of the recorder's thread
 
 std::atomic<LastChance*> active{nullptr};
-std::atomic<pid_t> owner{0};  // the process that has it: not one that user code has forked
-std::atomic<pid_t> dying{0};  // the thread that uses it
+// the process that owns the object, as opposed to a process that user code has forked
+std::atomic<pid_t> owner{0};
+std::atomic<pid_t> dying{0};  // the thread that uses the object
 std::array<struct sigaction, deadly.size()> before{};
 std::terminate_handler terminate_before = nullptr;
 thread_local constinit std::array<char, 256> terminate_text{};
@@ -34,18 +35,19 @@ static_assert(std::atomic<LastChance*>::is_always_lock_free && std::atomic<pid_t
 
 [[nodiscard]] pid_t this_thread() { return static_cast<pid_t>(syscall(SYS_gettid)); }
 
-/// The last chance, for the first thread that dies. Others wait for it to end the process.
+/// Returns the object to the first thread that dies. Other threads wait until that thread ends the process.
 [[nodiscard]] LastChance* claim() {
   LastChance* const chance = active.load();
   if (chance == nullptr || owner.load() != getpid()) return nullptr;
   pid_t nobody = 0;
   if (dying.compare_exchange_strong(nobody, this_thread())) return chance;
   while (nobody != this_thread()) pause();
-  return nullptr;  // this thread crashes on its way out
+  return nullptr;  // this thread crashed while it handled its death
 }
 
-/// As if it had not been handled: with the handler of before, which makes the core dump. What an instruction
-/// has caused, it causes again, so that a debugger finds it there; the rest has to be sent again.
+/// Ends the process as if the signal had not been handled: restores the earlier handler, which makes the
+/// core dump. An instruction that caused the signal causes it again, so that a debugger finds it there.
+/// Other signals are sent again.
 void deliver_again(int signal, const siginfo_t& info) {
   const auto place = std::find(deadly.begin(), deadly.end(), signal) - deadly.begin();
   struct sigaction action = before[static_cast<std::size_t>(place)];
@@ -83,7 +85,7 @@ extern "C" void on_quick_exit_called() {
   _exit(1);
 }
 
-/// Keeps what it was called for, for the message of the SIGABRT that follows.
+/// Keeps the reason for the message of the SIGABRT that follows.
 [[noreturn]] void on_terminate() {
   const auto say = [](auto format, const auto&... values) {
     *fmt::format_to_n(terminate_text.data(), terminate_text.size() - 1, format, values...).out = '\0';
@@ -106,13 +108,13 @@ void handle_deadly_signals() {
   struct sigaction action {};
   action.sa_sigaction = on_deadly_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
-  sigfillset(&action.sa_mask);  // what stops a run comes later
+  sigfillset(&action.sa_mask);  // signals that stop a run come later
   for (const int signal : deadly) sigdelset(&action.sa_mask, signal);
   for (std::size_t index = 0; index < deadly.size(); ++index)
     sigaction(deadly[index], &action, &before[index]);
 }
 
-/// It cannot be undone, so it happens once; without a run it does nothing.
+/// atexit cannot be undone, so it is called once; without a run the handler does nothing.
 void notice_exit() {
   static const bool noticed = [] {
     on_exit(on_exit_called, nullptr);
@@ -122,7 +124,7 @@ void notice_exit() {
   static_cast<void>(noticed);
 }
 
-/// Nothing where that would wait for whoever reads.
+/// Writes only if that does not have to wait for the reader.
 void write_now(int descriptor, std::string_view text) {
   pollfd target{.fd = descriptor, .events = POLLOUT, .revents = 0};
   if (poll(&target, 1, 0) != 1 || (target.revents & POLLOUT) == 0) return;
@@ -144,7 +146,7 @@ LastChance::LastChance(Assembly& assembly, const Clock& clock, Guardian* guardia
       clock_(clock),
       guardian_(guardian),
       line_begin_(writes_to_journal()          ? "<2>"
-                  : isatty(STDERR_FILENO) != 0 ? "\r\x1b[K"  // away with the progress
+                  : isatty(STDERR_FILENO) != 0 ? "\r\x1b[K"  // removes the progress line
                                                : "") {
   const std::string& file = assembly.options.death_note;
   if (file.size() < note_file_.size()) std::copy(file.begin(), file.end(), note_file_.begin());
@@ -161,7 +163,7 @@ LastChance::LastChance(Assembly& assembly, const Clock& clock, Guardian* guardia
 }
 
 LastChance::~LastChance() {
-  // A thread that dies ends the process, and needs everything that is here.
+  // A dying thread ends the process, and needs this object until then.
   while (dying.load() != 0) pause();
   active = nullptr;
   std::set_terminate(terminate_before);
@@ -178,7 +180,7 @@ void LastChance::use(const Death& death) {
     const auto end = fmt::format_to_n(line_room.data(), line_room.size(), format, values...);
     return std::string_view(line_room.data(), std::min(end.size, line_room.size()));
   };
-  // From here on nobody else gives another command than the safe one.
+  // From here on, only the safe command is given.
   assembly_.control.request_stop(put(FMT_STRING("{}: {}"), place, what), /*fault=*/true);
   if (guardian_ != nullptr) guardian_->announce_death();
   const bool safe = !rescuer_ || rescuer_->rescue(Effectors::device_in_call(), patience);

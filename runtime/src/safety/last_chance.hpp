@@ -16,28 +16,28 @@
 
 namespace tessera {
 
-/// What the process does when it is about to die in the middle of a run: all devices get their safe command,
-/// then it is said what happened, and where, and then the process dies as it would have died anyway (core
-/// dump, exit status).
+/// Acts when the process is about to die during a run. All devices get their safe command. Then a message
+/// says what happened, and where. Then the process dies as it would have died anyway (core dump, exit
+/// status).
 ///
-/// Noticed are SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT (abort, std::terminate), SIGSYS and SIGTRAP, on every
-/// thread, also when its stack has overflowed (AlternateStack), and exit and quick_exit, which end the
-/// process with exit code 1. Not noticed are _exit and SIGKILL: that is what the Guardian is for.
+/// It notices SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT (abort, std::terminate), SIGSYS and SIGTRAP on every
+/// thread, even after a stack overflow (AlternateStack). It also notices exit and quick_exit, which then
+/// end the process with exit code 1. It cannot notice _exit and SIGKILL; the Guardian does.
 ///
 /// Threads: one object at a time per process, constructed and destroyed by the run's thread.
 class LastChance {
  public:
-  /// So long a dying thread waits for the devices.
+  /// How long a dying thread waits for the devices.
   static constexpr Duration patience = std::chrono::milliseconds(500);
 
-  /// From now on. On the steady clock a thread waits to give devices their safe command. guardian: told of
-  /// the death; nullptr: none.
+  /// Acts from now on. On the steady clock, a thread stands ready to give devices their safe command.
+  /// guardian: is told of the death; nullptr: none.
   LastChance(Assembly& assembly, const Clock& clock, Guardian* guardian);
   LastChance(const LastChance&) = delete;
   LastChance& operator=(const LastChance&) = delete;
   ~LastChance();
 
-  /// Async-signal-safe. Returns when everything is done that can be done.
+  /// Returns when everything is done that can be done. Async-signal-safe.
   void use(const Death& death);
 
  private:

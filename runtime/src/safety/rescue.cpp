@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::int64_t between_rescue_attempts_ns = 2'000'000;
 
-/// Of the thread of a Rescuer: where it goes on when a driver crashes.
+/// The point at which the thread of a Rescuer continues when a driver crashes.
 struct WayOut {
   sigjmp_buf place;
   volatile bool open = false;
 };
 thread_local constinit WayOut* way_out = nullptr;
 
-/// What is sent to the process is for others.
+/// Leaves signals that are sent to the process to other threads.
 void block_all_signals() {
   sigset_t all;
   sigfillset(&all);
@@ -81,7 +81,7 @@ void Rescuer::run(int priority) {
   }
 }
 
-/// Those that are in use are tried again and again. The others are not held up by them.
+/// Tries devices that are in use again and again. They do not delay the others.
 void Rescuer::make_all_safe() {
   static_cast<void>(try_all(/*dead_too=*/false));
   bool all = try_all(/*dead_too=*/true);
@@ -105,9 +105,9 @@ bool Rescuer::try_all(bool dead_too) {
   return all;
 }
 
-/// A driver that crashes has refused. What its frames held is not released: the process ends.
+/// A driver that crashes has refused. The data of its stack frames is not released, since the process ends.
 void Rescuer::try_one(Patient& patient) {
-  patient.crashed = true;  // unless it comes back
+  patient.crashed = true;  // reset when the driver returns
   if (sigsetjmp(way_out->place, /*save the signal mask*/ 1) != 0) return;
   way_out->open = true;
   patient.safe = patient.effectors->rescue(patient.index, dead_.load(std::memory_order_relaxed));

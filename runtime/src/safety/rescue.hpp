@@ -15,28 +15,28 @@ namespace tessera {
 
 /// A thread that sleeps until the process is about to die, and then gives all devices their safe command.
 ///
-/// A driver must not be called in a signal handler: it may allocate, lock and throw. So the thread that dies
-/// waits in its handler while this one calls the drivers. A driver that the dying thread was in is called
-/// all the same, after the others; one that another thread is in is waited for. If a driver crashes here, the
-/// next one follows.
+/// A driver must not be called in a signal handler, because it may allocate, lock and throw. So the dying
+/// thread waits in its handler while this thread calls the drivers. If the dying thread was in a driver,
+/// that driver is called after the others. If another thread is in a driver, this thread waits for it. If a
+/// driver crashes here, the next one follows.
 ///
 /// Threads: `rescue` any, once, also in a signal handler; the rest the run's.
 class Rescuer {
  public:
-  /// Starts the thread. Throws std::system_error if there is none.
-  /// priority: of the thread, real time; 0: as usual.
+  /// Starts the thread. Throws std::system_error if that fails. priority: real-time
+  /// priority of the thread; 0: none.
   Rescuer(std::span<const std::unique_ptr<SubsystemExecutor>> executors, int priority);
   Rescuer(const Rescuer&) = delete;
   Rescuer& operator=(const Rescuer&) = delete;
   ~Rescuer();
 
-  /// Wakes the thread and waits until it is done, or until the limit is over. dead: the device that the
-  /// calling thread was in, or nullptr (Effectors::device_in_call). Returns whether every device has taken
-  /// its safe command.
+  /// Wakes the thread and waits until it is done, or until the time limit. dead: the device whose driver
+  /// the calling thread was in, or nullptr (Effectors::device_in_call). Returns whether every device
+  /// has taken its safe command.
   [[nodiscard]] bool rescue(const void* dead, Duration limit);
 
-  /// If the calling thread is the one of a Rescuer that calls a driver, leaves that driver and does not
-  /// return. Only in a signal handler.
+  /// If the calling thread is that of a Rescuer and calls a driver, leaves that driver and does not
+  /// return. Only for signal handlers.
   static void leave_crashed_driver();
 
  private:

@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-/// What one thread of it does.
+/// The work of one thread.
 void insist_on_safe_commands(Effectors& effectors, SafeReason why) {
   const std::int64_t until_ns = monotonic_ns() + Effectors::patience.count();
   bool taken = effectors.make_safe(why, Effectors::Busy::leaves_out);
@@ -28,7 +28,8 @@ Securing::Securing(const std::vector<std::unique_ptr<SubsystemExecutor>>& execut
     : executors_(executors), priority_(priority), news_(std::move(news)), jobs_(executors.size()) {
   for (std::size_t index = 0; index < executors.size(); ++index) {
     if (executors[index]->effectors().none()) continue;
-    jobs_[index] = std::make_unique<Job>();  // now: there may be no memory when it is needed
+    // allocated now, because there may be no memory when it is needed
+    jobs_[index] = std::make_unique<Job>();
     jobs_[index]->effectors = &executors[index]->effectors();
     jobs_[index]->owner = this;
   }
@@ -75,7 +76,8 @@ void Securing::secure(std::uint32_t instance, SafeReason why) {
   job.started = (priority_ > 0 && start(job, /*realtime=*/true)) || start(job, /*realtime=*/false);
   if (job.started) return;
   job.done.store(true, std::memory_order_relaxed);
-  job.effectors->make_safe(why, Effectors::Busy::leaves_out);  // no thread can be made: here, then
+  // no thread can be made, so this thread does it
+  job.effectors->make_safe(why, Effectors::Busy::leaves_out);
 }
 
 bool Securing::is_under_way(std::uint32_t instance) const {

@@ -11,14 +11,14 @@
 
 namespace tessera {
 
-/// Gives safe commands to devices of subsystems whose own threads do not: each subsystem's in a thread of its
-/// own, for a driver may not return. Tries again what is refused or in use, for as long as
-/// Effectors::patience.
+/// Gives safe commands to devices of subsystems whose own threads do not. Each subsystem gets a thread
+/// for this, because a driver may not return. Repeats commands that are refused, or whose device is in
+/// use, for as long as Effectors::patience.
 ///
 /// Threads: the supervisor's.
 class Securing {
  public:
-  /// priority: of its threads, real time; 0: as usual. news: called by a thread that has done its work.
+  /// priority: real-time priority of the threads; 0: none. news: called by a thread that has done its work.
   Securing(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors, int priority,
            std::function<void()> news);
   Securing(const Securing&) = delete;
@@ -26,11 +26,11 @@ class Securing {
   /// Waits for its threads.
   ~Securing();
 
-  /// Returns at once. Nothing new is begun for a subsystem whose devices are being secured.
+  /// Returns at once. Does nothing for a subsystem whose devices are being secured already.
   void secure(std::uint32_t instance, SafeReason why);
   /// Records what has been done. lane: the supervisor's.
   void collect(RecordingLane* lane);
-  /// Nothing is under way.
+  /// Whether no thread is at work.
   [[nodiscard]] bool done() const;
   [[nodiscard]] bool is_under_way(std::uint32_t instance) const;
 

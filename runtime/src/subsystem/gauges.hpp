@@ -7,21 +7,21 @@
 
 namespace tessera {
 
-/// What a subsystem shows to those who watch it while it runs. Each value is recent; they need not be of one
-/// moment.
+/// The values that observers of a running subsystem see. Each value is recent, but they may
+/// be from different moments.
 ///
 /// Threads: written by the subsystem's, read by any.
 struct alignas(64) Gauges {
   std::atomic<std::uint64_t> iterations{0}, firings{0}, overruns{0}, errors{0};
   std::atomic<std::int64_t> called_at_ns{-1};  ///< when the last transition function began; -1: none yet
   std::atomic<std::int64_t> call_ns{0}, longest_call_ns{0};
-  std::atomic<std::uint16_t> behaviour{0};  ///< the last that was called
-  std::atomic<bool> calling{false};         ///< its transition function has not returned
+  std::atomic<std::uint16_t> behaviour{0};  ///< the behaviour that was called last
+  std::atomic<bool> calling{false};         ///< the transition function has not returned
 
   void begin_call(std::uint16_t called, Time now) {
     behaviour.store(called, std::memory_order_relaxed);
     called_at_ns.store(now.time_since_epoch().count(), std::memory_order_relaxed);
-    calling.store(true, std::memory_order_release);  // who sees it sees when it began
+    calling.store(true, std::memory_order_release);  // an observer that sees it also sees when the call began
   }
   void end_call(Time now) {
     const std::int64_t took = now.time_since_epoch().count() - called_at_ns.load(std::memory_order_relaxed);

@@ -227,7 +227,7 @@ void InjectedSignals::raise_due(Time now) {
 
 namespace {
 
-/// Whether one of them happens now.
+/// The fault that happens now, or nullptr.
 [[nodiscard]] Injection* happening(Injections& faults, Time now) {
   const auto found =
       std::find_if(faults.begin(), faults.end(), [&](const auto& one) { return one->happens(now); });

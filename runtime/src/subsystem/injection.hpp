@@ -15,15 +15,15 @@
 
 namespace tessera {
 
-/// A fault to plant in a run, as `--inject` names it.
+/// A fault to plant in a run, as given by `--inject`.
 struct Injection {
   enum class Kind : std::uint8_t {
-    exception,  ///< instead of the transition function
+    exception,  ///< thrown in place of the transition function
     stall,      ///< the transition function takes `delay` longer
     number,     ///< every floating-point number of the outputs becomes `number`
     device,     ///< the device throws (receptor) or refuses (effector)
     silence,    ///< the real receptor has no value
-    signal      ///< `signal` comes
+    signal      ///< the process gets `signal`
   } kind = Kind::exception;
   std::string text;            ///< as it was written
   std::uint32_t instance = 0;  ///< into System::instances
@@ -33,38 +33,38 @@ struct Injection {
   int signal = 0;
   Time from{};
   Time until = Time::max();
-  bool once = true;  ///< only the first that happens from `from` on
+  bool once = true;  ///< only the first chance from `from` on
 
-  Context* context = nullptr;  ///< of the subsystem whose device it strikes
+  Context* context = nullptr;  ///< of the subsystem whose device has the fault
 
-  /// Whether it happens now; counts that.
+  /// Whether the fault occurs now; if so, it is counted.
   [[nodiscard]] bool happens(Time now);
-  /// Says so, of a device: where it begins. Threads: the subsystem's.
+  /// Reports the fault of a device when it begins. Threads: the subsystem's.
   void announce();
 
  private:
   bool done_ = false, announced_ = false;
 };
 
-/// One that strikes a subsystem with several devices strikes the first that comes.
+/// A fault of a subsystem with several devices affects the device that is used first.
 using Injections = std::vector<std::shared_ptr<Injection>>;
 
-/// Reads what `--inject` was given:
+/// Reads the value of `--inject`:
 ///
 ///     SUBSYSTEM[.BEHAVIOUR]:throw@WHEN   :stall=TIME@WHEN   :nan@WHEN   :inf@WHEN
 ///     device:SUBSYSTEM[.BUFFER]@WHEN     silent:RECEPTOR[.BUFFER]@WHEN
 ///     signal:SIGINT@WHEN                 (or another signal that stops a run)
 ///
-/// WHEN: `2s` the first chance from then on; `2s..` every one from then on; `2s..3s` every one in between;
-/// `any` the first from a time on that is drawn from the seed, within the run's duration.
+/// WHEN: `2s` the first chance from then on; `2s..` every chance from then on; `2s..3s` every chance in
+/// between; `any` the first chance from a time on that is drawn from the seed, within the run's duration.
 ///
-/// Errors: another form, names that the system does not have (with the nearest that it has), `any` without a
-/// duration: nullopt and `error`.
+/// Errors: another form, names that the system does not have (with the nearest one), `any` without a
+///         duration: nullopt and `error`.
 [[nodiscard]] std::optional<Injection> read_injection(const std::string& text, const System& system,
                                                       std::uint64_t seed, std::optional<Duration> duration,
                                                       std::string& error);
 
-/// A subsystem with faults in its transition functions. The rest is that of the subsystem within.
+/// A subsystem with faults in its transition functions. All other calls go to the wrapped subsystem.
 class FaultySubsystem final : public Subsystem {
  public:
   FaultySubsystem(std::unique_ptr<Subsystem> inner, const SubsystemNet& net, Injections faults,
@@ -81,7 +81,7 @@ class FaultySubsystem final : public Subsystem {
   void restore_outputs() override { inner_->restore_outputs(); }
   [[nodiscard]] Context& context() override { return inner_->context(); }
 
-  /// Simulated time that the last call takes longer; once.
+  /// Simulated time by which the last call takes longer. The next call returns zero.
   [[nodiscard]] Duration take_delay() { return std::exchange(delay_, Duration{0}); }
 
  private:
@@ -94,23 +94,23 @@ class FaultySubsystem final : public Subsystem {
   Duration delay_{0};
 };
 
-/// The signals among the faults, which strike the run itself.
+/// The signals among the faults. They affect the run itself.
 class InjectedSignals {
  public:
   InjectedSignals() = default;
   explicit InjectedSignals(const Injections& faults);
-  /// Time::max(): none any more.
+  /// Time::max(): there are no more.
   [[nodiscard]] Time next() const { return left_.empty() ? Time::max() : left_.back()->from; }
   void raise_due(Time now);
 
  private:
-  Injections left_;  // the last is the next
+  Injections left_;  // the last one is the next to occur
 };
 
-/// The device, or one with faults around it.
+/// The device itself, or the device wrapped in faults.
 [[nodiscard]] std::unique_ptr<RealReceptor> with_faults(std::unique_ptr<RealReceptor> device,
                                                         Injections faults, const Clock& clock);
-/// safe: where the command is that the faults let pass, for what is tested is whether it is given.
+/// safe: the safe command. The faults let it pass, because tests check whether it is given.
 [[nodiscard]] std::unique_ptr<RealEffector> with_faults(std::unique_ptr<RealEffector> device,
                                                         Injections faults, const Clock& clock,
                                                         const void* safe);

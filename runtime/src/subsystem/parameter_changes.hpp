@@ -14,21 +14,22 @@ namespace tessera {
 
 /// New values of parameters while the system runs.
 ///
-/// An operator asks for a change; what does not fit the parameter's type and range is refused at once. Each
-/// subsystem takes its changes itself, just before it calls a transition function, so that a function and the
-/// conditions after it see one value.
+/// An operator requests a change; a value that does not fit the parameter's type and range is refused at
+/// once. Each subsystem applies its changes itself, just before it calls a transition function, so that a
+/// function and the conditions after it see one value.
 class ParameterChanges {
  public:
-  /// owners: per instance; what they refer to must outlive this.
+  /// owners: per instance; the data that they refer to must outlive this object.
   explicit ParameterChanges(std::vector<ParameterOwner> owners)
       : owners_(std::move(owners)), waiting_(std::make_unique<Waiting[]>(owners_.size())) {}
 
-  /// What is wrong with it; empty: it will take place. path: as set_parameters.
+  /// Returns what is wrong with the request; empty: the change will take place. path: as in set_parameters.
   /// Threads: any.
   [[nodiscard]] std::string ask(const std::string& path, const std::string& value);
 
-  /// Makes the changes that wait for a subsystem, in the order in which they were asked for, and calls
-  /// `tell("robot.control.v=0.3")` for each. Never waits: while somebody asks, they come with the next call.
+  /// Applies the changes that wait for a subsystem, in the order of the requests, and calls
+  /// `tell("robot.control.v=0.3")` for each. Never waits: changes that are being requested at the moment
+  /// are applied by the next call.
   /// Threads: the subsystem's.
   template <class Tell>
   void take(std::uint32_t instance, Tell&& tell) {

@@ -18,7 +18,7 @@ namespace {
 
 using Parameter = Bindings::Parameter;
 
-/// "robot[3].control" against "robot[*].control".
+/// Whether a pattern such as "robot[*].control" matches "robot[3].control".
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view path) {
   constexpr std::string_view any = "[*]";
   while (true) {
@@ -32,7 +32,7 @@ using Parameter = Bindings::Parameter;
   }
 }
 
-/// Every way to name a parameter.
+/// All names that a parameter has on the command line.
 [[nodiscard]] std::vector<std::string> names_of(std::span<const ParameterOwner> owners) {
   std::vector<std::string> names;
   for (const ParameterOwner& owner : owners)
@@ -70,7 +70,7 @@ template <class Number>
 
 [[nodiscard]] std::string store_string(const Parameter& parameter, std::string_view text) {
   if (text.size() > parameter.capacity) return fmt::format("is longer than {} bytes", parameter.capacity);
-  // As BoundedString lies in memory: its size, then its bytes.
+  // The layout of BoundedString: its size, then its bytes.
   const auto size = static_cast<std::uint32_t>(text.size());
   auto* bytes = static_cast<std::byte*>(parameter.value);
   std::memset(bytes, 0, parameter.size);

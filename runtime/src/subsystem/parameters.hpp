@@ -13,22 +13,22 @@
 
 namespace tessera {
 
-/// A value that fits a parameter but has not been given to it.
+/// A value that fits a parameter but has not been assigned yet.
 struct CheckedValue {
   std::uint32_t owner = 0;  ///< into the owners
   Bindings::Parameter parameter;
-  std::vector<std::byte> bytes;  ///< as the parameter lies in memory
+  std::vector<std::byte> bytes;  ///< as the parameter is stored in memory
 
   void give() const { std::memcpy(parameter.value, bytes.data(), bytes.size()); }
 };
 
-/// What is wrong with that value for the parameters that `path` names (see set_parameters); empty: nothing,
-/// and `checked` has one more entry for each of them.
+/// Returns why that value does not fit the parameters that `path` names (see set_parameters). Empty: it
+/// fits, and `checked` has one more entry for each of them.
 [[nodiscard]] std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
                                           const std::string& value, std::vector<CheckedValue>& checked);
 
-/// Reads "path = value" lines; '#' starts a comment. Appends to `values`. false and `error` naming file and
-/// line.
+/// Reads "path = value" lines; '#' starts a comment. Appends to `values`. false and
+/// `error` with file and line.
 [[nodiscard]] bool read_parameter_file(const std::string& file,
                                        std::vector<std::pair<std::string, std::string>>& values,
                                        std::string& error);

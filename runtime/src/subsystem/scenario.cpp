@@ -20,7 +20,7 @@ namespace {
   return name.ends_with(words::output);
 }
 
-/// "robot.control.follow.out none": the instance it is of; nullopt: of none.
+/// The instance to which "robot.control.follow.out none" belongs; nullopt: it belongs to none.
 [[nodiscard]] std::optional<std::uint32_t> owner_of(const System& system, std::string_view name) {
   for (std::uint32_t index = 0; index < system.instances.size(); ++index) {
     const Instance& instance = system.instances[index];
@@ -36,7 +36,7 @@ class Reading {
       known_.emplace(net.transitions[index].name, index);
   }
 
-  /// "" or what is wrong.
+  /// Returns what is wrong; "": nothing.
   [[nodiscard]] std::string read(const nlohmann::json& json, Scenario& scenario) const {
     if (json.value("scenario", 0) != 1) return "is no scenario of this version of Tessera";
     const std::string hash = json.at("net_hash").get<std::string>();

@@ -11,10 +11,10 @@
 
 namespace tessera {
 
-/// A run of the net that a controller is made to follow under the simulated clock: which subsystem fires
-/// what, in which order. The layers above are not part of it, they follow by themselves.
+/// A run of the net that a controller follows under the simulated clock: which subsystem fires which
+/// transition, in which order. The upper layers are not part of it; they follow by themselves.
 struct Scenario {
-  /// "None of its initial conditions holds", an outcome without a transition.
+  /// An outcome without a transition: no condition of `next` holds.
   static constexpr std::uint32_t none_holds = Plan::none;
   struct Step {
     std::uint32_t instance;
@@ -23,11 +23,11 @@ struct Scenario {
   };
   std::vector<Step> steps;
 
-  /// What an instance has to do, in order.
+  /// The transitions that an instance has to fire, in order.
   [[nodiscard]] std::vector<std::uint32_t> of_instance(std::uint32_t instance) const;
 };
 
-/// Reads what `tessera verify --scenario` writes. nullopt and `error`: not readable, or of another net.
+/// Reads the output of `tessera verify --scenario`. nullopt and `error`: unreadable, or for another net.
 [[nodiscard]] std::optional<Scenario> read_scenario(const std::string& file, const System& system,
                                                     const FlatNet& net, std::string& error);
 

@@ -1,4 +1,4 @@
-// How a subsystem follows a script: the transitions that a scenario says, in its order.
+// How a subsystem follows a script: the transitions of a scenario in their order.
 
 #include <algorithm>
 #include <string_view>
@@ -19,7 +19,7 @@ std::string_view forced_by(Guard::Kind guard) {
     case Guard::Kind::next:
       return "this initial condition";
     case Guard::Kind::none:
-    case Guard::Kind::elapsed:  // waited for
+    case Guard::Kind::elapsed:  // the script has waited for it
       break;
   }
   return "";
@@ -45,7 +45,7 @@ SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
           forced_by(plan_->transitions[transition].guard.kind)};
 }
 
-/// The transition of the script that will take a token that has just arrived; nullptr: none of it.
+/// The transition of the script that will take a token that has just arrived; nullptr: there is none.
 const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
   for (std::size_t index = followed_; index < script_.size(); ++index) {
     if (script_[index] == Plan::none) continue;
@@ -59,7 +59,7 @@ bool SubsystemExecutor::script_ends_without_choice() const {
   return followed_ < script_.size() && script_[followed_] == Plan::none;
 }
 
-/// When an operation has finished that the transition waits for, or its timeout has passed.
+/// The time at which an operation that the transition waits for has finished, or its timeout has passed.
 Time SubsystemExecutor::script_deadline(std::uint32_t index) const {
   const Plan::TransitionEntry& transition = plan_->transitions[index];
   Time deadline = Time::max();

@@ -1,5 +1,4 @@
-// What a subsystem waits for when nothing may fire: in which channels it registers, until when, and what it
-// says of that.
+// How a subsystem waits when nothing may fire: where it registers, until when, and how that is reported.
 
 #include <fmt/format.h>
 
@@ -9,7 +8,8 @@
 
 namespace tessera {
 
-/// Registers in every channel exactly what this subsystem waits for; false: something may be taken after all.
+/// Registers in every channel exactly what this subsystem waits for. false:
+/// something may be taken after all.
 bool SubsystemExecutor::register_waits() {
   std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
   for (const std::uint32_t place : marked_) {
@@ -77,7 +77,7 @@ std::optional<std::vector<SubsystemExecutor::Lack>> SubsystemExecutor::lacks() c
       all.push_back({transition.port, tokens});
     }
   }
-  if (marked_.empty()) return std::nullopt;  // it has not begun
+  if (marked_.empty()) return std::nullopt;  // the subsystem has not begun
   return all;
 }
 

@@ -25,10 +25,10 @@ constexpr std::int64_t terminal_patience_ns = 500'000'000;
 constexpr int look_up_ms = 50;
 
 std::atomic<bool> progress_shown{false}, silent{false};
-std::atomic<bool> to_journal{false};  // of the outermost Session
+std::atomic<bool> to_journal{false};  // set by the outermost Session
 
-/// Writes what is in the ring. Lives as long as the process: a thread that a driver of a terminal holds up
-/// may outlive its session.
+/// Writes the lines of the ring. It lives as long as the process: a thread that is blocked in the driver of
+/// a terminal may outlive its session.
 class Writer {
  public:
   void begin(Session::Overflow overflow) {
@@ -36,13 +36,14 @@ class Writer {
     lost_ = 0;
     given_up_ = false;
     Stage left_behind = Stage::ending;
-    runs_ = stage_.compare_exchange_strong(left_behind, Stage::writing);  // it goes on for this session
+    // the thread that was left behind goes on for this session
+    runs_ = stage_.compare_exchange_strong(left_behind, Stage::writing);
     if (runs_) return;
     stage_ = Stage::writing;
     try {
       thread_ = std::thread([this] { run(); });
       runs_ = true;
-    } catch (const std::system_error&) {  // lines are written by who prints them, then
+    } catch (const std::system_error&) {  // without a thread, each caller of print writes its lines
       stage_ = Stage::none;
     }
   }
@@ -81,7 +82,7 @@ class Writer {
     wakes_.wake();
   }
 
-  /// Of no importance when there is much to be written.
+  /// Dropped if there is much to be written.
   void put_progress(std::string_view line) {
     if (!runs_) return write_at_once(line);
     if (ring_.size() < most_with_progress && ring_.push(line)) wakes_.wake();
@@ -94,7 +95,7 @@ class Writer {
   }
 
   static void write_at_once(std::string_view line) {
-    // A lost line is no reason to stop.
+    // A line that cannot be written is no reason to stop.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
   }
 
@@ -124,7 +125,7 @@ class Writer {
     return lost;
   }
 
-  /// false: it could not be written, at the end not even after some time.
+  /// false: the line could not be written; at the end of the session, not even after some time.
   [[nodiscard]] bool write_out(std::string_view line, PatientOutput& output) const {
     std::int64_t stuck_ns = 0;
     for (;;) {
@@ -150,7 +151,7 @@ class Writer {
 
   LineRing<most_lines, longest_line> ring_;
   WakeWord wakes_;
-  /// Of the thread. One that is still `ending` when the next session begins was left behind.
+  /// State of the thread. One that is still `ending` when the next session begins was left behind.
   enum class Stage : std::uint8_t { none, writing, ending };
   std::atomic<Stage> stage_{Stage::none};
   std::atomic<bool> runs_{false}, waits_{false};
@@ -159,7 +160,7 @@ class Writer {
   std::thread thread_;
 };
 
-/// Never destroyed: see there.
+/// Never destroyed: see Writer.
 [[nodiscard]] Writer& writer() {
   static Writer& only = *new Writer;
   return only;
@@ -173,7 +174,7 @@ template <std::size_t Size>
   return {line.data(), std::min(wanted, Size)};
 }
 
-/// As sd-daemon(3) says; empty: nobody reads it there.
+/// The level as in sd-daemon(3); empty: the output is no journal.
 [[nodiscard]] const char* journal_level(LogLevel level) {
   if (!to_journal.load(std::memory_order_relaxed)) return "";
   return level == LogLevel::info ? "<6>" : level == LogLevel::warning ? "<4>" : "<3>";

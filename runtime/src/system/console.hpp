@@ -9,29 +9,29 @@
 
 namespace tessera {
 
-/// Lines for people, on standard error: "12.345 s  robot.control  text". One write per line, from fixed
-/// buffers.
+/// Lines for people on standard error: "12.345 s  robot.control  text". One write per line; fixed buffers.
 ///
-/// While a Session lives, a thread of its own writes, and nobody else ever waits for the terminal: not for
-/// one that was stopped with Ctrl-S, a pipe that nobody reads, or one that is gone.
+/// While a Session exists, a separate thread writes, and no other thread ever waits for the terminal: not
+/// if it was stopped with Ctrl-S, if it is a pipe that nobody reads, or if it is gone.
 ///
 /// Threads: any.
 namespace console {
 
 class Session {
  public:
-  /// What happens to a line when the terminal does not keep up.
+  /// The treatment of a line if the terminal does not keep up.
   enum class Overflow : std::uint8_t {
-    loses,  ///< it is counted instead
-    waits   ///< print waits for room, unless a signal has come: nothing moves meanwhile
+    loses,  ///< the line is only counted
+    waits   ///< print waits for room, unless a signal has come; only while nothing moves
   };
   explicit Session(Overflow overflow = Overflow::loses);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
-  /// Waits until everything is written, or nothing could be for half a second; says how many lines were not.
+  /// Waits until everything is written, or until nothing could be written for half a second.
+  /// Reports the number of lost lines.
   ~Session();
 
-  /// The same wait, and how many lines were not printed so far, or wait still.
+  /// Waits in the same way. Returns how many lines have not been printed so far, or still wait.
   [[nodiscard]] std::uint64_t settle();
 
  private:
@@ -39,16 +39,16 @@ class Session {
 };
 
 void print(LogLevel level, Time time, std::string_view path, std::string_view text);
-/// The text as it is, line by line.
+/// Prints the text unchanged, line by line.
 void say(std::string_view text);
 /// Rewrites the line that shows progress; the next print removes it.
 void progress(std::string_view text);
 void clear_progress();
-/// From now on print does nothing, or again what it did: of a thousand runs nobody reads every line.
+/// Turns print off, or on again: nobody reads every line of a thousand runs.
 void silence(bool wanted);
 }  // namespace console
 
-/// "12.3 s of 60 s, 45.0x real time", rewritten a few times a second of the wall clock.
+/// "12.3 s of 60 s, 45.0x real time", rewritten a few times per second of real time.
 ///
 /// Threads: one at a time.
 class ProgressLine {

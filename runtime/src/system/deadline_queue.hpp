@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-/// Who wants to be woken when: a binary heap that knows where each entry is, so that a deadline can be
-/// changed. Ties are ordered by index. No allocation after construction.
+/// The deadlines at which subsystems are woken: a binary heap that knows the position of each entry, so
+/// that a deadline can be changed. Ties are ordered by index. No allocation after construction.
 class DeadlineQueue {
  public:
   explicit DeadlineQueue(std::uint32_t size) : times_(size, Time::max()), positions_(size, absent) {
@@ -20,7 +20,7 @@ class DeadlineQueue {
   [[nodiscard]] std::uint32_t first() const { return heap_.front(); }
   [[nodiscard]] Time first_time() const { return times_[heap_.front()]; }
 
-  /// Time::max() takes it out.
+  /// Time::max() removes the entry.
   void set(std::uint32_t index, Time time) {
     if (positions_[index] == absent) {
       if (time == Time::max()) return;

@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-/// Lines on their way to the terminal: a bounded queue whose writers never wait for each other, nor for who
-/// reads. (Vyukov's queue: each slot says in `turn` whose it is.)
+/// Lines on their way to the terminal: a bounded queue whose writers wait neither for each other nor for
+/// the reader. (Vyukov's queue: each slot has a counter `turn`, which says who may use it.)
 ///
 /// Threads: push any, pop one.
 template <std::size_t Slots, std::size_t Bytes>
@@ -21,7 +21,7 @@ class LineRing {
     for (std::size_t index = 0; index < Slots; ++index) slots_[index].turn = index;
   }
 
-  /// false: it is full. A line that is too long is cut.
+  /// false: the queue is full. A line that is too long is cut.
   [[nodiscard]] bool push(std::string_view line) {
     std::uint64_t at = pushed_.load(std::memory_order_relaxed);
     for (;;) {
@@ -40,7 +40,7 @@ class LineRing {
     }
   }
 
-  /// The oldest; empty: there is none. It stays in place until `pop`.
+  /// The oldest line; empty: there is none. It stays valid until `pop`.
   [[nodiscard]] std::string_view front() const {
     const Slot& slot = slots_[popped_ % Slots];
     if (slot.turn.load(std::memory_order_acquire) != popped_ + 1) return {};
@@ -51,7 +51,7 @@ class LineRing {
     popped_.fetch_add(1, std::memory_order_release);
   }
 
-  /// How many there are, about.
+  /// The approximate number of lines.
   [[nodiscard]] std::uint64_t size() const {
     const std::uint64_t popped = popped_.load(std::memory_order_acquire);
     return std::max(pushed_.load(std::memory_order_acquire), popped) - popped;

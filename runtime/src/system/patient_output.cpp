@@ -28,7 +28,7 @@ PatientOutput::~PatientOutput() {
 
 PatientOutput::Result PatientOutput::write(std::string_view& bytes) {
   std::size_t size = bytes.size();
-  if (own_ < 0 && !socket_ && !file_) {  // it may have room, and wait nevertheless for more than that
+  if (own_ < 0 && !socket_ && !file_) {  // poll may report room although a longer write would wait
     pollfd room{.fd = shared_, .events = POLLOUT, .revents = 0};
     if (poll(&room, 1, 0) == 0) return Result::some;
     size = std::min<std::size_t>(size, PIPE_BUF);

@@ -5,8 +5,9 @@
 
 namespace tessera {
 
-/// A descriptor that others share, such as standard error, written to without ever waiting in the kernel: a
-/// terminal or a pipe is opened anew, since O_NONBLOCK on the shared one would reach whoever shares it.
+/// Writes to a descriptor that other processes share, such as standard error, without ever
+/// waiting in the kernel. A terminal or a pipe is opened again, because O_NONBLOCK on the shared
+/// descriptor would affect the others.
 ///
 /// Threads: one.
 class PatientOutput {
@@ -17,9 +18,9 @@ class PatientOutput {
   ~PatientOutput();
 
   enum class Result : std::uint8_t { all, some, gone };
-  /// Writes what there is room for and takes that off `bytes`. gone: nobody will ever read it.
+  /// Writes as much as there is room for and removes that from `bytes`. gone: nobody will ever read it.
   [[nodiscard]] Result write(std::string_view& bytes);
-  /// Waits for room, at most so long.
+  /// Waits for room, at most for this time.
   void await_room(int milliseconds) const;
 
  private:

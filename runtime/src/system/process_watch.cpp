@@ -17,7 +17,7 @@
 namespace tessera {
 namespace {
 
-constexpr int poll_every_ms = 10;  // where the kernel has no pidfd
+constexpr int poll_every_ms = 10;  // for kernels without pidfds
 
 }  // namespace
 
@@ -45,7 +45,7 @@ bool OtherProcess::await_end(int descriptor, int limit_ms) const {
 
 ProcessWatch::ProcessWatch(pid_t process, std::function<void()> on_end)
     : process_(process), on_end_(std::move(on_end)), enough_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  // Signals are for the run's thread.
+  // The run's thread handles signals.
   sigset_t all, mask;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &mask);

@@ -7,24 +7,24 @@
 
 namespace tessera {
 
-/// Another process whose end is noticed at once, however it comes about.
+/// Another process whose end is noticed at once, however it ends.
 ///
 /// Threads: one at a time.
 class OtherProcess {
  public:
-  /// A process that does not exist has ended.
+  /// A process that does not exist counts as ended.
   explicit OtherProcess(pid_t process);
   OtherProcess(const OtherProcess&) = delete;
   OtherProcess& operator=(const OtherProcess&) = delete;
   ~OtherProcess();
 
-  /// Until it has ended, `descriptor` is readable, or the limit is over (negative: none). descriptor: -1:
-  /// none. Returns whether it has ended.
+  /// Waits until the process has ended, `descriptor` is readable, or the limit is over (negative: no
+  /// limit). descriptor: -1: none. Returns whether the process has ended.
   [[nodiscard]] bool await_end(int descriptor, int limit_ms) const;
 
  private:
   pid_t process_;
-  int handle_;  // pidfd; -1: the process is gone, or the kernel has none
+  int handle_;  // pidfd; -1: the process is gone, or the kernel has no pidfds
 };
 
 /// A thread that waits for the end of another process.
@@ -32,7 +32,7 @@ class OtherProcess {
 /// Threads: constructed and destroyed by one; the callback runs on the thread of the watch.
 class ProcessWatch {
  public:
-  /// on_end: called once, if it ends while the watch lives. Throws std::system_error when there is no thread.
+  /// on_end: called once if the process ends while the watch exists. Throws std::system_error: no thread.
   ProcessWatch(pid_t process, std::function<void()> on_end);
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;

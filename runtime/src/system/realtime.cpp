@@ -83,14 +83,14 @@ RealTimePriority::~RealTimePriority() {
   if (priority_ == 0) return;
   sched_param parameters{};
   parameters.sched_priority = priority_before_;
-  // Who may not take RESET_ON_FORK back keeps it: the policy is what counts.
+  // A process that may not remove RESET_ON_FORK keeps it: the policy is what counts.
   if (sched_setscheduler(0, policy_before_, &parameters) != 0)
     sched_setscheduler(0, policy_before_ | SCHED_RESET_ON_FORK, &parameters);
 }
 
 std::string lock_memory() {
-  // What is there now is brought in; what comes is kept once it was touched, or the stacks of all threads
-  // would be.
+  // Memory that exists now is loaded. Later memory stays in RAM once it has been used; otherwise the stacks
+  // of all threads would be loaded as a whole.
   if (mlockall(MCL_CURRENT) == 0 && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return "";
   return fmt::format("locked memory: {}", std::strerror(errno));
 }

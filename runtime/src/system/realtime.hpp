@@ -11,23 +11,24 @@ namespace tessera {
 /// page fault comes later. Empty, or what was not permitted.
 [[nodiscard]] std::string schedule_this_thread(const RealTime& wanted);
 
-/// Above every subsystem: what watches over them must run although one of them does not let go of its
-/// processor. 0: none of them asks for real time.
+/// A priority above that of every subsystem. The threads that watch over subsystems must run even if a
+/// subsystem never releases its processor. 0: no subsystem asks for real time.
 [[nodiscard]] int supervisor_priority(std::span<const Instance> instances);
 
-/// Gives the calling thread a real-time priority while it lives. Threads that it makes do not inherit it.
+/// Gives the calling thread a real-time priority while this object exists. Its new
+/// threads do not inherit it.
 ///
 /// Threads: made and destroyed by one.
 class RealTimePriority {
  public:
-  /// priority 0: as it was.
+  /// priority 0: nothing changes.
   explicit RealTimePriority(int priority);
   RealTimePriority(const RealTimePriority&) = delete;
   RealTimePriority& operator=(const RealTimePriority&) = delete;
   ~RealTimePriority();
   /// Empty, or what was not permitted.
   [[nodiscard]] const std::string& denied() const { return denied_; }
-  /// What it has; 0: what it had before.
+  /// The priority that the thread got; 0: the one that it had before.
   [[nodiscard]] int priority() const { return priority_; }
 
  private:

@@ -24,7 +24,7 @@ namespace {
   return number;
 }
 
-/// The manager asks this process, or does not say whom.
+/// The limit, if the manager watches this process or does not name one.
 [[nodiscard]] std::optional<Duration> watchdog_limit() {
   const std::optional<std::int64_t> limit_us = number_in_environment("WATCHDOG_USEC");
   if (!limit_us || *limit_us <= 0 || *limit_us > INT64_MAX / 1000) return std::nullopt;
@@ -47,7 +47,8 @@ ServiceManager::ServiceManager() {
     if (abstract) address_.sun_path[0] = '\0';
     address_bytes_ = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length + (abstract ? 0 : 1));
     socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    // Twice in the manager's limit, as sd_watchdog_enabled(3) advises, and once more for a late wake-up.
+    // Twice within the manager's limit, as sd_watchdog_enabled(3) advises, and
+    // once more for a late wake-up.
     if (const std::optional<Duration> limit = watchdog_limit()) period_ = *limit / 3;
   }
   for (const char* const variable : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) unsetenv(variable);

@@ -11,15 +11,15 @@
 
 namespace tessera {
 
-/// Tells the service manager (systemd, `Type=notify`) how the run goes: datagrams to the socket that the
-/// environment variable NOTIFY_SOCKET names (sd_notify(3), without libsystemd). Without the variable it does
-/// nothing. Nothing waits: what the manager does not take is lost.
+/// Reports the state of the run to the service manager (systemd, `Type=notify`): datagrams to the socket
+/// that the environment variable NOTIFY_SOCKET names (sd_notify(3), without libsystemd). Without the
+/// variable it does nothing. It never waits: a datagram that the manager does not take is lost.
 ///
 /// Threads: one at a time.
 class ServiceManager {
  public:
-  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID, and removes them, so that programs which user code
-  /// starts do not speak for this one.
+  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID, and removes them, so that programs started by
+  /// user code cannot report for this process.
   ServiceManager();
   ServiceManager(const ServiceManager&) = delete;
   ServiceManager& operator=(const ServiceManager&) = delete;
@@ -27,10 +27,10 @@ class ServiceManager {
 
   void ready() { send("READY=1"); }
   void stopping() { send("STOPPING=1"); }
-  /// One line for `systemctl status`.
+  /// text: one line for `systemctl status`.
   void status(std::string_view text);
-  /// Sends the watchdog's sign of life if it is time for one. Call it only while all is well. Returns when to
-  /// call it next; Time::max(): the manager does not ask for it.
+  /// Sends the sign of life for the watchdog if one is due. Call it only while the run is healthy. Returns
+  /// when to call it next; Time::max(): the manager does not ask for it.
   [[nodiscard]] Time beat(Time now);
 
  private:
@@ -42,7 +42,7 @@ class ServiceManager {
   Time next_{};
 };
 
-/// Standard error is the journal (JOURNAL_STREAM): lines begin with their level, and nothing is rewritten.
+/// Whether standard error is the journal (JOURNAL_STREAM): lines begin with their level, none is rewritten.
 [[nodiscard]] bool writes_to_journal();
 
 }  // namespace tessera

@@ -19,7 +19,7 @@ std::atomic<int> wake_descriptor{-1};
 std::atomic<int> depth{0};
 constexpr std::int64_t second_signal_after_ns = 1'000'000'000;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
-              std::atomic<std::int64_t>::is_always_lock_free);  // what a signal handler may use
+              std::atomic<std::int64_t>::is_always_lock_free);  // because signal handlers use them
 
 void wake_up() {
   const std::uint64_t one = 1;
@@ -27,14 +27,14 @@ void wake_up() {
     const ssize_t written = write(descriptor, &one, sizeof one);
 }
 
-/// Somebody means it: no timer and no terminal sends these again and again.
+/// Whether a person or a parent sends it deliberately. No timer and no terminal sends these repeatedly.
 [[nodiscard]] bool is_deliberate(int signal) {
   return signal == SIGINT || signal == SIGTERM || signal == SIGQUIT;
 }
 
 void note_stop(int signal) {
   const int kept_errno = errno;
-  const std::int64_t now_ns = monotonic_ns();  // clock_gettime may be used in a handler
+  const std::int64_t now_ns = monotonic_ns();  // clock_gettime is allowed in a handler
   int none = 0;
   if (caught.compare_exchange_strong(none, signal)) {
     caught_at_ns = now_ns;
@@ -74,7 +74,7 @@ StopSignals::StopSignals(Suspension wanted) {
     const bool stops =
         use == SignalUse::stop || (use == SignalUse::suspend && wanted == Suspension::ends_run);
     action.sa_handler = stops ? note_stop : use == SignalUse::suspend ? note_suspension : SIG_IGN;
-    action.sa_flags = SA_RESTART;  // a driver that reads its device must not fail because a terminal closes
+    action.sa_flags = SA_RESTART;  // reads of a driver must not fail because a terminal closes
     sigemptyset(&action.sa_mask);
     if (sigaction(signal, &action, nullptr) == 0) before_.push_back(before);
   });

@@ -9,37 +9,38 @@
 
 namespace tessera {
 
-/// Handles every signal of tessera/signals.hpp while it lives: notes those that stop or suspend a run, and
-/// lets writing fail where a signal would end the process. SIGINT and SIGTERM are always handled; another one
-/// that somebody handles or ignores already (nohup, a driver with a handler of its own) is left to them.
+/// Handles every signal of tessera/signals.hpp while this object exists. It notes those that stop
+/// or suspend a run, and makes writing fail where a signal would end the process. SIGINT and SIGTERM
+/// are always handled. Another signal that is handled or ignored already (nohup, a driver with a
+/// handler) is left as it is.
 ///
-/// SIGINT, SIGQUIT or SIGTERM more than a second after the first signal kills as usual, for runs whose user
-/// code hangs; earlier ones count as the same (a terminal and a parent may both send it), so that the safe
-/// commands are given.
+/// SIGINT, SIGQUIT or SIGTERM more than a second after the first signal kills as usual, for runs whose
+/// user code hangs. Earlier ones count as the same signal (a terminal and a parent may both send it), so
+/// that the safe commands are given.
 ///
-/// Threads: one object at a time per process, or several within each other, of which the outermost counts;
-/// members from any thread.
+/// Threads: one object at a time per process, or several nested ones, of which the outermost
+///          counts; members from any thread.
 class StopSignals {
  public:
-  /// What SIGTSTP does.
+  /// The effect of SIGTSTP.
   enum class Suspension : std::uint8_t {
-    usual,    ///< stops the process for a while: nothing real moves
-    noted,    ///< suspension_asked
-    ends_run  ///< as the signals that do: there is nobody who could suspend it safely
+    usual,    ///< stops the process for a while; only if nothing real moves
+    noted,    ///< sets suspension_asked
+    ends_run  ///< ends the run like other signals: no thread could suspend it safely
   };
   explicit StopSignals(Suspension suspension = Suspension::usual);
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
   ~StopSignals();
 
-  /// The signal that came first of those that stop a run; 0: none.
+  /// The first signal that has come of those that stop a run; 0: none.
   [[nodiscard]] static int pending();
   [[nodiscard]] static std::string name(int signal) { return signal_name(signal); }
-  /// SIGTSTP has come, and resume has not been called since.
+  /// Whether SIGTSTP has come and resume has not been called since.
   [[nodiscard]] static bool suspension_asked();
   /// Forgets the SIGTSTP.
   static void resume();
-  /// Readable once a signal has come; -1 when the process has no descriptor left.
+  /// Readable once a signal has come; -1: the process has no descriptor left.
   [[nodiscard]] static int descriptor();
   /// Makes the descriptor unreadable until the next signal.
   static void take_news();

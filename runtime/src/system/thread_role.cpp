@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-/// Beyond the registers that the kernel puts there.
+/// In addition to the registers that the kernel saves there.
 constexpr std::size_t room_of_handler = std::size_t{64} << 10U;
 
 }  // namespace
@@ -20,7 +20,7 @@ AlternateStack::AlternateStack() {
   bytes_ = static_cast<std::size_t>(std::max(sysconf(_SC_SIGSTKSZ), 0L)) + room_of_handler;
   void* const memory =
       mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
-  if (memory == MAP_FAILED) return;  // an overflow kills as usual
+  if (memory == MAP_FAILED) return;  // a stack overflow then kills as usual
   stack_t stack{};
   stack.ss_sp = memory;
   stack.ss_size = bytes_;

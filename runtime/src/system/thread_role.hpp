@@ -6,8 +6,8 @@ namespace tessera {
 
 class SubsystemExecutor;
 
-/// Notes which subsystem the calling thread executes while it lives, so that a crash can be told by the name
-/// of the behaviour that ran.
+/// Notes which subsystem the calling thread executes while this object exists, so that the message about a
+/// crash can name the behaviour that ran.
 ///
 /// Threads: each has its own note. `current` may be called in a signal handler.
 class RunningSubsystem {
@@ -25,8 +25,8 @@ class RunningSubsystem {
   SubsystemExecutor* before_;
 };
 
-/// A second stack of the calling thread while it lives, on which a signal handler can run when the first one
-/// has overflowed. A thread that has one already keeps it.
+/// A second stack of the calling thread while this object exists. A signal handler can run on it when the
+/// first stack has overflowed. A thread that has one already keeps it.
 ///
 /// Threads: constructed and destroyed by the same one.
 class AlternateStack {

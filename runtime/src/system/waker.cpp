@@ -14,14 +14,16 @@ std::int64_t monotonic_ns() {
 }
 
 void WakeWord::wake() {
-  // A sleeper that looks for work later reads this exchange first, and with it whatever made it worthwhile.
+  // A sleeper that looks for work later reads this exchange first, and with it the
+  // changes that caused the wake-up.
   if (state_.exchange(woken, std::memory_order_acq_rel) < asleep) return;
   syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
 }
 
 namespace {
 
-/// While the word is `expected`, until CLOCK_MONOTONIC shows until_ns (negative: no limit) or it is woken.
+/// Waits while the word is `expected`, until CLOCK_MONOTONIC shows until_ns
+/// (negative: no limit) or a wake-up.
 void wait_while(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::int64_t until_ns) {
   timespec until{};
   until.tv_sec = until_ns / 1'000'000'000;
@@ -37,7 +39,7 @@ void WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
   const std::uint32_t how = until_ns < 0 ? at_rest : asleep;
   if (how == at_rest) rests_.store(rests_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (!state_.compare_exchange_strong(ticket, how, std::memory_order_acq_rel)) return;  // woken meanwhile
-  wait_while(state_, how, until_ns);  // whatever ends the wait, the caller looks at its net again
+  wait_while(state_, how, until_ns);  // whatever ends the wait, the caller checks its net again
 }
 
 bool WakeWord::rest_until(std::uint32_t ticket, std::int64_t until_ns, bool again) {

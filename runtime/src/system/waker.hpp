@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// Makes a subsystem look at its net again.
+/// Makes a subsystem check its net again.
 class Waker {
  public:
   virtual ~Waker() = default;
@@ -15,10 +15,10 @@ class Waker {
   virtual void wake(std::uint32_t instance) = 0;
 };
 
-/// What one thread sleeps on: a futex word that remembers whether it was woken.
+/// The word on which one thread sleeps: a futex that remembers whether it was woken.
 ///
-/// The sleeper takes a `ticket`, looks whether there is work, and then sleeps with that ticket: a wake-up
-/// between the two makes the sleep return at once, so none is lost.
+/// The sleeper takes a `ticket`, checks whether there is work, and then sleeps with that ticket. A wake-up
+/// between the two makes the sleep return at once, so no wake-up is lost.
 class alignas(64) WakeWord {
  public:
   /// Forgets earlier wake-ups. Threads: the sleeper's.
@@ -26,15 +26,15 @@ class alignas(64) WakeWord {
     state_.exchange(awake, std::memory_order_acq_rel);
     return awake;
   }
-  /// Threads: any. A system call only when somebody sleeps.
+  /// Threads: any. Makes a system call only if a thread sleeps.
   void wake();
-  /// Until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
+  /// Sleeps until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
   void sleep(std::uint32_t ticket, std::int64_t until_ns);
-  /// As sleep without a limit for those who look (`rest`), but it returns at `until_ns` so that the sleeper
-  /// can do what is no work of the net. again: goes on with the rest of the call before, which was not woken.
-  /// Returns whether it has been woken.
+  /// Observers (`rest`) see it as a sleep without a limit, but it returns at `until_ns` so that the
+  /// sleeper can do work outside the net. again: continues the previous call, which was not woken.
+  /// Returns whether it was woken.
   [[nodiscard]] bool rest_until(std::uint32_t ticket, std::int64_t until_ns, bool again);
-  /// While it sleeps without a limit: the number of that sleep, from 1; else 0. Threads: any.
+  /// The number of the current sleep without a limit, from 1; 0: there is none. Threads: any.
   [[nodiscard]] std::uint64_t rest() const;
 
  private:

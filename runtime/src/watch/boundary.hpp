@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// Runs `code` as the outermost of a thread of ours: what it throws stops the run, as a fault, and not the
-/// process. false: it has thrown. The end of a thread (pthread_exit) goes on.
+/// Runs `code` as the outermost function of a thread. An exception stops the run, as a fault, and not the
+/// process. false: `code` has thrown. The end of a thread (pthread_exit) passes through.
 template <class Code>
 bool survives_in_thread(RunControl& control, std::string_view who, Code&& code) {
   std::string_view what = "an exception that is no std::exception";

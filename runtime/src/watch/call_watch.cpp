@@ -14,8 +14,8 @@ namespace {
 constexpr double patience_s = 1;
 constexpr auto between_looks_at_calls = std::chrono::milliseconds(100);
 
-/// Beside the console, which may be silent or wait for the thread that is watched; a terminal that takes
-/// nothing is not waited for.
+/// Bypasses the console, which may be silent or wait for the thread that is watched. Does not wait for a
+/// terminal that takes nothing.
 void write_to_terminal(const std::string& line) {
   pollfd terminal{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (poll(&terminal, 1, 100) <= 0) return;
@@ -61,7 +61,7 @@ void CallWatch::look(Look& last) {
                                 function(), lasts));
 }
 
-/// From here the process ends, unless the turn has ended after all.
+/// Ends the process, unless the turn has ended after all.
 void CallWatch::give_up(const Look& last) {
   gives_up_.store(true, std::memory_order_seq_cst);
   if (turns_.load(std::memory_order_seq_cst) != last.turn) return gives_up_.store(false);
@@ -69,8 +69,8 @@ void CallWatch::give_up(const Look& last) {
   for (const auto& executor : assembly_.executors)
     executor->effectors().make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out);
   assembly_.control.abandon();
-  std::this_thread::sleep_for(
-      between_looks_at_calls);  // a line that was being logged is in the recording now
+  // Afterwards, a line that was being logged is in the recording.
+  std::this_thread::sleep_for(between_looks_at_calls);
   const std::string text = fmt::format("{}; {} has not returned for {:.1f} s", StopSignals::name(signal),
                                        function(), now_s() - last.began_s);
   if (assembly_.recorder != nullptr) {

@@ -11,14 +11,15 @@
 
 namespace tessera {
 
-/// Watches the one thread of a simulated run from another: code of the user's that does not return holds up
-/// the whole run, which cannot even see that it has been told to stop.
+/// Watches the one thread of a simulated run from another thread. User code that does not return blocks the
+/// whole run, which cannot even see that it has been told to stop.
 ///
-/// A turn that has not ended after a second of the wall clock is told of, then after two, four and so on. A
-/// second after a signal has asked the run to stop, and in the same turn still, the process ends with 128 and
-/// the number of the signal: the devices get their safe command and the recording is written out before.
+/// A turn that has not ended after a second of real time is reported, and again after two, four and
+/// so on seconds. If a signal asks the run to stop and the same turn still lasts a second later, the
+/// process ends with 128 plus the number of the signal. Before that, the devices get their safe command
+/// and the recording is written.
 ///
-/// Threads: the run's, but for what its own does.
+/// Threads: the run's, except its own thread.
 class CallWatch {
  public:
   explicit CallWatch(Assembly& assembly);
@@ -26,15 +27,15 @@ class CallWatch {
   CallWatch& operator=(const CallWatch&) = delete;
   ~CallWatch();
 
-  /// Between begin and end that subsystem has the thread.
+  /// Between begin and end, that subsystem has the thread.
   void begin(std::uint32_t instance, Time now) {
     instance_.store(instance, std::memory_order_relaxed);
     now_.store(now, std::memory_order_relaxed);
     turns_.store(turns_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
   void end() {
-    // Sequentially consistent with the look of the one who gives up: either that one sees the turn end, or
-    // this does not go on beside it.
+    // Sequentially consistent with the load in the thread that gives up: either that thread sees the end of
+    // the turn, or this thread does not continue beside it.
     turns_.store(turns_.load(std::memory_order_relaxed) + 1, std::memory_order_seq_cst);
     if (gives_up_.load(std::memory_order_seq_cst)) wait_for_decision();
   }
@@ -58,7 +59,7 @@ class CallWatch {
   std::mutex mutex_;
   std::condition_variable over_;
   bool is_over_ = false;
-  std::thread thread_;  // the last: it looks at the others
+  std::thread thread_;  // the last member: it looks at the others
 };
 
 }  // namespace tessera

@@ -6,14 +6,14 @@
 
 namespace tessera {
 
-/// Notices that an emergency stop begins or ends, and says so on the terminal and in the recording.
+/// Notices that an emergency stop begins or ends, and reports it on the terminal and in the recording.
 ///
-/// Threads: who runs the subsystems.
+/// Threads: that which runs the subsystems.
 class EmergencyWatch {
  public:
   enum class News : std::uint8_t { none, begins, ends };
   [[nodiscard]] News look(const RunControl& control) {
-    // Counted: one may end, and another begin, between two looks.
+    // Counted, because one stop may end and another begin between two looks.
     if (const std::uint32_t begun = control.emergencies(); begun != begun_) {
       begun_ = begun;
       stands_ = true;
@@ -23,7 +23,7 @@ class EmergencyWatch {
     stands_ = false;
     return News::ends;
   }
-  /// After the safe commands were given. lane: the calling thread's; nullptr: nothing is recorded.
+  /// Call it after the safe commands were given. lane: the calling thread's; nullptr: nothing is recorded.
   static void say(News news, const RunControl& control, Time now, RecordingLane* lane);
 
  private:

@@ -32,7 +32,7 @@ Time Liveness::show(Time now) {
   }
   const bool stalled = somebody_stalls();
   if (stalled != std::exchange(stalled_, stalled)) tell_status();
-  // It asks again soon: the manager must get its sign of life when the stall is over.
+  // During a stall, asks again soon: the manager must get its sign of life when the stall is over.
   return stalled ? std::min(next, now + Guardian::beat_period) : std::min(next, manager_.beat(now));
 }
 

@@ -6,13 +6,13 @@
 
 namespace tessera {
 
-/// What tells others that the run goes on: the beats for the guardian, and for the watchdog of the service
-/// manager as long as no subsystem stalls.
+/// Signals that the run goes on: beats for the guardian and, as long as no subsystem stalls, for the
+/// watchdog of the service manager.
 ///
 /// Threads: the one that supervises the run.
 class Liveness {
  public:
-  /// The run begins: all devices are open. guardian: nullptr: none.
+  /// The run begins: all devices are open. guardian: may be nullptr.
   Liveness(Assembly& assembly, Guardian* guardian);
   Liveness(const Liveness&) = delete;
   Liveness& operator=(const Liveness&) = delete;
@@ -20,9 +20,9 @@ class Liveness {
   ~Liveness();
 
   /// Call it whenever the supervisor is awake. Returns when to call it next; Time::max(): never. If the run
-  /// has stood still so long that the guardian has acted, the run fails.
+  /// has stood still for so long that the guardian has acted, the run fails.
   [[nodiscard]] Time show(Time now);
-  /// The process stops for a while (SIGTSTP), or goes on.
+  /// The process is suspended (SIGTSTP), or continues.
   void suspend();
   void resume();
 

@@ -13,14 +13,14 @@
 
 namespace tessera {
 
-/// What those who watch a run in simulated time have asked for: pause, single steps, breakpoints, speed
-/// (tessera/monitor.hpp has the commands). Whatever is asked for, the run fires the same transitions at the
-/// same simulated times.
+/// Requests of those who watch a run in simulated time: pause, single steps, breakpoints, speed
+/// (tessera/monitor.hpp has the commands). They change
+/// neither the transitions that the run fires nor their simulated times.
 ///
 /// Threads: `execute` and `shown` the watcher's, the rest the run's.
 class RemoteControl {
  public:
-  /// speed: simulated seconds a second; 0: as fast as possible.
+  /// speed: simulated seconds per second of real time; 0: as fast as possible.
   RemoteControl(Assembly& assembly, bool paused, double speed);
   ~RemoteControl();
   RemoteControl(const RemoteControl&) = delete;
@@ -32,30 +32,30 @@ class RemoteControl {
   [[nodiscard]] Snapshot::Simulation shown() const;
   /// What has been recorded shall be in the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
-  /// The run shall end because who started it has gone.
+  /// Ends the run because the client that started it has gone.
   void abandon();
 
   // ---- the run's
   [[nodiscard]] double speed() const { return speed_.load(std::memory_order_relaxed); }
-  /// Whether `fired` has to be told of every firing by itself.
+  /// Whether `fired` must be called after every single firing.
   [[nodiscard]] bool one_by_one() const { return one_by_one_.load(std::memory_order_relaxed); }
-  /// Returns at once unless it is paused (false); else when that is over or a signal has come.
+  /// Returns false at once if the run is not paused; otherwise waits until it continues or a signal comes.
   bool wait_while_paused(const StopSignals& signals);
-  /// Returns when it is time (false: before that, because of a command or a signal).
+  /// Returns true when the time has passed, and false if a command or a signal came before.
   [[nodiscard]] bool wait_for(Duration time, const StopSignals& signals);
-  /// Around each firing that is told of.
+  /// Called around each firing that must be reported.
   void about_to_fire();
   void fired(std::uint32_t instance);
-  /// Writes what has been recorded into the file if somebody wants to see it.
+  /// Writes recorded events to the file if a client wants to see them.
   void keep_recording_live();
 
  private:
   struct Breakpoint {
     enum class When : std::uint8_t { marked, enabled, fires } when;
     std::string name;
-    std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them
+    std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them is set
     std::uint32_t index = 0;                                    ///< place or transition
-    bool known = false, held = false;  ///< of marked and enabled: when it was last looked at
+    bool known = false, held = false;  ///< marked and enabled breakpoints: the state at the last look
   };
   [[nodiscard]] bool resting() const { return paused_ && firings_left_ == 0 && !to_iteration_; }
   [[nodiscard]] bool find(Breakpoint& breakpoint) const;
@@ -77,9 +77,9 @@ class RemoteControl {
   mutable std::mutex mutex_;
   bool paused_;
   std::uint64_t firings_left_ = 0;
-  bool to_iteration_ = false;              ///< of iterating_, or of any
+  bool to_iteration_ = false;              ///< of iterating_, or of any subsystem
   std::uint32_t iterating_ = UINT32_MAX;   ///< UINT32_MAX: any
-  std::vector<std::uint64_t> iterations_;  ///< when that was asked for; empty: to be filled by the run
+  std::vector<std::uint64_t> iterations_;  ///< at the time of the request; empty: to be filled by the run
   std::vector<Breakpoint> breakpoints_;
   std::string broke_at_;
   std::uint64_t pauses_ = 0;

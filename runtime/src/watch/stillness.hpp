@@ -12,27 +12,28 @@
 namespace tessera {
 
 /// "nothing can ever happen again: robot.control at follow.rcv.line.in waits for robot.sensor over 'line';
-/// ..." For reports, when no subsystem runs.
+/// ...". For reports, when no subsystem runs.
 [[nodiscard]] std::string why_nothing_happens(const Assembly& assembly);
 
-/// Notices that all threads of a run wait for each other, which is for ever.
+/// Notices that all threads of a run wait for each other, which lasts for ever.
 ///
-/// A thread is at rest while it sleeps with nothing but another thread to wake it. When all are found at rest
-/// in two looks, each in the same sleep both times, then between the looks all of them rested at once: who
-/// did not would have had to begin another sleep before the second. Then nobody was left to wake anybody.
+/// A thread is at rest while it sleeps and only another thread can wake it. If all threads are at rest in
+/// two successive looks, each in the same sleep both times, then all of them rested at the same time
+/// between the looks: a thread that did not rest would have begun another sleep before the second look. So
+/// no thread was left to wake any other.
 ///
-/// Threads: one that looks.
+/// Threads: one.
 class Stillness {
  public:
   explicit Stillness(std::uint32_t threads) : rests_(threads), resting_(threads) {}
-  /// Looks if it is time (next). words: what the threads sleep on; gone: whether that one has ended. false
-  /// also when all have.
+  /// Looks if it is time (next). words: the words on which the threads sleep; gone: whether a thread has
+  /// ended. Also false if all have ended.
   [[nodiscard]] bool look(Time now, const WakeWord* words, const std::function<bool(std::uint32_t)>& gone);
-  /// Who was at rest, in the same sleep, in the last two looks.
+  /// The threads that were at rest, in the same sleep, in the last two looks.
   [[nodiscard]] const std::vector<bool>& resting() const { return resting_; }
-  /// Whether these, who were at rest in the last look, are in the same sleep now.
+  /// Whether these threads, which were at rest in the last look, are in the same sleep now.
   [[nodiscard]] bool rest_still(const WakeWord* words, const std::vector<std::uint32_t>& threads) const;
-  /// Whether somebody rests now who did not at the look before, or the other way round. Once a look.
+  /// Whether the set of resting threads has changed since the look before. True once per look.
   [[nodiscard]] bool changed() { return std::exchange(changed_, false); }
   [[nodiscard]] Time next() const { return next_; }
 

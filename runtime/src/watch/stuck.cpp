@@ -18,7 +18,7 @@ using Lack = SubsystemExecutor::Lack;
   return assembly.executors[instance]->operations().parts().ports;
 }
 
-/// Finds the largest set of subsystems that none of the others can free.
+/// Finds the largest set of subsystems that no subsystem outside the set can free.
 class Search {
  public:
   explicit Search(const Assembly& assembly)
@@ -56,7 +56,7 @@ class Search {
     });
   }
 
-  /// What `giver` may give to `channel` from where it is.
+  /// The tokens that `giver` may give to `channel` from its current state.
   [[nodiscard]] std::uint16_t given_by(std::uint32_t giver, const SharedChannel* channel) {
     const std::vector<PortLink>& ports = ports_of(assembly_, giver);
     if (!gives_[giver]) {
@@ -125,7 +125,7 @@ void StuckWatch::look(Assembly& assembly, Time now) {
     if (said_[instance] || assembly.control.has_ended(instance)) continue;
     if (assembly.executors[instance]->waits_since() > now - patience) continue;
     const std::vector<std::uint32_t> stuck = stuck_for_good(assembly);
-    // Somebody may wait for long and be freed in the end: that is asked less and less often.
+    // A subsystem may wait for long and be freed in the end, so this is checked less and less often.
     if (std::ranges::all_of(stuck, [&](std::uint32_t one) { return said_[one]; }))
       next_ = now + std::max(patience, now.time_since_epoch() / 4);
     return found(assembly, stuck, now, [&](std::uint32_t one) {

@@ -18,7 +18,7 @@ Time Watchdogs::check(Time now) {
   Time next = Time::max();
   for (Watched& one : watched_) {
     const Gauges& gauges = one.executor->gauges();
-    Time due = now + one.limit;  // a call that begins from now on
+    Time due = now + one.limit;  // for a call that begins from now on
     const std::int64_t since_ns = gauges.called_at_ns.load(std::memory_order_acquire);
     if (since_ns != one.alarmed_ns && gauges.calling.load(std::memory_order_acquire)) {
       due = Time(Duration(since_ns)) + one.limit + Duration(1);

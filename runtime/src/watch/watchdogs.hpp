@@ -8,8 +8,9 @@
 
 namespace tessera {
 
-/// Watches, on the steady clock, the transition functions of subsystems with a watchdog. Under the simulated
-/// clock a function that takes too long is known beforehand, and its executor raises the alarm itself.
+/// Watches, on the steady clock, the transition functions of subsystems with a watchdog.
+/// Under the simulated clock, the duration of a function is known in advance, and its
+/// executor raises the alarm itself.
 ///
 /// Threads: one, not that of a subsystem.
 class Watchdogs {
@@ -18,8 +19,8 @@ class Watchdogs {
   /// lane: the calling thread's; nullptr: nothing is recorded.
   Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors,
             std::function<void(std::uint32_t)> secure, RecordingLane* lane);
-  /// Raises the alarm, once a call, where one has run too long. Returns when to look again; Time::max():
-  /// never.
+  /// Raises the alarm, once per call, if a call has run too long. Returns when to look
+  /// again; Time::max(): never.
   [[nodiscard]] Time check(Time now);
 
  private:
@@ -27,7 +28,7 @@ class Watchdogs {
     SubsystemExecutor* executor;
     std::uint32_t instance;
     Duration limit;
-    std::int64_t alarmed_ns = -1;  // beginning of the last call that was too long
+    std::int64_t alarmed_ns = -1;  // beginning of the last call that took too long
   };
   std::vector<Watched> watched_;
   std::function<void(std::uint32_t)> secure_;

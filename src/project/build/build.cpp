@@ -24,7 +24,7 @@ std::string ninja_progress(std::string_view line) {
   return std::string(line.substr(1, end - 1));
 }
 
-// ninja's own lines around the compiler's say nothing to the user.
+// Removes ninja's own lines around those of the compiler, because they do not help the user.
 std::string compiler_output(const std::string& text) {
   std::string kept;
   std::size_t start = 0;
@@ -48,7 +48,7 @@ Exit build_step(const Command& command, const BuildOptions& options,
 
 constexpr const char* note_name = "made_for.txt";
 
-/// Removes a build folder, which Tessera has made: that is what the note in it says.
+/// Removes a build folder that Tessera has made, which a note in it proves.
 void remove_build(const fs::path& build) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(build, ignored))) return;
@@ -61,8 +61,8 @@ void remove_build(const fs::path& build) {
   fs::remove_all(build);
 }
 
-// A build folder knows absolute paths: one that came with a copied project, or that another installation has
-// made, would build other sources than these.
+// A build folder contains absolute paths. A folder that was copied with its project, or that another
+// installation has made, would build other sources than these.
 bool configure(const Specification& specification, const Generated& generated, const fs::path& build,
                const BuildOptions& options, Listener& listener) {
   const fs::path note = build / note_name;
@@ -83,7 +83,8 @@ bool configure(const Specification& specification, const Generated& generated, c
   return done.code == 0;
 }
 
-/// Editors look for it at the root of a project. A file there, or a link to somewhere else, is the user's.
+/// Editors look for this file in the root of a project. An existing file, or a link to another
+/// place, belongs to the user.
 void link_compile_commands(const fs::path& project, const fs::path& build) {
   const fs::path link = project / "compile_commands.json", target = build / "compile_commands.json";
   std::error_code ignored;

@@ -38,7 +38,7 @@ void user_files(const Specification& specification, bool add_missing, Generated&
   result.functions = std::make_shared<const TransitionFunctions>(std::move(functions));
 }
 
-/// The same for the same text of specification and sources, by this command.
+/// The same for the same text of specification and sources, and the same command.
 std::string identity_of(const std::vector<codegen::File>& files, const TransitionFunctions& functions) {
   struct stat command {};
   stat("/proc/self/exe", &command);
@@ -83,7 +83,7 @@ bool report_missing(const Generated& generated, Listener& listener) {
 
 namespace {
 
-/// What was built there last of that kind: its identity and its name in `programs`.
+/// The file with the identity of the last program of that kind and its name in `programs`.
 fs::path note_of(const fs::path& state, const BuildOptions& options) {
   return state / "programs" / fmt::format("{}-{}.built", options.target, options.debug ? "debug" : "release");
 }
@@ -93,8 +93,8 @@ void note_built(const fs::path& state, const BuildOptions& options, const std::s
   write_file(note_of(state, options), identity + " " + program.filename().string() + "\n");
 }
 
-/// The program that was built within a project that cannot be written to; empty: there is none, or not of
-/// these files.
+/// The program that was built earlier, for a project that cannot be written to. Empty: there is none, or
+/// it was built from other files.
 fs::path built_before(const Verified& verified, const BuildOptions& options) {
   const fs::path own = own_folder(verified.specification.project);
   const std::string note = content_of(note_of(own, options));

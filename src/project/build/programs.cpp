@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A linker makes a new file; one that has not run leaves it as it was.
+/// A linker makes a new file; if it has not run, the file is unchanged.
 std::string identity_of(const fs::path& program) {
   struct stat status {};
   if (stat(program.c_str(), &status) != 0)
@@ -31,7 +31,7 @@ std::string identity_of(const fs::path& program) {
       .substr(0, 12);
 }
 
-/// A run holds a hard link to its program, which counts.
+/// A run holds a hard link to its program, so the number of links tells whether it is used.
 void remove_unused(const fs::path& folder) {
   constexpr auto patience = std::chrono::hours(1);
   std::error_code problem;

@@ -67,7 +67,7 @@ class Blanker {
       else if (in_[end] == quote)
         return end + 1;
       else if (in_[end] == '\n')
-        return end;  // no literal after all
+        return end;  // not a literal after all
     }
     return in_.size();
   }
@@ -81,7 +81,7 @@ class Blanker {
   std::size_t at_ = 0;
 };
 
-/// The directives of a blanked text: read, and replaced by blanks too.
+/// Reads the preprocessor directives of a blanked text and replaces them by blanks, too.
 class Directives {
  public:
   Directives(const std::string& original, std::string& text, SourceScan& scan)
@@ -127,7 +127,7 @@ class Directives {
     const std::size_t open = original_.find('"', begin), close = original_.find('"', open + 1);
     if (open < end && close < end) scan_.includes.push_back(original_.substr(open + 1, close - open - 1));
     const std::size_t name = text_.find_first_not_of(" \t", text_.find("include", begin) + 7);
-    if (name < end && in_name(text_[name])) scan_.makes_names = true;  // the name is a macro
+    if (name < end && in_name(text_[name])) scan_.makes_names = true;  // the name itself is a macro
   }
   void add_words(std::string_view line) {
     for (std::size_t at = 0; at < line.size();) {
@@ -172,7 +172,7 @@ std::string joined(const std::string& outer, const std::string& inner) {
   return outer.empty() || inner.empty() ? outer + inner : outer + "::" + inner;
 }
 
-/// Namespaces, and the functions that stand in them.
+/// Finds namespaces, and the functions in them.
 class Walk {
  public:
   Walk(const std::string& text, SourceScan& scan) : text_(text), scan_(scan), tokens_(tokens_of(text)) {}
@@ -225,7 +225,7 @@ class Walk {
     if (scopes_.back().is_namespace) scan_.ends[space()] = tokens_[at_].at;
     scopes_.pop_back();
   }
-  /// After `)` at `index`; the index behind it.
+  /// The index after `)` at `index` and its specifiers.
   [[nodiscard]] std::size_t after_parentheses(std::size_t index) const {
     std::size_t depth = 0;
     for (; index < tokens_.size(); ++index) {

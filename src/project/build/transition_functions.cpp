@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As the generated CMakeLists.txt compiles them, and what they may include.
+/// Whether the generated CMakeLists.txt compiles the file, or sources may include it.
 bool is_source(const fs::path& file) {
   static const std::set<std::string> endings{".cpp", ".cc",  ".cxx", ".hpp", ".hh",  ".hxx",
                                              ".h",   ".inl", ".ipp", ".tpp", ".inc", ".def"};
@@ -67,7 +67,7 @@ TransitionFunctions::Presence TransitionFunctions::presence(const codegen::Stub&
     const SourceScan& scan = one.second;
     const auto word = scan.words.find(stub.function);
     if (word == scan.words.end()) return scan.makes_names;
-    // Other subsystems may have functions of that name, and so may agents that had other names before.
+    // Other subsystems may have functions with that name, and so may agents that had other names before.
     const std::string system = stub.space.substr(0, stub.space.find(':')) + "::";
     const auto others = std::ranges::count_if(scan.functions, [&](const ScannedFunction& function) {
       return function.name == stub.function && (is_wanted(function) || function.space.starts_with(system));
@@ -153,7 +153,7 @@ std::string notes_of(const std::vector<TransitionFunctions::Definition>& definit
   return text;
 }
 
-/// A line of a linker names the symbol as a whole.
+/// Whether a line of a linker contains the symbol as a whole word.
 bool names(std::string_view line, const std::string& symbol) {
   for (std::size_t at = line.find(symbol); at != std::string_view::npos; at = line.find(symbol, at + 1)) {
     const char before = at == 0 ? ' ' : line[at - 1];
@@ -166,7 +166,7 @@ bool has_any(std::string_view line, std::initializer_list<std::string_view> part
   return std::ranges::any_of(parts, [&](std::string_view part) { return line.find(part) != line.npos; });
 }
 
-/// GNU ld and gold, lld, mold.
+/// The messages of GNU ld and gold, lld and mold.
 bool is_missing(std::string_view line) {
   return has_any(line, {"undefined reference to", "undefined symbol"});
 }

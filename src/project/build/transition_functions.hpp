@@ -11,20 +11,20 @@
 
 namespace tessera::project {
 
-/// What is known of the user's transition functions before a compiler has seen them: by the text of every
-/// source in src/, and of what these include by "...".
+/// Facts about the user's transition functions before they are compiled. They come from the text of
+/// every source in src/, and of the files that these include by "...".
 ///
 /// Threads: one at a time.
 class TransitionFunctions {
  public:
-  /// wanted: all of them. Reads the sources; a project without src/ has none.
+  /// wanted: all transition functions. Reads the sources; a project without src/ has none.
   TransitionFunctions(std::filesystem::path project, std::vector<codegen::Stub> wanted);
   [[nodiscard]] const std::vector<codegen::Stub>& wanted() const { return wanted_; }
 
   enum class Presence : std::uint8_t {
-    defined,  ///< there it is
-    unclear,  ///< the text does not tell: the linker will
-    missing   ///< nothing there can be it
+    defined,  ///< it is defined
+    unclear,  ///< the text does not tell; the linker will
+    missing   ///< no function can be it
   };
   [[nodiscard]] Presence presence(const codegen::Stub& stub) const;
 
@@ -42,11 +42,11 @@ class TransitionFunctions {
   /// It is one of the sources.
   [[nodiscard]] bool knows(const std::filesystem::path& file) const;
 
-  /// The same for the same sources.
+  /// A hash of all sources.
   [[nodiscard]] std::string identity() const;
 
-  /// Adds it to that file, in its namespace; makes the file if need be. Returns the file.
-  /// Throws std::runtime_error when it cannot be written.
+  /// Adds the function to that file, in its namespace; makes the file if it does not exist. Returns the
+  /// file. Throws std::runtime_error if it cannot be written.
   std::filesystem::path add(const codegen::Stub& stub);
 
  private:
@@ -60,13 +60,13 @@ class TransitionFunctions {
   std::map<std::filesystem::path, std::string> hashes_;
 };
 
-/// "src/control.cpp: error: robot.control has no function 'rest'", what to write there, and what may be
-/// meant.
+/// "src/control.cpp: error: robot.control has no function 'rest'", with what to write
+/// there and what may be meant.
 [[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
 
-/// What compiler and linker say, with transition functions in terms of the project: those that are missing,
-/// those that are there twice, and those that may stand in the wrong namespace. What they say themselves
-/// follows as far as it says more.
+/// Explains messages of compiler and linker in terms of the project: transition functions that are
+/// missing, that are defined twice, and that may be in the wrong namespace. Messages that say more
+/// than that follow unchanged.
 [[nodiscard]] std::string explain_build_errors(const std::string& text, const TransitionFunctions& functions);
 
 }  // namespace tessera::project

@@ -55,7 +55,7 @@ bool check_simulation_files(const spec::Model& model, const fs::path& project,
                             diagnostics::Diagnostics& out) {
   if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
-  bool found = simulation.world.empty() ||  // its drivers are C++ classes
+  bool found = simulation.world.empty() ||  // the drivers are C++ classes
                check_file(simulation.world, "world", "worlds", simulation.world_span, project, out);
   if (simulation.track)
     found = check_file(simulation.track->image, "picture", "tracks", simulation.track->image_span, project,

@@ -7,7 +7,7 @@
 
 namespace tessera::project {
 
-/// Whether the files that the simulation names are there: the world, and the picture of the track.
+/// Whether the files that the simulation names exist: the world, and the picture of the track.
 ///
 /// project: the folder of the specification.
 /// Errors: E310 a file is neither in that folder nor among the shipped ones.

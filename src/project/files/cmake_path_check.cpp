@@ -23,7 +23,7 @@ std::optional<std::string> trouble_in(std::string_view path) {
   return std::nullopt;
 }
 
-/// As it may be printed.
+/// The path with control characters made visible.
 std::string shown(std::string_view path) {
   std::string text;
   for (const char character : path) {

@@ -51,7 +51,7 @@ void write_file(const fs::path& file, std::string_view text) {
   const bool exists = stat(target.c_str(), &status) == 0;
   const fs::path beside =
       target.parent_path() / fmt::format(".{}.{}.{}", target.filename().string(), getpid(), ++number);
-  unlink(beside.c_str());  // of an earlier process with our number
+  unlink(beside.c_str());  // left by an earlier process with the same id
   const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(file, errno);
   int wrong = write_all(descriptor, text) ? 0 : errno;

@@ -4,14 +4,14 @@
 #include <string>
 #include <string_view>
 
-/// Files, read and written as wholes.
+/// Reads and writes whole files.
 namespace tessera::project {
 
-/// Empty when it cannot be read.
+/// Empty if the file cannot be read.
 [[nodiscard]] std::string content_of(const std::filesystem::path& file);
 
-/// Replaces a file as a whole, and makes its folder: a reader sees the old text or the new one, and so does
-/// the disk when it is full. Follows a symbolic link; keeps the mode of a file that exists.
+/// Replaces a file as a whole, and makes its folder. A reader sees either the old text or the new one. If
+/// the disk is full, the old text stays. Follows a symbolic link; keeps the mode of a file that exists.
 ///
 /// Errors:  throws std::runtime_error with the path and the reason.
 /// Threads: any.
@@ -23,7 +23,8 @@ void write_file(const std::filesystem::path& file, std::string_view text);
 /// The identity of a text: 32 hexadecimal digits.
 [[nodiscard]] std::string hash_of(std::string_view text);
 
-/// Nothing in it is a symbolic link: from `folder`, which may be one, down to folder/relative.
+/// Whether no part of the path is a symbolic link: from `folder`, which may be
+/// one, down to folder/relative.
 [[nodiscard]] bool is_inside(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
 }  // namespace tessera::project

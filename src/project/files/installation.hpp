@@ -13,12 +13,12 @@ struct Installation {
   std::filesystem::path cmake_package;  ///< folder of tesseraConfig.cmake
   std::filesystem::path world_library;  ///< libtessera_world.so
 
-  /// Throws std::runtime_error that says what is missing.
+  /// Throws std::runtime_error that names the missing part.
   [[nodiscard]] static Installation find();
 };
 
-/// `name` as given if absolute; else in the project's folder; else in share/FOLDER. nullopt when it is
-/// nowhere.
+/// `name` itself if it is absolute; otherwise in the project's folder; otherwise in share/FOLDER.
+/// nullopt: the file does not exist.
 [[nodiscard]] std::optional<std::filesystem::path> find_asset(const std::string& name,
                                                               const std::filesystem::path& project,
                                                               const std::string& folder);

@@ -50,7 +50,7 @@ LockFile::~LockFile() {
 void LockFile::write(const std::string& text) const {
   const bool written = ftruncate(descriptor_, 0) == 0 &&
                        pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-  static_cast<void>(written);  // it only tells
+  static_cast<void>(written);  // the text is only information
 }
 
 void LockFile::goes_to_children() const { fcntl(descriptor_, F_SETFD, 0); }

@@ -37,7 +37,7 @@ std::uint64_t limit_of(const char* variable, std::uint64_t usual) {
   return limit == 0 ? UINT64_MAX : limit;
 }
 
-/// What Tessera and its controllers write into the folder of a run.
+/// Whether Tessera or its controllers write a file with that name into the folder of a run.
 bool is_ours(const std::string& name) {
   static const std::regex ours(
       R"(recording(\.\d+)?\.tsr|path\.csv|summary\.json|controller|death\.txt|in_use\.lock)");
@@ -66,7 +66,8 @@ std::vector<OldRun> runs_in(const fs::path& folder) {
     for (fs::directory_iterator file(run.folder, gone), last; !gone && file != last; file.increment(gone)) {
       struct stat size {};
       if (lstat(file->path().c_str(), &size) == 0 && S_ISREG(size.st_mode))
-        run.bytes += static_cast<std::uint64_t>(size.st_size) / size.st_nlink;  // of shared ones, a part
+        // a file with several links counts in part for each
+        run.bytes += static_cast<std::uint64_t>(size.st_size) / size.st_nlink;
     }
     runs.push_back(std::move(run));
   }
@@ -86,7 +87,7 @@ void remove_files(const fs::path& folder) {
   fs::remove(folder, problem);  // only if nothing is left in it
 }
 
-/// false: it is in use, or somebody wants it to stay.
+/// false: the folder is in use, or contains a file `keep`.
 bool remove_run(const fs::path& folder) {
   std::error_code problem;
   if (fs::exists(fs::symlink_status(folder / "keep", problem))) return false;
@@ -96,15 +97,15 @@ bool remove_run(const fs::path& folder) {
   return true;
 }
 
-/// The run that `last` shows, "runs/20261122-091530-simulate-1"; empty: none.
+/// The run to which `last` points, "runs/20261122-091530-simulate-1"; empty: none.
 fs::path shown_in(const fs::path& state) {
   std::error_code problem;
   const fs::path shown = fs::read_symlink(state / "last", problem);
   return problem ? fs::path() : shown;
 }
 
-/// The newest ones stay, and one that takes all the room by itself does if it is the newest; so does the one
-/// that `last` shows.
+/// Keeps the newest runs. The newest one stays even if it exceeds the limit by itself. The run to
+/// which `last` points stays, too.
 void remove_old(const fs::path& state, Listener& listener) {
   const fs::path folder = state / "runs", shown = shown_in(state).filename();
   const std::uint64_t runs_limit = limit_of("TESSERA_KEEP_RUNS", most_runs);
@@ -125,7 +126,7 @@ void remove_old(const fs::path& state, Listener& listener) {
   }
 }
 
-/// A name that no run has now, and none of this second had before: numbers count on.
+/// A name that no run has now, and none has had in this second: the numbers go on.
 fs::path new_name(const fs::path& runs, const std::string& mode) {
   const std::string start = fmt::format("{:%Y%m%d-%H%M%S}-{}-", fmt::localtime(std::time(nullptr)), mode);
   std::uint64_t highest = 0;
@@ -146,7 +147,7 @@ fs::path make_folder(const fs::path& folder) {
   throw std::runtime_error(fmt::format("cannot make {}: {}", folder.string(), std::strerror(errno)));
 }
 
-/// Versions before this had one folder `last`, which every run overwrote.
+/// Earlier versions had one folder `last`, which every run overwrote.
 void move_old_last(const fs::path& state) {
   std::error_code problem;
   const fs::path last = state / "last";
@@ -168,7 +169,7 @@ void point_last_to(const fs::path& state, const fs::path& folder) {
   if (problem) throw std::runtime_error(fmt::format("cannot write {}: {}", last.string(), problem.message()));
 }
 
-/// The run that `last` shows when the one that it shows has not begun; empty: there is none.
+/// The run to which `last` pointed before, for a run that has not begun; empty: there is none.
 fs::path shown_instead(const fs::path& state, const fs::path& before) {
   std::error_code problem;
   if (!before.empty() && fs::is_directory(state / before, problem)) return state / before;
@@ -184,7 +185,7 @@ LockFile lock_of(const fs::path& folder) {
   return std::move(*lock);
 }
 
-/// Old runs go, and the new one comes, one after the other; nobody holds this for long.
+/// A lock for removing old runs and adding the new one. No process holds it for long.
 LockFile runs_lock(const fs::path& state) {
   for (;;) {
     if (auto lock = LockFile::try_take(state / "runs.lock", LockFile::Mode::exclusive))
@@ -195,7 +196,7 @@ LockFile runs_lock(const fs::path& state) {
 
 fs::path begin(const fs::path& state, const std::string& mode, Listener& listener) {
   move_old_last(state);
-  const fs::path folder = new_name(state / "runs", mode);  // not that of one that goes now
+  const fs::path folder = new_name(state / "runs", mode);  // not the name of a run that is being removed
   remove_old(state, listener);
   return make_folder(folder);
 }
@@ -227,7 +228,7 @@ fs::path RunFolder::own_copy_of(const fs::path& program) const {
   const fs::path own = path_ / "controller";
   std::error_code problem;
   fs::create_hard_link(program, own, problem);
-  if (problem) fs::copy_file(program, own);  // another disk, or another user's
+  if (problem) fs::copy_file(program, own);  // another disk, or another user's file
   return own;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 bool is_writable(const fs::path& folder) { return access(folder.c_str(), W_OK | X_OK) == 0; }
 
-/// What another user has made there stays out of our reach, all of it or in parts.
+/// false, too, if another user has made the folder or parts of it.
 bool own_folder_is_writable(const fs::path& project) {
   const fs::path own = own_folder(project);
   std::error_code ignored;

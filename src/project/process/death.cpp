@@ -14,7 +14,7 @@ std::string describe_death(const Exit& exit, const std::filesystem::path& note) 
     return what.starts_with("killed") ? fmt::format("the controller was {} in {}", what, where)
                                       : fmt::format("the controller has ended: {} {}", where, what);
   if (exit.code == 0)
-    return "the controller has ended without a word: something in it has called _exit, or replaced the "
+    return "the controller has ended without a message: something in it has called _exit, or replaced the "
            "program";
   if (exit.code <= 128) return "";
   const char* const name = sigabbrev_np(exit.code - 128);

@@ -6,20 +6,21 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// Making and starting controllers: what the command line and the studio share.
+/// Makes and starts controllers, for the command line and the studio.
 namespace tessera::project {
 
-/// Who is told what happens on the way from a specification to a running controller: a terminal, or a page.
+/// Receives messages and progress on the way from a specification to a running controller. It may be a
+/// terminal, or the page of the studio.
 ///
 /// Threads: called in the thread that does the work.
 class Listener {
  public:
   virtual ~Listener() = default;
-  /// Text for people: whole lines.
+  /// text: for people, in whole lines.
   virtual void say(std::string_view text) = 0;
-  /// Every diagnostic, as text unless a listener knows better.
+  /// Reports every diagnostic, as text unless a listener overrides it.
   virtual void say(const diagnostics::Diagnostics& diagnostics);
-  /// What is going on, and how far it is; takes the place of what was said before. Empty: that is over.
+  /// what: the current step and its progress; it replaces the previous one. Empty: the step is over.
   virtual void progress(std::string_view what) = 0;
 
   /// "tessera: error: TEXT"
@@ -28,14 +29,14 @@ class Listener {
   void warn(std::string_view text);
 };
 
-/// A piece of work that tells of itself once it takes longer than a second.
+/// A step of the work that reports its progress once it takes longer than a second.
 class Step {
  public:
   Step(Listener& listener, std::string what);
   ~Step();
   Step(const Step&) = delete;
   Step& operator=(const Step&) = delete;
-  /// To be called now and then; detail replaces what was shown behind the step's name.
+  /// To be called from time to time. `detail` replaces the earlier text after the name of the step.
   void progress(std::string_view detail);
   [[nodiscard]] double seconds() const;
 

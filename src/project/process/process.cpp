@@ -30,10 +30,10 @@ extern "C" void pass_on(int signal) {
   if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
 }
 
-/// While it lives, the signals that would end or stop us go to the child, which decides what to do about
-/// them. They are held back until it is known: one that came just after its start would end us, and the
-/// child, which drives a robot, would run on alone. One that somebody handles or ignores already (nohup) is
-/// left to them.
+/// While this object exists, the signals that would end or stop this process go to the child, which decides
+/// what to do about them. They are held back until its id is known: a signal just after its start would end
+/// this process, and the child, which drives a robot, would run on alone. A signal that is handled or
+/// ignored already (nohup) is left as it is.
 class SignalsToChild {
  public:
   SignalsToChild() {
@@ -87,7 +87,8 @@ pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool ow
   arguments.push_back(nullptr);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // Whoever waits for signals blocks them; a program that was started must hear them all the same.
+  // A process that waits for signals blocks them; the program that it starts must
+  // receive them all the same.
   sigset_t none;
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
@@ -101,7 +102,7 @@ pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool ow
   return child;
 }
 
-/// The reading end of what a child prints.
+/// The reading end of the child's output.
 class Output {
  public:
   Output(const Command& command, bool own_group) {
@@ -158,8 +159,9 @@ class Output {
   std::size_t line_start_ = 0;
 };
 
-/// After Ctrl-Z we stop when it has stopped, and it goes on with us. Where it alone is stopped (kill -STOP, a
-/// debugger) we wait: whoever continues it knows nothing of us.
+/// After Ctrl-Z, this process stops when the child has stopped, and the child continues together with it.
+/// If only the child is stopped (kill -STOP, a debugger), this process waits, because the one that
+/// continues the child does not know this process.
 int wait_for(pid_t child) {
   int status = 0;
   for (bool stopped = false;;) {

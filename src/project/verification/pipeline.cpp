@@ -39,7 +39,7 @@ std::optional<Specification> read(const fs::path& given, Listener& listener) {
 
 namespace {
 
-/// A verdict on a default property must never be taken for one on the author's, or the other way round.
+/// A verdict on a default property must never be confused with one on a property of the specification.
 bool names_are_free(const spec::Model& model, diagnostics::Diagnostics& out) {
   bool free = true;
   for (const spec::Property& property : model.properties) {

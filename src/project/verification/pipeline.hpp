@@ -16,7 +16,7 @@
 /// has two forms: one reports to Diagnostics, the other tells a listener.
 namespace tessera::project {
 
-/// A specification that was read without error.
+/// A specification that was read without errors.
 struct Specification {
   std::filesystem::path file;     ///< absolute
   std::filesystem::path project;  ///< its folder
@@ -24,16 +24,16 @@ struct Specification {
   spec::Model model;
 };
 
-/// The file that `given` means: itself, or the spec.yaml of a folder.
+/// The file that `given` means: `given` itself, or the spec.yaml of a folder.
 [[nodiscard]] std::filesystem::path spec_file(const std::filesystem::path& given);
 
-/// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been told.
+/// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been reported.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given, Listener& listener);
 
-/// Judges every communication model of the author's by itself. false: one is not sound, and was complained
-/// about.
+/// Judges every communication model of the specification by itself. false: one is not
+/// sound, which has been reported.
 bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
-/// The same, told.
+/// The same, with the diagnostics reported to the listener.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
 /// check_simulation_files, told (src/project/files/assets.hpp).
@@ -63,12 +63,12 @@ struct Draft {
 struct Nets {
   net::HierarchicalNet pages;
   net::Net flat;
-  std::vector<net::Property> properties;  ///< of the author
+  std::vector<net::Property> properties;  ///< from the specification
 };
 /// All of them, or nullopt after an error. Errors: those of build_what_is_possible; E106 a property of the
 /// author's with the name of a default one.
 [[nodiscard]] std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& out);
-/// The same, told.
+/// The same, with the diagnostics reported to the listener.
 [[nodiscard]] std::optional<Nets> build(const Specification& specification, Listener& listener);
 
 /// "holds", "violated", "unknown"
@@ -77,7 +77,7 @@ struct Nets {
 /// What may pass on to generation.
 struct VerificationGate {
   std::string timeout = "10s";     ///< for the verdicts
-  bool accept_violations = false;  ///< a violated net too
+  bool accept_violations = false;  ///< a violated net may pass, too
 };
 
 struct Verified {

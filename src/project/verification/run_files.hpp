@@ -6,15 +6,15 @@
 #include "net/net.hpp"
 #include "verify/verify.hpp"
 
-/// Runs that show violations, as files: for viewers that step through them, and for `simulate --scenario`.
+/// Writes runs that show violations for viewers that step through them, and for `simulate --scenario`.
 namespace tessera::project {
 
 /// {"net", "net_hash", "initial": [place...], "traces": [{"property", "verdict", "method", "why",
-/// "exceptions", "firings": [{"transition", "subsystem", "page", "line", "takes": [place...], "gives":
-/// [place...]}], "story": [{"first", "last", "who", "text", "line"}], "end": [place...], "channels": [...],
-/// "waits": [...]}]}
+/// "exceptions", "firings": [{"transition", "subsystem", "page", "line", "takes": [place...],
+/// "gives": [place...]}], "story": [{"first", "last", "who", "text", "line"}], "end": [place...],
+/// "channels": [...], "waits": [...]}]}
 ///
-/// pages: of a net of the five layers; nullptr otherwise.
+/// pages: of a net of the five layers; nullptr for other nets.
 [[nodiscard]] nlohmann::json traces_json(const std::string& file, const net::Net& net,
                                          const net::HierarchicalNet* pages, const verify::Report& report);
 
@@ -22,20 +22,21 @@ namespace tessera::project {
 [[nodiscard]] nlohmann::json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
                                           const std::vector<net::TransitionId>& run);
 
-/// [{"path", "line"}]: the behaviours that a verdict is about.
+/// [{"path", "line"}]: the behaviours that a verdict refers to.
 [[nodiscard]] nlohmann::json behaviours_json(const verify::PropertyResult& property);
 
-/// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers, told (verify::narrate).
+/// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers in
+/// sentences (verify::narrate).
 [[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run);
 
 /// {"properties": [{"name", "asks", "verdict", "method", "why", "meaning", "explanation", "seconds",
-/// "states", "warning", "waits", "behaviours": [{"path", "line"}], "trace": firings or null}], "net_hash",
-/// "verification_hash"}
+/// "states", "warning", "waits", "behaviours": [{"path", "line"}], "trace": firings or null}],
+/// "net_hash", "verification_hash"}
 [[nodiscard]] nlohmann::json report_json(const net::Net& net, const net::HierarchicalNet* pages,
                                          const verify::Report& report);
 
-/// {"scenario": 1, "net_hash", "property", "why", "firings": [name...], "waits": [...]}: what a controller of
-/// that net can be made to do.
+/// {"scenario": 1, "net_hash", "property", "why", "firings": [name...], "waits": [...]}: a run that a
+/// controller of that net can follow.
 [[nodiscard]] nlohmann::json scenario_json(const net::Net& net, const verify::Report& report,
                                            const verify::PropertyResult& property);
 

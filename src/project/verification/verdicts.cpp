@@ -70,7 +70,7 @@ class Kept {
   Kept(const Specification& specification, const std::string& hash)
       : hash_(hash), name_(fs::path("verdicts") / (hash + ".json")), project_(specification.project) {}
 
-  /// nullopt: none, or more time might decide what they leave unknown.
+  /// nullopt: there are none, or more time might decide what they leave unknown.
   [[nodiscard]] std::optional<verify::Report> read(double seconds) const try {
     const fs::path ours = state_folder(project_) / name_;
     std::error_code ignored;
@@ -99,7 +99,7 @@ class Kept {
                     {"properties", properties}};
     try {
       write_file(state_folder(project_) / name_, kept.dump(1) + "\n");
-    } catch (const std::exception&) {  // they are found again next time
+    } catch (const std::exception&) {  // they are computed again next time
     }
   }
 

@@ -4,7 +4,8 @@
 
 #include "project/verification/pipeline.hpp"
 
-/// The verdicts that a controller is made on: proved once, kept in the state folder for the next time.
+/// The verdicts on a net from which a controller is made. They are proved once and
+/// kept in the state folder.
 namespace tessera::project {
 
 /// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t shown_steps = 60, shown_channels = 20;
 
-/// Of long lists, the end: that is where it goes wrong.
+/// The message about the part of a long list that is left out: its beginning, because
+/// the violation is at its end.
 std::string left_out(std::size_t count, const char* what) {
   return count == 0 ? std::string()
                     : fmt::format("    ... {} {}, all of them with --trace FILE\n", count, what);
@@ -70,7 +71,7 @@ std::vector<std::string> marked_after(const net::Net& net, const std::vector<net
 
 namespace {
 
-/// The places of channels that a run marks in the end, of those channels that somebody in it uses.
+/// The marked places of channels at the end of a run, for the channels that a subsystem in it uses.
 std::vector<std::string> channels_after(const net::Net& net, const std::vector<net::TransitionId>& run) {
   std::set<std::uint32_t> acting, used;
   for (const net::TransitionId id : run) acting.insert(net[id].subsystem);
@@ -93,7 +94,7 @@ std::vector<std::string> channels_after(const net::Net& net, const std::vector<n
 
 std::string headline(const verify::PropertyResult& property) {
   const bool holds = property.verdict == verify::Verdict::holds;
-  // What the waits say is not said twice.
+  // Leaves out what the waits say already.
   const bool said = std::ranges::any_of(
       property.waits, [&](const std::string& wait) { return property.why.find(wait) != std::string::npos; });
   return fmt::format("{}{}: {} ({}{}{})\n", property.warning && !holds ? "warning: " : "", property.name,

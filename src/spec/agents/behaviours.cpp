@@ -16,7 +16,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// Names that stand beside the transition functions in the generated code.
+/// Names that the generated code uses beside the transition functions.
 constexpr std::array generated =
     std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
 
@@ -26,7 +26,7 @@ bool holds(const std::vector<Field>& fields, std::string_view name) {
   return std::any_of(fields.begin(), fields.end(), [name](const Field& field) { return field.name == name; });
 }
 
-/// Reads the behaviours of one subsystem; they may name one another before they come.
+/// Reads the behaviours of one subsystem. They may refer to behaviours that follow later in the file.
 class BehaviourReader {
  public:
   BehaviourReader(const std::vector<Entry>& entries, const std::vector<Field>& inputs,

@@ -7,10 +7,10 @@
 
 namespace tessera::spec {
 
-/// The behaviours of a subsystem whose buffers were read.
+/// Reads the behaviours of a subsystem whose buffers have been read.
 ///
-/// Errors: E101 unknown behaviour, buffer or condition; E103 none at all; E105-E107 names; those of
-/// conditions.
+/// Errors: E101 unknown behaviour, buffer or condition; E103 no behaviour; E105-E107
+///         names; those of conditions.
 [[nodiscard]] std::vector<Behaviour> read_behaviours(const Entry& entry, const std::vector<Field>& inputs,
                                                      const std::vector<Field>& outputs, Diagnostics& out);
 

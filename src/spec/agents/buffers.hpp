@@ -6,10 +6,10 @@
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
 
-/// What a subsystem holds: buffers, memory, parameters.
+/// The data of a subsystem: buffers, memory, parameters.
 namespace tessera::spec {
 
-/// NAME: TYPE pairs. what: one of them, e.g. "input". entry may be null.
+/// NAME: TYPE pairs. what: the kind of thing that is named, e.g. "input". entry may be null.
 [[nodiscard]] std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const Types& types,
                                               Diagnostics& out);
 

@@ -14,13 +14,13 @@ namespace {
 
 using diagnostics::quoted;
 
-/// Words that mean something in `when` or `next`.
+/// Words with a special meaning in `when` or `next`.
 constexpr std::array reserved = std::to_array<std::string_view>({"error", "terminal", "end"});
 
 constexpr const char* condition_hint =
     "write true, an expression such as in.line.left, or a map of named expressions";
 
-/// A constant in quotes is text in YAML, and the same constant in C++.
+/// A constant in quotes is text in YAML, but the same constant in C++.
 std::optional<bool> quoted_constant(const Node& node) {
   if (!node.is_scalar() || !node.quoted) return std::nullopt;
   const std::size_t first = node.text.find_first_not_of(" \t\r\n");
@@ -63,7 +63,8 @@ void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
   if (condition.value->entries.empty()) {
     out.error("E104", condition.span, quoted(condition.key) + " needs at least one named expression",
               condition_hint);
-    result.expressions.push_back({{}, {}, condition.span});  // one that is not known: nothing follows from it
+    // an unknown condition, so that no further mistake follows from it
+    result.expressions.push_back({{}, {}, condition.span});
   }
   for (const Entry& entry : condition.value->entries) {
     check_name(entry.key, entry.span, "condition", out);
@@ -81,7 +82,7 @@ std::optional<Index> expression_index(const Condition& condition, std::string_vi
   return std::nullopt;
 }
 
-/// What to do about a lone word that names no condition.
+/// The hint for a single word that names no condition.
 std::string hint_for(const std::string& word, const Behaviour& of) {
   if (word == "terminal")
     return "leave 'when' out: without it the entry is taken however the behaviour ended";

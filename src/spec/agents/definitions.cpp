@@ -77,7 +77,7 @@ void Templates::resolve_aliases(Diagnostics& out) {
   for (const std::string& name : order_) resolve(name, out);
 }
 
-/// Follows aliases from `name` to a body and gives every template on the way that definition.
+/// Follows aliases from `name` to a body, and gives that definition to every template on the way.
 void Templates::resolve(const std::string& name, Diagnostics& out) {
   std::vector<std::string> chain;
   Index definition = none;
@@ -105,7 +105,7 @@ void Templates::resolve(const std::string& name, Diagnostics& out) {
   }
   for (const std::string& alias : chain) {
     by_name_.at(alias).definition = definition;
-    by_name_.at(alias).alias_of = nullptr;  // done: neither followed nor complained about again
+    by_name_.at(alias).alias_of = nullptr;  // neither follow it nor report it again
   }
 }
 
@@ -121,7 +121,7 @@ Index Templates::find(const Node& name, Diagnostics& out) {
 }
 
 void Templates::complain_about_unused(Diagnostics& out) const {
-  if (one_is_unknown_) return;  // it may have been meant
+  if (one_is_unknown_) return;  // the unknown name may mean this template
   for (const std::string& name : order_) {
     const Template& one = by_name_.at(name);
     if (!one.used) out.warning("W319", one.entry->span, "template " + quoted(name) + " is used by no agent");

@@ -4,7 +4,7 @@
 
 namespace tessera::spec {
 
-/// The body of an agent or template: control, receptors, effectors.
+/// Reads the body of an agent or template: control, receptors, effectors.
 ///
 /// Errors: E103 no control subsystem; E107 two subsystems of one name; those of subsystems.
 [[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
@@ -33,7 +33,7 @@ class Templates {
 
   std::unordered_map<std::string, Template> by_name_;
   std::vector<std::string> order_;
-  bool one_is_unknown_ = false;  ///< some name was looked up in vain
+  bool one_is_unknown_ = false;  ///< a name was looked up in vain
 };
 
 }  // namespace tessera::spec

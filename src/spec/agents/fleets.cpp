@@ -100,7 +100,7 @@ class Builder {
   Index fleets_ = 0;
 };
 
-/// Types, agents and subsystems become names of C++ that may meet in one scope.
+/// Checks names of types, agents and subsystems, which become C++ names that may meet in one scope.
 void check_clashes(const Model& model, const std::vector<Structure>& structures, Diagnostics& out) {
   std::unordered_map<std::string, const Structure*> types;
   for (const Structure& structure : structures) types.emplace(structure.name, &structure);
@@ -121,7 +121,7 @@ void check_clashes(const Model& model, const std::vector<Structure>& structures,
   }
 }
 
-/// Each definition becomes a namespace.
+/// Checks the names of definitions, each of which becomes a namespace.
 void check_definitions(const Model& model, Diagnostics& out) {
   std::unordered_map<std::string, Span> spans;
   for (const Definition& definition : model.definitions) {

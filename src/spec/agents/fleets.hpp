@@ -16,7 +16,7 @@ struct AgentGroup {
   Index first_agent = 0;  ///< into Model::agents
   Index count = 1;
   bool fleet = false;       ///< `count` was given, so paths need an index
-  bool ring = false;        ///< the last is followed by the first
+  bool ring = false;        ///< the first agent follows the last
   Index definition = none;  ///< none: it could not be read
 };
 

@@ -18,12 +18,12 @@ using diagnostics::quoted;
 constexpr const char* limits_hint = "for example left: { min: -10, max: 10, per_second: 50 }";
 constexpr std::uint64_t most_elements = 256;
 
-/// What a path such as "pose.x" leads to, and what is given for it in the safe command.
+/// The number that a path such as "pose.x" leads to, and its value in the safe command.
 struct Target {
   Index real = none;
   const Type* type = nullptr;
-  std::string field;           ///< behind the buffer: "pose.x"
-  const Node* safe = nullptr;  ///< nullptr: nothing is given, which is zero
+  std::string field;           ///< path inside the buffer: "pose.x"
+  const Node* safe = nullptr;  ///< nullptr: not given, which means zero
 };
 
 class LimitReader {
@@ -172,11 +172,11 @@ class LimitReader {
     double number = 0;
     if (safe != nullptr) {
       const auto quantity = safe->is_scalar() ? split_quantity(safe->text) : std::nullopt;
-      if (!quantity) return;  // complained about where it stands
+      if (!quantity) return;  // reported elsewhere
       number = quantity->number;
     }
     if (number >= limit.minimum.value_or(number) && number <= limit.maximum.value_or(number)) return;
-    const std::string text = safe == nullptr ? "0, which nothing else is given for," : quoted(safe->text);
+    const std::string text = safe == nullptr ? "0, the default," : quoted(safe->text);
     out_.error("E211", safe == nullptr ? entry.span : safe->span,
                "the safe command " + text + " is outside the limits of " + quoted(entry.key),
                "a safe command within the limits stands under `safe`");

@@ -12,7 +12,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// The type that a bare value shows: a number is a float64, quoted text a string.
+/// The type of a value without an explicit type: a number is a float64, quoted text a string.
 Type shown_type(const Node& value, Diagnostics& out) {
   Type type;
   if (is_true(value) || is_false(value)) {

@@ -13,34 +13,34 @@
 /// Paths of buffers as the file writes them: robot.control.line, robot[3]..., robot[i+1]..., robot[*]...
 namespace tessera::spec {
 
-/// Which agents of a group a path means.
+/// Selects the agents of a group that a path means.
 struct Selector {
   enum class Kind : std::uint8_t { plain, constant, variable, all } kind = Kind::plain;
-  std::int64_t number = 0;  ///< constant: the agent; variable: what is added to i
+  std::int64_t number = 0;  ///< constant: the number of the agent; variable: what is added to i
 };
 
 inline constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or *";
 
-/// 3, i, i+1, i - 1, *; nullopt: no index.
+/// Reads 3, i, i+1, i - 1, or *. nullopt: the text is no index.
 [[nodiscard]] std::optional<Selector> read_index(std::string_view text);
 
 /// The number of the agent that a selector means for i (which `*` counts too); none past the end of a group
 /// that is no ring.
 [[nodiscard]] Index agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i);
 
-/// A path, taken apart but not looked up.
+/// A path, split but not looked up.
 struct BufferPath {
   std::string agent, subsystem, buffer;
   Span whole, agent_span, index_span, subsystem_span, buffer_span;
   Selector selector;
 };
 
-/// text: where the path stands; [offset, offset + length) of it is the path.
+/// text: the node that contains the path; [offset, offset + length) of it is the path.
 /// Errors: E112 not of the form AGENT.SUBSYSTEM.BUFFER.
 [[nodiscard]] std::optional<BufferPath> split_path(const Node& text, std::size_t offset, std::size_t length,
                                                    Diagnostics& out);
 
-/// The path of a real buffer, or of a subsystem (AGENT.SUBSYSTEM): then `buffer` is empty.
+/// The path of a real buffer, or of a subsystem (AGENT.SUBSYSTEM); in that case `buffer` is empty.
 /// Errors: E112 as for split_path.
 [[nodiscard]] std::optional<BufferPath> split_device_path(const Node& text, Diagnostics& out);
 
@@ -63,7 +63,7 @@ class PathLookup {
   [[nodiscard]] bool find(const BufferPath& path, PathTarget& target, KnownUpTo& known,
                           Diagnostics& out) const;
 
-  /// The agents of that name, or null.
+  /// The agents with that name, or null.
   ///
   /// Errors: E101 unknown agent.
   [[nodiscard]] const AgentGroup* find_group(const std::string& agent, Span span, Diagnostics& out) const;

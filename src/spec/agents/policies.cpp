@@ -15,7 +15,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// The place of the word among the choices; the first if it is none, which is an error.
+/// The index of the word among the choices; the first one after an error, if it is none of them.
 std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_view> choices,
                         Diagnostics& out) {
   const std::vector<std::string> words(choices.begin(), choices.end());
@@ -31,7 +31,7 @@ std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_vi
   return 0;
 }
 
-/// A whole number from least to most; nullopt if it is none, which is an error.
+/// A whole number from least to most; nullopt after an error, if it is none.
 std::optional<std::uint32_t> read_whole(const Entry& entry, std::uint32_t least, std::uint32_t most,
                                         Diagnostics& out) {
   const Node* text = text_of(*entry.value, entry.span, entry.key, out);

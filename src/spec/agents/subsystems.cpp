@@ -85,7 +85,7 @@ void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parame
   }
 }
 
-/// An author who wants a device to keep its last command says so.
+/// If a device is to keep its last command, the author has to say so.
 void read_stale(const Entry* stale, Subsystem& subsystem, Diagnostics& out) {
   if (stale != nullptr && stale->value->is_scalar() && stale->value->text == "never") return;
   if (stale != nullptr) {
@@ -127,7 +127,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
   subsystem.name = entry.key;
   subsystem.span = entry.span;
   if (const Entry* rate = section.find("rate")) {
-    // A rate that cannot be read is still a rate: no complaint about standing time follows from it.
+    // A rate that cannot be read is still a rate, so that no error about standing time follows from it.
     subsystem.period = read_rate(*rate->value, rate->span, out).value_or(std::chrono::seconds(1));
   }
   subsystem.inputs = read_buffers(section.find("inputs"), "input", around.types, out);

@@ -12,7 +12,7 @@ struct SystemScope {
   const std::vector<Parameter>& parameters;  ///< of the system
 };
 
-/// The subsystem below `entry`, whose key is its name.
+/// Reads the subsystem below `entry`, whose key is its name.
 ///
 /// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
 /// those of

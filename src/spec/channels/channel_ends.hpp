@@ -17,7 +17,7 @@ struct WrittenEnd {
 /// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
 struct ChannelExpansion {
   std::vector<std::pair<Index, Index>> pairs;
-  std::vector<Index> dropped;  ///< numbers of agents it would lead to, had the fleet not ended
+  std::vector<Index> dropped;  ///< numbers of the agents that would receive if the fleet did not end
 };
 
 /// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.

@@ -89,7 +89,7 @@ class ChannelReader {
     return text == nullptr ? std::nullopt : split_part(*text, 0, text->text.size());
   }
 
-  /// The path in [begin, end) of a text, blanks around it left out.
+  /// The path in [begin, end) of a text, without surrounding blanks.
   std::optional<BufferPath> split_part(const Node& text, std::size_t begin, std::size_t end) {
     while (begin < end && text.text[begin] == ' ') ++begin;
     while (begin < end && text.text[end - 1] == ' ') --end;
@@ -119,7 +119,7 @@ class ChannelReader {
     if (channel.model != none) read_timeouts_of_model(section, *name, channel);
   }
 
-  /// A timeout for every side that has a transition for it, and no other.
+  /// Reads a timeout for every side that has a transition for it, and for no other.
   void read_timeouts_of_model(const Section& section, const Node& name, Channel& channel) {
     const CommunicationModel& model = model_.models[channel.model];
     const bool sends = model.send.has_timeout(), receives = model.receive.has_timeout();
@@ -244,7 +244,7 @@ class ChannelReader {
     }
   }
 
-  /// Returns false once the statement need not be looked at further.
+  /// Returns false if the rest of the statement need not be checked.
   bool add(const Channel& channel, const BufferPath& to) {
     const auto key = std::pair(channel.to.instance, channel.to.buffer);
     const auto [source, added] = sources_.emplace(key, static_cast<Index>(model_.channels.size()));

@@ -23,10 +23,9 @@ struct WiringExcuses {
 
 /// Reads `channels` into model.channels, fleets expanded. entry may be null.
 ///
-/// Errors: E101 and E112 paths; E104 form; E207 and E208 types and units of the ends; E301 two sources; E303
-/// index;
-///         E304 the wrong end; E306 timeouts where nothing blocks; E307 index forms that do not go together;
-///         E309 `send` or `receive` beside `model`, a model without its timeout.
+/// Errors: E101 and E112 paths; E104 form; E207 and E208 types and units of the ends; E301 two sources;
+///         E303 index; E304 the wrong end; E306 timeouts where nothing blocks; E307 index forms that do not
+///         go together; E309 `send` or `receive` beside `model`, a model without its timeout.
 /// Warnings: W310 an unusual direction.
 [[nodiscard]] WiringExcuses read_channels(const Entry* entry, const Types& types, const AgentGroups& groups,
                                           CommunicationModels& models, Model& model, Diagnostics& out);

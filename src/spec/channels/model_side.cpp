@@ -68,7 +68,7 @@ class ModelSideReader {
                  sends_ ? "write work: { write: 1 }" : "write work: { read: 1 }");
   }
 
-  /// The slot that the operation of a place concerns.
+  /// The slot that the operation of a place uses.
   std::uint32_t read_operation(const Entry& entry) {
     const Section place(*entry.value, entry.span, "a place", {"write", "read"}, out_);
     const std::string_view own = sends_ ? "write" : "read", other = sends_ ? "read" : "write";
@@ -126,7 +126,7 @@ class ModelSideReader {
     return true;
   }
 
-  /// The places that arcs join to one end of a transition. true: one of them is of this side.
+  /// The places that arcs join to one end of a transition. true: one of them belongs to this side.
   bool read_ends(const Entry& entry, const Transition& transition, std::uint32_t& own,
                  std::vector<std::uint32_t>& shared) {
     std::vector<const Node*> names{entry.value};
@@ -182,7 +182,7 @@ class ModelSideReader {
 
   // ------------------------------------------------------------------------------------------- ways
 
-  /// Every place lies on a way from `in` to `out`.
+  /// Checks that every place lies on a way from `in` to `out`.
   void check_ways() {
     const std::vector<bool> reached = closure(ModelSide::in, &Transition::from, &Transition::to);
     const std::vector<bool> leaves = closure(ModelSide::out, &Transition::to, &Transition::from);

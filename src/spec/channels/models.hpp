@@ -17,7 +17,7 @@ class CommunicationModels {
   /// E124 more than a channel has room for. Warnings: W320 a shared place that no transition uses.
   void read(const Entry* section, Model& model, Diagnostics& out);
 
-  /// The model of that name; none after an error, here or in the model. Errors: E101.
+  /// The model with that name; none after an error, here or in the model. Errors: E101.
   [[nodiscard]] Index find(const Node& name, Diagnostics& out);
   /// Warnings: W321.
   void complain_about_unused(const Model& model, Diagnostics& out) const;
@@ -25,7 +25,7 @@ class CommunicationModels {
  private:
   struct Known {
     std::string name;
-    Index index = none;  ///< none: it has mistakes
+    Index index = none;  ///< none: the model has mistakes
     bool used = false;
   };
   std::vector<Known> known_;
@@ -35,10 +35,9 @@ class CommunicationModels {
 /// One side of a model whose slots and shared places are known. what: "send" or "receive".
 ///
 /// Errors: E101 places that an arc names; E103 no `in`, `out`, operation or arc; E107 names; E120 the
-/// operation of
-///         the other side; E121 a slot that the memory does not have; E122 a transition that does not take
-///         one place of the side and give one, an arc into `in` or out of `out`; E123 places that are not on
-///         a way from `in` to `out`.
+///         operation of the other side; E121 a slot that the memory does not have; E122 a transition that
+///         does not take one place of the side and give one, an arc into `in` or out of `out`; E123 places
+///         that are not on a way from `in` to `out`.
 [[nodiscard]] ModelSide read_side(const Entry& entry, const CommunicationModel& around, Diagnostics& out);
 
 }  // namespace tessera::spec

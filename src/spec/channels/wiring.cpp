@@ -81,7 +81,7 @@ class Check {
       const bool read = std::any_of(out_of_[instance].begin(), out_of_[instance].end(), [&](Index channel) {
         return model_.channels[channel].from.buffer == output;
       });
-      // An output that some agent's neighbour reads is fine in the agents at the end of the fleet.
+      // If a neighbour of some agent reads the output, it need not be read at the end of the fleet.
       auto& entry = outputs_[&subsystem.outputs[output]];
       entry.second = entry.second || read;
       entry.first.add(instance);
@@ -98,7 +98,7 @@ class Check {
     }
   }
 
-  /// Whether an iteration takes time: declared, or by waiting for the other side of a channel.
+  /// Whether an iteration takes time: declared time, or waiting for the other side of a channel.
   [[nodiscard]] bool can_wait(const Behaviour& behaviour, Index instance) const {
     const auto receives = [&](Index i) {
       const Channel& channel = model_.channels[i];

@@ -4,8 +4,8 @@
 
 namespace tessera::spec {
 
-/// Looks at every subsystem of every agent with the channels that lead to it and from it. A mistake that many
-/// agents of a template share is reported once, with the first of them.
+/// Checks every subsystem of every agent with the channels that lead to it and from it. If many agents of a
+/// template share a mistake, it is reported once, for the first of them.
 ///
 /// Errors:   E302 an input without source; E305 time would stand still.
 /// Warnings: W316 an output nobody reads; W317 an input no behaviour receives, an output no behaviour sends.

@@ -14,15 +14,15 @@ namespace {
 
 using diagnostics::quoted;
 
-/// Units that may follow a number without a blank. After a blank every word that begins with a letter may be
-/// one.
+/// Units that may follow a number without a blank. After a blank, every word that begins
+/// with a letter may be a unit.
 constexpr std::array close_units =
     std::to_array<std::string_view>({"m", "km", "cm", "mm", "um", "rad", "deg", "s", "ms", "us", "ns", "min",
                                      "h", "Hz", "kHz", "MHz", "V", "A", "%"});
 
-/// 0x40, as addresses on a bus are written.
+/// 0x40, the usual form of addresses on a bus.
 std::optional<double> hexadecimal(std::string_view text) {
-  constexpr std::size_t most_digits = 13;  // that a double holds
+  constexpr std::size_t most_digits = 13;  // as many as a double holds exactly
   if (!text.starts_with("0x") || text.size() > 2 + most_digits) return std::nullopt;
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), number, 16);
@@ -30,7 +30,7 @@ std::optional<double> hexadecimal(std::string_view text) {
   return static_cast<double>(number);
 }
 
-/// Not every text that begins with a digit is a number with a unit: 192.168.0.1, "3rd floor", 8N1.
+/// A text that begins with a digit need not be a number with a unit: 192.168.0.1, "3rd floor", 8N1.
 bool is_unit(const Quantity& quantity) {
   const std::string_view unit = quantity.unit;
   if (unit.empty() || std::ranges::find(close_units, unit) != close_units.end()) return true;

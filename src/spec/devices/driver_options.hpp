@@ -8,15 +8,15 @@
 
 namespace tessera::spec {
 
-/// The option below `entry` of a driver that is a C++ class: `true` or `false`; a number, also with a unit
-/// (`33 mm`) or in hexadecimal (0x40); else a text. What stands in quotes is a text.
+/// Reads an option of a driver that is a C++ class: `true` or `false`; a number, also with a unit (`33 mm`)
+/// or in hexadecimal (0x40); otherwise a text. A quoted value is a text.
 ///
 /// Errors: E104 no scalar.
 [[nodiscard]] std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& out);
 
-/// The option of a device of the simulated world: a number, or a length in metres.
+/// Reads an option of a device of the simulated world: a number, or a length in metres.
 ///
-/// Errors: E104 another form; E205 a unit that is none of length.
+/// Errors: E104 another form; E205 a unit that is not one of length.
 [[nodiscard]] std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out);
 
 /// `text` with every {i} replaced by the number.

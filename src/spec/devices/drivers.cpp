@@ -18,7 +18,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// What stands behind real buffers.
+/// A kind of driver of real buffers.
 struct DriverKind {
   std::string_view name;
   bool receptors, effectors;
@@ -122,7 +122,7 @@ class DriverReader {
     return kind;
   }
 
-  /// What is no number was probably meant to be the kind.
+  /// A value that is no number was probably meant to be the kind.
   void complain_of_kind(const Entry& entry) {
     const auto& entries = entry.value->entries;
     const auto stranger = std::find_if(entries.begin(), entries.end(), [](const Entry& key) {
@@ -199,7 +199,7 @@ class DriverReader {
         *text = with_agent_number(*text, number);
   }
 
-  /// Each real buffer has one driver, its own or that of the whole subsystem.
+  /// Each real buffer has one driver: one of its own, or that of the whole subsystem.
   bool is_first(const Driver& driver) {
     const std::vector<Field>& real = lookup_.model().subsystem(driver.instance).real;
     const Index first = driver.real == none ? 0 : driver.real;

@@ -8,16 +8,15 @@
 
 namespace tessera::spec {
 
-/// Whether drivers stand for devices of the robot or of the simulated world.
+/// Whether drivers belong to devices of the robot or of the simulated world.
 enum class Devices : std::uint8_t { real, simulated };
 
-/// PATH: { KIND: TARGET, OPTION: VALUE ... } pairs. entry may be null. PATH names a real buffer, or a
-/// subsystem all of whose real buffers a C++ class serves. A path with [*] stands for every agent, and {i} in
-/// its target and in texts for the number of the agent.
+/// Reads PATH: { KIND: TARGET, OPTION: VALUE ... } pairs. entry may be null. PATH names a real buffer, or a
+/// subsystem if one C++ class serves all its real buffers. A path with [*] stands for every agent; {i} in
+/// its target and in texts is replaced by the number of the agent.
 ///
-/// Errors: E101 and E112 paths; E101 unknown kind; E103 no kind; E104 form; E210 a kind that does not fit the
-/// buffer;
-///         E308 two drivers for one real buffer.
+/// Errors: E101 and E112 paths; E101 unknown kind; E103 no kind; E104 form; E210 a kind that does not fit
+///         the buffer; E308 two drivers for one real buffer.
 [[nodiscard]] std::vector<Driver> read_drivers(const Entry* entry, Devices devices, const Model& model,
                                                const AgentGroups& groups, Diagnostics& out);
 

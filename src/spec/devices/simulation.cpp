@@ -9,7 +9,7 @@
 namespace tessera::spec {
 namespace {
 
-/// at: gets where the name stands.
+/// at: receives the position of the name.
 std::string read_file_name(const Entry* entry, std::string_view what, Span& at, Diagnostics& out) {
   if (entry == nullptr) return {};
   const Node* text = text_of(*entry->value, entry->span, what, out, "name a file");
@@ -57,7 +57,8 @@ Track read_track(const Entry& entry, Diagnostics& out) {
   return track;
 }
 
-/// Simulated drivers that are C++ classes need no world; a part of one does, and a track is its floor.
+/// Simulated drivers that are C++ classes need no world. A device of the world needs one, and so does a
+/// track, which is its floor.
 void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
                                     [](const Driver& driver) { return driver.kind != "cpp"; });

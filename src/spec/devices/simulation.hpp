@@ -8,7 +8,7 @@
 
 namespace tessera::spec {
 
-/// The section `simulation`. entry may be null.
+/// Reads the section `simulation`. entry may be null.
 ///
 /// Errors: E103 no world, though a driver or a track needs one; E104-E206 the track; those of drivers.
 [[nodiscard]] std::optional<Simulation> read_simulation(const Entry* entry, const Model& model,

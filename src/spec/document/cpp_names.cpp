@@ -8,8 +8,8 @@
 #include <unordered_set>
 
 /// Taken from GCC 12 and glibc 2.36: `g++ -dM -E` of the headers of the C and C++ libraries, and each
-/// identifier of them that `namespace NAME {}` fails for. The test `NamesOfCpp` compares them with what
-/// generated files include.
+/// identifier of them that `namespace NAME {}` fails for. The test `NamesOfCpp` compares them with
+/// what generated files include.
 namespace tessera::spec {
 namespace {
 

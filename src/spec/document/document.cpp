@@ -18,12 +18,12 @@
 namespace tessera::spec {
 namespace {
 
-/// Leaves yaml-cpp's parser; the complaint is in the sink already.
+/// Thrown to leave yaml-cpp's parser after the mistake has been reported.
 struct Abandon {};
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// A stream over the text itself: no second copy of a large file.
+/// A stream over the text itself, without a second copy of a large file.
 class TextBuffer : public std::streambuf {
  public:
   explicit TextBuffer(const std::string& text) {
@@ -103,7 +103,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnMapEnd() override { finish(); }
 
  private:
-  /// A collection whose end has not come yet.
+  /// A collection whose end has not been read yet.
   struct Frame {
     Node* node = nullptr;
     bool key_read = false;  ///< of a map: the next node is the value of `pending`
@@ -161,7 +161,7 @@ class TreeBuilder final : public YAML::EventHandler {
     open_.push_back({.node = &node, .key_read = false, .key_usable = false, .pending = {}, .lines = {}});
   }
 
-  /// The collection is complete: only now are its size and height known to the one around it.
+  /// The collection is complete. Only now, its size and height are known to the surrounding one.
   void finish() {
     Node& node = *open_.back().node;
     open_.pop_back();
@@ -212,7 +212,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
 namespace {
 
-/// Feeds every document of the text to the builder. Returns false if something was wrong with it.
+/// Feeds every document of the text to the builder. false: there was a mistake.
 bool feed(TreeBuilder& builder, Diagnostics& out) {
   TextBuffer buffer(out.text());
   std::istream stream(&buffer);

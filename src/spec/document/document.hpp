@@ -27,11 +27,11 @@ struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
   Span span;                       ///< of a scalar's text without quotes; of its first line if it has several
   std::string text;                ///< of a scalar
-  bool quoted = false;             ///< '...', "..." or a block (|, >): text for certain
-  bool verbatim = false;           ///< the text stands in the file as it is, on one line
+  bool quoted = false;             ///< '...', "..." or a block (|, >): certainly a text
+  bool verbatim = false;           ///< the text is in the file exactly as here, on one line
   std::vector<Entry> entries;      ///< of a map, in the order of the file, without duplicates
   std::vector<const Node*> items;  ///< of a sequence
-  std::uint64_t size = 1;  ///< nodes below and including this one, aliases counted as often as they stand
+  std::uint64_t size = 1;          ///< nodes from this one down, aliases counted wherever they are used
   std::uint32_t height = 1;
 
   [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
@@ -42,10 +42,10 @@ struct Node {
   [[nodiscard]] Span part(std::size_t offset, std::size_t length) const;
 };
 
-/// The nodes of one YAML document; aliases share them. Cycles do not occur.
+/// The nodes of one YAML document. Aliases share nodes. There are no cycles.
 class Document {
  public:
-  /// Nothing, or nothing but null. Else there is a root.
+  /// Whether there is no node, or only null. Otherwise there is a root.
   [[nodiscard]] bool empty() const { return root_ == nullptr || root_->is_null(); }
   [[nodiscard]] const Node& root() const { return *root_; }
 
@@ -60,10 +60,9 @@ inline constexpr std::uint32_t deepest = 64;            ///< nesting
 
 /// Reads the only YAML document of out.text().
 ///
-/// Errors: E002 empty, E005 syntax, E006 several documents, E007 nested too deeply, E008 aliases that expand
-/// too far
-///         or contain themselves, E009 duplicate keys, E010 keys that are not text, tags. A tree is returned
-///         with E009 and E010, so that the rest of the text is checked too.
+/// Errors: E002 empty, E005 syntax, E006 several documents, E007 nested too deeply, E008 aliases that
+///         expand too far or contain themselves, E009 duplicate keys, E010 keys that are not text, tags. A
+///         tree is returned with E009 and E010, so that the rest of the text is checked too.
 [[nodiscard]] std::optional<Document> read_document(Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -28,7 +28,7 @@ constexpr std::array keywords = std::to_array<std::string_view>(
      "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
      "xor_eq"});
 
-/// What generated code and every transition function cannot do without.
+/// Names that generated code and every transition function need.
 constexpr std::array taken = std::to_array<std::string_view>({"std", "tessera", "main"});
 constexpr std::array our_prefixes = std::to_array<std::string_view>({"tessera_", "TESSERA_"});
 

@@ -6,7 +6,7 @@
 
 namespace tessera::spec {
 
-/// Whether `name` may name a thing in a specification. Names become names of C++.
+/// Whether `name` is allowed as a name in a specification. Names become C++ identifiers.
 ///
 /// what: the thing, e.g. "buffer".
 /// Errors: E105 no C++ identifier, too long, leading or double underscore; E106 a keyword of C++, a macro of

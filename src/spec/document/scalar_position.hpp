@@ -4,8 +4,8 @@
 
 namespace tessera::spec {
 
-/// Fills in the span of a scalar (and of a null that is written out), and whether it stands in the file
-/// verbatim. yaml-cpp only says where a node begins, its anchor and quotes included.
+/// Sets the span of a scalar (and of a null that is written out), and whether the file contains its text
+/// verbatim. yaml-cpp only gives the position where a node begins, including its anchor and quotes.
 ///
 /// begin:   the position that yaml-cpp gives.
 /// Returns: false if the scalar opens a quote that nothing closes.

@@ -8,7 +8,7 @@ class Exception;
 
 namespace tessera::spec {
 
-/// Says what yaml-cpp found in words that help: E007 for nesting, else E005.
+/// Reports what yaml-cpp found in words that help: E007 for nesting, otherwise E005.
 void report_syntax_error(const YAML::Exception& problem, diagnostics::Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -58,7 +58,7 @@ class Cursor {
   std::size_t position_ = 0;
 };
 
-/// Units end up in comments and labels.
+/// Units are used in comments and labels, so their characters are limited.
 bool is_unit(std::string_view text) {
   constexpr std::string_view signs = "/^*-+.%()[]' ";
   const bool readable = std::all_of(text.begin(), text.end(), [&](char c) {

@@ -75,7 +75,7 @@ void check_errors(const Behaviour& behaviour, Diagnostics& out) {
   }
 }
 
-/// Which behaviours some run can enter, going by `next` alone.
+/// The behaviours that some run can enter, judging only by `next`.
 std::vector<bool> reachable(const Subsystem& subsystem) {
   std::vector<bool> seen(subsystem.behaviours.size(), false);
   std::vector<Index> open{subsystem.start};

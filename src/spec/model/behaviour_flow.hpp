@@ -5,7 +5,7 @@
 
 namespace tessera::spec {
 
-/// Looks at how the behaviours of one subsystem follow one another.
+/// Checks how the behaviours of one subsystem follow one another.
 ///
 /// Warnings: W311 unreachable behaviour; W312 no entry of `next` may hold; W313 an error nobody routes; W314
 ///           an entry that is never taken; W315 `next` of a behaviour that ends only by a failure; W323 a

@@ -11,7 +11,7 @@ std::uint32_t bits_of(const std::vector<std::uint32_t>& shared) {
   return bits;
 }
 
-/// The side alone, whose `out` is its `in` again: removes the states from which every way comes to a stand.
+/// The side alone, with `out` joined to its `in`. Removes the states from which every way comes to a stop.
 class Rounds {
  public:
   Rounds(const CommunicationModel& model, const ModelSide& side)
@@ -36,14 +36,14 @@ class Rounds {
     return std::ranges::none_of(side_.transitions, [&](const ModelSide::Transition& transition) {
       const std::uint32_t takes = bits_of(transition.takes), gives = bits_of(transition.gives);
       if (transition.from != at || transition.elapsed || (marking & takes) != takes) return false;
-      if ((marking & ~takes & gives) != 0) return false;  // no safe net has that
+      if ((marking & ~takes & gives) != 0) return false;  // no safe net has such a firing
       return goes_on_[transition.to * markings_ + ((marking & ~takes) | gives)];
     });
   }
 
   const ModelSide& side_;
   std::uint32_t markings_;
-  std::vector<bool> goes_on_;  // per place and marking of the shared ones
+  std::vector<bool> goes_on_;  // per place and marking of the shared places
 };
 
 }  // namespace

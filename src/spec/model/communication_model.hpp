@@ -6,8 +6,8 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// How the two sides of a channel share its memory, as a pair of Petri nets with fused places (paper, sec.
-/// IV-E).
+/// How the two sides of a channel share its memory: a pair of Petri nets with fused
+/// places (paper, sec. IV-E).
 namespace tessera::spec {
 
 /// A place that both sides see. It belongs to the channel, whatever behaviours use it.
@@ -17,8 +17,8 @@ struct SharedPlace {
   diagnostics::Span span;
 };
 
-/// One side: a net whose single token stands for the behaviour that sends or receives. So every transition
-/// takes one place of the side and gives one, besides shared places.
+/// One side: a net whose single token is the behaviour that sends or receives. So every transition takes
+/// one token from a place of the side and gives one to a place of the side, besides shared places.
 struct ModelSide {
   static constexpr std::uint32_t no_slot = UINT32_MAX;
 
@@ -31,18 +31,18 @@ struct ModelSide {
     std::string name;
     std::uint32_t from = 0, to = 0;           ///< into places
     std::vector<std::uint32_t> takes, gives;  ///< into CommunicationModel::shared
-    bool elapsed = false;                     ///< fires only once the timeout of the channel has passed
+    bool elapsed = false;                     ///< fires only after the timeout of the channel
     diagnostics::Span span;
   };
 
   static constexpr std::uint32_t in = 0, out = 1;  ///< places that every side has
   std::vector<Place> places;
   std::vector<Transition> transitions;
-  /// Whether a side that meets nobody comes to a stand, however the shared places are marked: who uses it
-  /// takes time, by waiting for the other side or for a timeout.
+  /// Whether the side always takes time: if the other side does nothing, its token comes to a stop,
+  /// whatever the shared places hold. A behaviour that uses it waits for the other side or for a timeout.
   bool waits = false;
 
-  /// Whether it has a transition that waits for the timeout.
+  /// Whether a transition waits for the timeout.
   [[nodiscard]] bool has_timeout() const;
 };
 

@@ -23,8 +23,8 @@ Truth truth_of(const Condition& condition) {
 
 namespace {
 
-/// The expressions of which one held when the behaviour ended; entries that ask for one by name exclude it
-/// for those after them.
+/// The expressions of which one held when the behaviour ended. An entry that asks for one by name
+/// excludes it for later entries.
 class HeldExpressions {
  public:
   explicit HeldExpressions(const std::vector<Expression>& expressions) {
@@ -43,7 +43,7 @@ class HeldExpressions {
   std::vector<Truth> truths_;
 };
 
-/// What is known of `when` if no entry before it holds.
+/// The truth of `when`, as far as it is known, if no earlier entry holds.
 Truth truth_alone(const When& when, Ending ending, HeldExpressions& held) {
   switch (when.kind) {
     case When::Kind::always:

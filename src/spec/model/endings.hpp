@@ -7,40 +7,42 @@
 
 namespace tessera::spec {
 
-/// What is known of a condition before run time.
+/// The truth of a condition, as far as it is known before run time.
 enum class Truth : std::uint8_t { free, always, never };
 
 [[nodiscard]] Truth truth_of(const Expression& expression);
-/// Any one of its expressions suffices.
+/// A condition holds if one of its expressions holds.
 [[nodiscard]] Truth truth_of(const Condition& condition);
 
 /// How an iteration can end its behaviour.
 enum class Ending : std::uint8_t {
   terminal,  ///< the terminal condition holds, the error condition does not
   error,     ///< the error condition holds
-  failure  ///< user code has thrown, a device has failed, the watchdog or a check of the outputs has struck:
-           ///< it counts as an error of which no named condition holds
+  /// User code has thrown, a device has failed, the watchdog has expired, or a check of the outputs has
+  /// failed. This counts as an error in which no named condition holds.
+  failure
 };
 inline constexpr std::array all_endings{Ending::terminal, Ending::error, Ending::failure};
 
-/// Which entries of a behaviour's `next` can be taken, exactly as the generated controller decides: in order,
-/// the first that holds. This is the only definition of that rule; net, warnings and code ask it.
+/// Which entries of a behaviour's `next` can be taken. The generated controller decides in the
+/// same way: it takes the first entry that holds. This is the only definition of that rule;
+/// net, warnings and code use it.
 ///
-/// Known are constants, which ending it is, that one of the expressions of the condition that ended the
-/// behaviour holds, and which named ones did not, as earlier entries asked for them. Everything else is free,
-/// also two expressions with the same text.
+/// Some facts are known: constants, the kind of the ending, that one of the expressions of the condition
+/// that ended the behaviour holds, and which named conditions did not hold when earlier entries asked for
+/// them. Everything else is free, even two expressions with the same text.
 class Endings {
  public:
-  /// Precondition: the behaviour outlives this.
+  /// Precondition: `behaviour` outlives this object.
   explicit Endings(const Behaviour& behaviour);
 
-  /// Can the behaviour end so? By a failure, always.
+  /// Whether the behaviour can end in that way. It can always end by a failure.
   [[nodiscard]] bool possible(Ending ending) const;
-  /// Is the entry the one that is taken? never also for endings that are not possible.
+  /// Whether the entry is the one that is taken. `never` also for endings that are not possible.
   [[nodiscard]] Truth taken(Index entry, Ending ending) const { return taken_[at(ending)][entry]; }
-  /// Is the entry taken after some ending?
+  /// Whether the entry is taken after some ending.
   [[nodiscard]] bool can_be_taken(Index entry) const;
-  /// Can it be that no entry holds?
+  /// Whether it is possible that no entry holds.
   [[nodiscard]] bool none_possible(Ending ending) const { return none_[at(ending)]; }
 
  private:

@@ -12,8 +12,8 @@
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
 
-/// The specification as data: what section "The specification file" of docs/specification.md describes, with
-/// every default filled in and every name resolved to an index. Nothing here knows about nets.
+/// The specification as data, as section "The specification file" of docs/specification.md describes it.
+/// Every default is filled in, and every name is resolved to an index. Nothing here depends on nets.
 namespace tessera::spec {
 
 using diagnostics::Span;
@@ -83,14 +83,15 @@ struct Expression {
   Span span;
 };
 
-/// A terminal or error condition (paper, sec. IV-D): any one of its expressions suffices.
+/// A terminal or error condition (paper, sec. IV-D). It holds if one of its expressions holds.
 struct Condition {
   enum class Kind : std::uint8_t { never, always, expressions } kind = Kind::never;
   std::vector<Expression> expressions;
   Span span;
 };
 
-/// When an entry of `next` is taken (the paper's initial condition of the next behaviour).
+/// The condition under which an entry of `next` is taken (the paper's initial
+/// condition of the next behaviour).
 struct When {
   enum class Kind : std::uint8_t {
     always,       ///< no `when`
@@ -118,25 +119,24 @@ struct Behaviour {
   Condition error;
   std::vector<Next> next;   ///< never empty: a behaviour without `next` has one unconditional `end`
   bool next_given = false;  ///< false: that `end` is the default
-  std::optional<std::vector<Index>>
-      send;  ///< output buffers in the order listed; nullopt: all, in channel order
-  std::optional<std::vector<Index>>
-      receive;  ///< input buffers in the order listed; nullopt: all, in channel order
+  /// Output buffers in the order listed; nullopt: all, in the order of the channels.
+  std::optional<std::vector<Index>> send;
+  /// Input buffers in the order listed; nullopt: all, in the order of the channels.
+  std::optional<std::vector<Index>> receive;
   Transfer transfer = Transfer::sequential;
-  Duration takes{0};  ///< simulated time of its transition function
+  Duration takes{0};  ///< simulated time of the transition function
   Span span;
 };
 
-// ---------------------------------------------------------------------------------------------- subsystems,
-// agents
+// -------------------------------------------------------------------------------------- subsystems, agents
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
-/// What a subsystem with a rate does about instants that its work made it miss.
+/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
 enum class Overrun : std::uint8_t {
   skip,      ///< leaves them out
   catch_up,  ///< runs the iterations late, one after the other
-  fault      ///< leaves them out, and the iteration that comes late fails
+  fault      ///< leaves them out; the next iteration, which is late, fails
 };
 
 /// How the operating system schedules the thread of a subsystem that runs in real time.
@@ -146,13 +146,14 @@ struct RealTime {
   std::optional<std::uint32_t> cpu;
 };
 
-/// What a command to a real buffer, or to a number inside it, has to keep to.
+/// The limits of a command to a real buffer, or to a number inside it.
 struct Limit {
   Index real = 0;     ///< into Subsystem::real
-  std::string field;  ///< inside the buffer: "pose.x"; empty: the buffer itself. Of an array: each element
+  std::string field;  ///< inside the buffer: "pose.x"; empty: the buffer itself. In an array: of each element
   std::optional<double> minimum, maximum;
-  std::optional<double> per_second;  ///< the most that it may change in a second
-  bool fault = false;                ///< a command beyond is a fault; else the limit is sent in its place
+  std::optional<double> per_second;  ///< the largest change within a second
+  /// a command beyond the limit is a fault; otherwise the limit is sent in its place
+  bool fault = false;
   Span span;
 };
 
@@ -160,14 +161,15 @@ struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
   std::optional<Duration> period;
-  Index start = 0;  ///< behaviour
+  Index start = 0;  ///< index of the first behaviour
   std::vector<Field> inputs, outputs, memory;
   std::vector<Parameter> parameters;
   std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
   std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
   std::vector<Limit> limits;      ///< effector: of real buffers
-  std::optional<Duration> stale;  ///< effector: inputs older than this mean the safe command
-  /// effector: a fault or a stale input begins an emergency stop, which an operator ends
+  /// effector: if an input is older than this, the device gets the safe command
+  std::optional<Duration> stale;
+  /// effector: a fault or a stale input begins an emergency stop, which lasts until an operator ends it
   bool operator_resets = false;
   Overrun overrun = Overrun::skip;
   std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
@@ -177,7 +179,7 @@ struct Subsystem {
   Span span;
 };
 
-/// What an agent is made of: an entry of `templates`, or an agent written out under `agents`.
+/// The subsystems of an agent: an entry of `templates`, or an agent that `agents` describes in full.
 struct Definition {
   std::string name;
   std::vector<Subsystem> subsystems;  ///< control first, then receptors, then effectors, as in the file
@@ -191,7 +193,7 @@ struct Agent {
   Index definition = 0;
   Index fleet = none;        ///< agents of one `count` share a number
   Index number = 0;          ///< within the fleet
-  Index first_instance = 0;  ///< into Model::instances; its subsystems follow one another
+  Index first_instance = 0;  ///< into Model::instances; the instances of the agent follow one another
   Span span;
 };
 
@@ -221,37 +223,37 @@ struct Channel {
 
 // ---------------------------------------------------------------------------------------------- the rest
 
-/// A name in a path and where it stands.
+/// A name in a path and its position.
 struct PathPart {
   std::string name;
   Span span;
 };
 
-/// A path into the net, of which the agent was looked up; what is behind it only the net knows.
+/// A path into the net. The agent has been looked up; only the net knows the names after it.
 struct NetPath {
   std::string agent;  ///< "robot[3]"; "in" or "out" alone: a place of the system
   std::vector<PathPart> parts;
   Span span;
 };
 
-/// What a property says about one marking.
+/// A statement about one marking.
 struct Statement {
   enum class Kind : std::uint8_t {
-    token,     ///< a token in the place or page at `path`; with `to`, in that state of the channel
-    negation,  ///< of its only part
-    all,       ///< of the parts
-    any        ///< of the parts
+    token,     ///< a token in the place or page at `path`; with `to`, in the memory of that channel
+    negation,  ///< negation of the only part
+    all,       ///< all parts
+    any        ///< at least one part
   } kind = Kind::token;
   NetPath path;
   std::optional<NetPath> to;
   std::vector<Statement> parts;
 };
 
-/// A property of one agent of a fleet, or of the system.
+/// The statement of a property about one agent of a fleet, or about the system.
 struct Claim {
   std::string about;  ///< "robot[3]"; empty: of the system
   Statement what;
-  std::optional<Statement> then;  ///< leads_to: `what` leads to it
+  std::optional<Statement> then;  ///< leads_to: the consequence of `what`
 };
 
 struct Property {
@@ -259,14 +261,14 @@ struct Property {
   std::string name;
   Kind kind = Kind::never;
   std::string text;           ///< as written
-  std::vector<Claim> claims;  ///< all of them have to hold
+  std::vector<Claim> claims;  ///< the property holds if all of them hold
   Span span;
 };
 
 /// "always_reachable"
 [[nodiscard]] std::string_view name_of(Property::Kind kind);
 
-/// What a driver is told: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
+/// An option of a driver: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
 struct DriverOption {
   std::variant<bool, double, std::string> value;
   std::string unit;  ///< of a number, as written; empty: none
@@ -274,7 +276,7 @@ struct DriverOption {
   bool operator==(const DriverOption&) const = default;
 };
 
-/// Which device stands behind a real buffer, or behind all real buffers of a subsystem.
+/// The driver of a real buffer, or of all real buffers of a subsystem.
 struct Driver {
   Index instance = 0;
   Index real = 0;      ///< into Subsystem::real; none: all of them
@@ -293,14 +295,14 @@ struct Track {
 };
 
 struct Simulation {
-  std::string world;  ///< empty: none; the drivers are C++ classes
+  std::string world;  ///< empty: no world; the drivers are C++ classes
   Span world_span;
   std::optional<Track> track;
   std::vector<Driver> drivers;
   Span span;
 };
 
-/// A whole specification. Invariant: every index is valid, every path was resolved.
+/// A whole specification. Invariant: every index is valid, and every path is resolved.
 struct Model {
   std::string system;
   std::vector<Structure> structures;  ///< in an order in which each uses only earlier ones
@@ -308,7 +310,7 @@ struct Model {
   std::vector<Definition> definitions;
   std::vector<Agent> agents;
   std::vector<Instance> instances;         ///< every subsystem of every agent, agent by agent
-  std::vector<CommunicationModel> models;  ///< of the author
+  std::vector<CommunicationModel> models;  ///< defined in the specification
   std::vector<Channel> channels;           ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;             ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
@@ -322,11 +324,11 @@ struct Model {
   [[nodiscard]] std::string instance_path(Index instance) const;
   /// "robot[3].motor.left", or "arm.joints" for a driver of all real buffers.
   [[nodiscard]] std::string driver_path(const Driver& driver) const;
-  /// Paths of the real buffers behind which none of `those` stands.
+  /// Paths of the real buffers that have no driver among `those`.
   [[nodiscard]] std::vector<std::string> without_driver(const std::vector<Driver>& those) const;
   /// "robot.control.motion->robot.motor.velocity": the name of the channel's fused places.
   [[nodiscard]] std::string channel_name(const Channel& channel) const;
-  /// May who sends to or receives from the channel have to wait there?
+  /// Whether a sender or receiver may have to wait at the channel.
   [[nodiscard]] bool sender_waits(const Channel& channel) const;
   [[nodiscard]] bool receiver_waits(const Channel& channel) const;
 };

@@ -10,8 +10,8 @@ bool uses_structure(const Field& field, std::size_t count) {
   return field.type.kind == Type::Kind::structure && field.type.structure < count;
 }
 
-/// Every structure that is left over by the sort uses one that is left over: follow these until one comes
-/// twice.
+/// Every structure that the sort has left over uses another one that is left over. Follows
+/// these until one occurs twice.
 std::vector<std::vector<Index>> find_cycles(const std::vector<Structure>& structures,
                                             const std::vector<bool>& done) {
   std::vector<std::vector<Index>> cycles;

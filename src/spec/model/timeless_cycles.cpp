@@ -7,12 +7,12 @@
 namespace tessera::spec {
 namespace {
 
-/// Whether a behaviour may begin another iteration of its own.
+/// Whether a behaviour may follow itself.
 bool repeats(const Behaviour& behaviour) {
   return truth_of(behaviour.terminal) != Truth::always && truth_of(behaviour.error) != Truth::always;
 }
 
-/// Whether one of these behaviours may follow it.
+/// Whether one of the behaviours `to` may follow it.
 bool passes_on(const Behaviour& behaviour, const std::vector<bool>& to) {
   const Endings endings(behaviour);
   for (Index entry = 0; entry < behaviour.next.size(); ++entry)
@@ -22,8 +22,8 @@ bool passes_on(const Behaviour& behaviour, const std::vector<bool>& to) {
   return false;
 }
 
-/// Removes, as long as there are any, the behaviours from which nothing that stays can follow: what is left
-/// lies on or before a circle.
+/// Removes behaviours after which no remaining behaviour can come, as long as there are any. The rest lies
+/// on cycles or leads to them.
 std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& waits) {
   std::vector<bool> left(waits.size());
   std::transform(waits.begin(), waits.end(), left.begin(), [](bool one) { return !one; });
@@ -47,7 +47,7 @@ std::vector<Index> timeless_cycles(const Subsystem& subsystem, const std::vector
   bool circle_found = false;
   for (Index i = 0; i < left.size(); ++i) {
     if (!left[i]) continue;
-    // Of the behaviours that only pass on to one another, the first stands for all.
+    // If behaviours only lead to one another, the first one represents the cycle.
     if (!repeats(subsystem.behaviours[i]) && circle_found) continue;
     circle_found = circle_found || !repeats(subsystem.behaviours[i]);
     found.push_back(i);

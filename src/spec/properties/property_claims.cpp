@@ -9,7 +9,7 @@ using Kind = Selector::Kind;
 
 constexpr std::size_t most_paths = 1'000'000;
 
-/// A fleet that an index counts over; null: none does.
+/// The fleet over which an index counts; null: none.
 struct Range {
   const AgentGroup* group = nullptr;
 
@@ -42,7 +42,7 @@ class ClaimReader {
       return {};
     }
     if (claims.empty())
-      out_.error("E303", what.span, "there are no agents of which this could be said",
+      out_.error("E303", what.span, "no agent fits the indices of this property",
                  "the fleet is too small for these indices, and no ring");
     return claims;
   }
@@ -62,8 +62,8 @@ class ClaimReader {
            (path.agent == "in" || path.agent == "out");
   }
 
-  /// Checks the agents of all paths and finds what the indices of a scope count over. quantified: `*` belongs
-  /// to the scope, [i] does not; else both do.
+  /// Checks the agents of all paths and finds the fleets over which the indices of a scope count.
+  /// quantified: `*` belongs to the scope and [i] does not; otherwise both do.
   bool gather(const Formula& formula, Range& range, bool quantified) {
     if (formula.kind == Formula::Kind::path)
       return gather(formula.path, range, quantified) &&
@@ -80,7 +80,8 @@ class ClaimReader {
                  "for example any(robot[*].control.follow)");
       return false;
     }
-    // What it says of [i] belongs to the scope around it, unless that is a quantifier, which has its own.
+    // [i] within a quantifier belongs to the surrounding scope, unless that is a
+    // quantifier, which has its own.
     return quantified || gather_variables(formula.parts.front(), range);
   }
 
@@ -118,7 +119,8 @@ class ClaimReader {
     return false;
   }
 
-  /// i: of [i], and of [*] outside of quantifiers; star: of [*] within. nullopt: an agent past the end.
+  /// i: the value of [i], and of [*] outside of quantifiers; star: the value of [*] within them.
+  /// nullopt: an agent past the end.
   std::optional<Statement> statement(const Formula& formula, std::int64_t i, std::int64_t star,
                                      bool quantified = false) {
     Statement made;

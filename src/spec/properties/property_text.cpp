@@ -23,7 +23,7 @@ bool is_word(char letter) {
          (letter >= '0' && letter <= '9') || letter == '_';
 }
 
-/// Recursive descent; after the first mistake nothing is read any more.
+/// A recursive descent parser. It stops at the first mistake.
 class PropertyTextReader {
  public:
   PropertyTextReader(const Node& text, std::size_t offset, std::size_t length, Diagnostics& out)
@@ -41,7 +41,7 @@ class PropertyTextReader {
     return std::string_view(text_.text).substr(at_, end_ - at_);
   }
 
-  /// The letters, digits and underscores that come next.
+  /// The next letters, digits and underscores.
   [[nodiscard]] std::string_view word() {
     const std::string_view left = rest();
     std::size_t length = 0;
@@ -55,7 +55,7 @@ class PropertyTextReader {
     return true;
   }
 
-  /// Words such as `any` may begin a path too.
+  /// Words such as `any` may also begin a path.
   bool take_word(std::string_view wanted) {
     if (word() != wanted) return false;
     const std::size_t before = at_;

@@ -8,7 +8,7 @@
 #include "spec/agents/paths.hpp"
 #include "spec/document/document.hpp"
 
-/// The formulas of properties as they are written, names not looked up:
+/// The formulas of properties as they are written, before names are looked up:
 ///
 ///     formula = conjunction { "or" conjunction }      conjunction = negation { "and" negation }
 ///     negation = "not" negation | "(" formula ")" | ("any" | "all") "(" formula ")" | path [ "->" path ]
@@ -20,22 +20,22 @@ struct WrittenPath {
   std::string agent;
   Span whole, agent_span, index_span;
   Selector selector;
-  std::vector<PathPart> parts;  ///< behind the agent
+  std::vector<PathPart> parts;  ///< after the agent
 };
 
 struct Formula {
   enum class Kind : std::uint8_t {
-    path,      ///< a token there; with `to`, in the memory of that channel
-    negation,  ///< of its only part
-    both,      ///< of all parts
-    either,    ///< of one of the parts
-    every,     ///< the only part, for every agent that [*] stands for
-    some       ///< the only part, for one of the agents that [*] stands for
+    path,      ///< a token in that place; with `to`, in the memory of that channel
+    negation,  ///< negation of the only part
+    both,      ///< all parts hold
+    either,    ///< at least one part holds
+    every,     ///< the only part holds for every agent that [*] stands for
+    some       ///< the only part holds for at least one agent that [*] stands for
   } kind = Kind::path;
   WrittenPath path;
   std::optional<WrittenPath> to;
   std::vector<Formula> parts;
-  Span span;  ///< of the word or path that it begins with
+  Span span;  ///< of its first word or path
 };
 
 /// Parses `length` bytes of the text from byte `offset`.

@@ -56,7 +56,7 @@ std::string shortest(Float value) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// Writes values of one file; keeps what its parts have in common.
+/// Writes values of one file; its members are shared by all parts of a value.
 class Writer {
  public:
   Writer(const Types& types, std::string_view what, Diagnostics& out)
@@ -104,7 +104,7 @@ class Writer {
       if (element.kind == Type::Kind::structure) part = "{" + *part + "}";
       text += (text.empty() ? "" : ", ") + *part;
     }
-    return "{" + text + "}";  // the elements of std::array stand in braces of their own
+    return "{" + text + "}";  // the elements of std::array have their own braces
   }
 
   std::optional<std::string> structure(const Node& node, Span at, const Type& type) const {
@@ -180,9 +180,9 @@ class Writer {
     const IntegerRange bounds = range(type.scalar);
     const std::uint64_t largest = negative ? ~static_cast<std::uint64_t>(bounds.lowest) + 1 : bounds.highest;
     if (error != std::errc() || magnitude > largest) return out_of_range(node, type);
-    // The lowest int64 has no literal of its own: its digits without the sign do not fit.
+    // The lowest int64 has no literal of its own: its digits without the sign are out of range.
     if (negative && magnitude == std::uint64_t{1} << 63U) return "-9223372036854775807 - 1";
-    // Not the digits as written: C++ takes 010 for eight.
+    // The digits are not copied as written: C++ reads 010 as eight.
     return (negative ? "-" : "") + std::to_string(magnitude) + (type.scalar == Scalar::uint64 ? "U" : "");
   }
 
@@ -207,7 +207,7 @@ std::string string_literal(std::string_view text) {
     if (c == '"' || c == '\\') {
       result += {'\\', c};
     } else if (byte < 0x20 || byte == 0x7F) {
-      // Octal: unlike \x, it ends after three digits whatever follows.
+      // Octal, because it ends after three digits, unlike \x.
       const auto digit = [byte](unsigned shift) { return static_cast<char>('0' + ((byte >> shift) & 7U)); };
       result += {'\\', digit(6), digit(3), digit(0)};
     } else {

@@ -10,8 +10,8 @@
 /// Values of the file as C++.
 namespace tessera::spec {
 
-/// The C++ initialiser (to stand between braces) of a value of `type`. Numbers may carry the unit of the
-/// type; a list gives an array, a map a structure, whose missing fields are zero.
+/// The C++ initialiser (without its braces) of a value of `type`. Numbers may have the unit of the type. A
+/// list gives an array, and a map gives a structure, whose missing fields are zero.
 ///
 /// what:   the value in words, e.g. "the default".
 /// Errors: E101 unknown field; E203 of another type; E204 out of the range of the type; E208 another unit.

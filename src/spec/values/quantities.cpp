@@ -78,7 +78,7 @@ std::optional<Quantity> split_quantity(std::string_view text) {
   text = trimmed(text);
   const bool plus = text.starts_with('+');
   const std::string_view digits = text.substr(plus ? 1 : 0);
-  // from_chars also reads "inf", "nan" and their like.
+  // from_chars also accepts "inf", "nan" and similar texts.
   const std::size_t first = digits.find_first_not_of("-.");
   if (first == std::string_view::npos || digits[first] < '0' || digits[first] > '9') return std::nullopt;
   Quantity result;

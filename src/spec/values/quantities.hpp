@@ -9,7 +9,7 @@
 /// Numbers with units as people write them: "200 ms", "20 Hz", "90 deg", "8 mm".
 namespace tessera::spec {
 
-/// A number and what stands behind it, trimmed.
+/// A number and the text after it, trimmed.
 struct Quantity {
   double number = 0;
   std::string_view digits;  ///< the number as written
@@ -19,19 +19,19 @@ struct Quantity {
 /// nullopt if the text does not begin with a finite decimal number.
 [[nodiscard]] std::optional<Quantity> split_quantity(std::string_view text);
 
-/// at: where to complain about a value that is missing; what: the quantity in words, e.g. "timeout".
+/// at: position for a complaint about a missing value; what: the quantity in words, e.g. "timeout".
 /// Errors: E205 no number or an unknown unit; E206 zero, negative or absurd.
 [[nodiscard]] std::optional<Duration> read_duration(const Node& node, Span at, std::string_view what,
                                                     Diagnostics& out);
 /// The period of a rate in Hz or kHz.
 [[nodiscard]] std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out);
-/// Metres; a number without unit counts as metres.
+/// Metres; a number without a unit counts as metres.
 [[nodiscard]] std::optional<double> read_length(const Node& node, Span at, std::string_view what,
                                                 Diagnostics& out);
-/// Radians; only 0 may stand without unit.
+/// Radians; only 0 may have no unit.
 [[nodiscard]] std::optional<double> read_angle(const Node& node, Span at, std::string_view what,
                                                Diagnostics& out);
-/// A number without unit.
+/// A number without a unit.
 [[nodiscard]] std::optional<double> read_number(const Node& node, Span at, std::string_view what,
                                                 Diagnostics& out);
 

@@ -18,7 +18,7 @@ using diagnostics::quoted;
 constexpr std::array scalars = std::to_array<std::string_view>(
     {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
 
-/// What other languages call our types.
+/// Names of our types in other languages.
 struct Synonym {
   std::string_view theirs, ours;
 };

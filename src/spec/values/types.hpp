@@ -15,14 +15,15 @@ class Types {
  public:
   /// Reads the section `types`; null: there is none.
   ///
-  /// Errors: E101 unknown type, E105/E106/E107 names, E201 no type, E202 a structure contains itself, E204
-  /// too large.
+  /// Errors: E101 unknown type, E105/E106/E107 names, E201 no type, E202 a structure
+  ///         contains itself, E204 too large.
   void read(const Entry* section, Diagnostics& out);
 
-  /// The type that a scalar names: "float64 m/s", "string<=64", "Point[8]". With an error: the unknown type.
+  /// The type that a scalar names: "float64 m/s", "string<=64", "Point[8]". After
+  /// an error: the unknown type.
   [[nodiscard]] Type parse(const Node& node, Span at, Diagnostics& out) const;
 
-  /// As people write it, unit and all.
+  /// As people write it, with the unit.
   [[nodiscard]] std::string spelled(const Type& type) const;
 
   /// Each uses only earlier ones, unless one contains itself.
@@ -40,7 +41,7 @@ class Types {
 
   std::vector<Structure> structures_;
   std::unordered_map<std::string, Index> by_name_;
-  std::vector<std::string> known_names_;  ///< built-in ones first, to guess from
+  std::vector<std::string> known_names_;  ///< built-in ones first, for hints
 };
 
 /// "float64"

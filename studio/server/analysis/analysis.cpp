@@ -21,7 +21,7 @@ namespace {
 using diagnostics::Diagnostics;
 using Json = nlohmann::ordered_json;
 
-/// Byte column to column in UTF-16 units, as browsers count; both from 1.
+/// Converts a byte column to a column in UTF-16 units, as browsers count; both from 1.
 std::uint32_t browser_column(std::string_view line, std::uint32_t column) {
   std::uint32_t units = 1;
   for (std::size_t at = 0; at + 1 < column && at < line.size();) {

@@ -13,10 +13,10 @@
 
 namespace tessera::server {
 
-/// What is known about a text, however broken it is.
+/// Everything that is known about a text, even if it has errors.
 struct Analysis {
-  std::shared_ptr<const std::string> json;  ///< docs/studio.md, `analysis`
-  /// Of a text without errors:
+  std::shared_ptr<const std::string> json;  ///< the message `analysis` of docs/studio.md
+  /// Set only if the text has no errors:
   std::optional<spec::Model> model;
   std::optional<net::HierarchicalNet> pages;
   std::optional<net::Net> net;
@@ -29,7 +29,7 @@ struct Analysis {
 /// Threads: pure.
 [[nodiscard]] Analysis analyse(const std::string& name, const std::string& text);
 
-/// The last few analyses by their text: several browsers ask about the same one.
+/// The last few analyses by their texts, because several browsers ask about the same text.
 ///
 /// Threads: any.
 class Analyses {

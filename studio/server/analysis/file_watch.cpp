@@ -16,7 +16,7 @@ FileWatch::FileWatch(const std::filesystem::path& file, std::function<void()> ch
     : changed_(std::move(changed)),
       events_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)),
       ended_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  // The folder, because editors replace the file rather than write it.
+  // Watches the folder, because editors replace the file and do not write into it.
   inotify_add_watch(events_, file.parent_path().c_str(),
                     IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_CREATE);
   thread_ = std::thread([this, name = file.filename().string()] { watch(name); });
@@ -40,7 +40,7 @@ void FileWatch::watch(const std::string& name) {
   }
 }
 
-/// Takes all events that are there.
+/// Reads all events that are there. Returns whether one is about the file.
 bool FileWatch::concerns(const std::string& name) const {
   bool found = false;
   alignas(inotify_event) std::array<char, 4096> bytes{};

@@ -6,7 +6,7 @@
 
 namespace tessera::server {
 
-/// Calls back when a file may have changed: was written, replaced, made or removed, by whomever.
+/// Calls back when a file may have changed: it was written, replaced, made or removed, by any process.
 ///
 /// Threads: the callback runs in a thread of the watch, until its destructor returns.
 class FileWatch {

@@ -17,7 +17,7 @@ namespace tessera::server {
 
 namespace {
 
-/// Closes itself.
+/// A file descriptor that closes itself.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -81,7 +81,7 @@ SpecFile::Outcome SpecFile::write(std::string_view text, std::string_view revisi
       fstatat(folder_, name_.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 ? status.st_mode & 0777U : 0644;
   if (S_ISLNK(status.st_mode)) return failed("it is a symbolic link now, which is not followed");
   const std::string beside = fmt::format(".{}.{}", name_, getpid());
-  unlinkat(folder_, beside.c_str(), 0);  // of an earlier process with our number
+  unlinkat(folder_, beside.c_str(), 0);  // left by an earlier process with the same id
   {
     const Descriptor file(
         openat(folder_, beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));

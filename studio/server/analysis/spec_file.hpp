@@ -12,13 +12,13 @@ namespace tessera::server {
 /// The identity of a text: 32 hexadecimal digits.
 [[nodiscard]] std::string revision_of(std::string_view text);
 
-/// The file that is edited. No symbolic link is followed to read or write it, so nothing outside its folder
-/// is.
+/// The file that is edited. No symbolic link is followed to read or write it, so nothing outside its
+/// folder is read or written.
 ///
 /// Threads: any.
 class SpecFile {
  public:
-  /// file: absolute, canonical. Throws std::runtime_error when its folder cannot be opened.
+  /// file: absolute, canonical. Throws std::runtime_error if its folder cannot be opened.
   explicit SpecFile(std::filesystem::path file);
   ~SpecFile();
   SpecFile(const SpecFile&) = delete;
@@ -27,18 +27,18 @@ class SpecFile {
   struct Content {
     std::string text;
     std::string revision;
-    std::string error;  ///< why it cannot be read; empty: it could
+    std::string error;  ///< why the file cannot be read; empty: it was read
   };
-  /// What is on disk now.
+  /// The content on disk now.
   [[nodiscard]] Content read() const;
 
   enum class Written : std::uint8_t { yes, conflict, failed };
   struct Outcome {
     Written written = Written::failed;
-    Content now;  ///< on disk after it; of failed: with the reason
+    Content now;  ///< on disk after the write; if it failed, with the reason
   };
-  /// Replaces the file as a whole, if what is on disk is still `revision`. A reader sees the old text or the
-  /// new one. A file that is gone has the revision of the empty text.
+  /// Replaces the file as a whole if the content on disk still has `revision`. A reader sees either the old
+  /// text or the new one. A missing file has the revision of the empty text.
   [[nodiscard]] Outcome write(std::string_view text, std::string_view revision);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

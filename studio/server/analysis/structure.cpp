@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of a model with errors, an index may lead nowhere.
+/// In a model with errors, an index may be invalid.
 template <class Things>
 const typename Things::value_type* at(const Things& things, spec::Index index) {
   return index < things.size() ? &things[index] : nullptr;

@@ -6,10 +6,10 @@
 
 namespace tessera::server {
 
-/// The system as robot people draw it: agents, subsystems, behaviours, buffers, channels, with the lines of
+/// The system as roboticists draw it: agents, subsystems, behaviours, buffers, channels, with the lines of
 /// the specification (docs/studio.md, `structure`).
 ///
-/// model: may be of a text with errors (spec::parse_what_is_known).
+/// model: may come from a text with errors (spec::parse_what_is_known).
 [[nodiscard]] nlohmann::ordered_json structure_json(const spec::Model& model);
 
 /// "float64[8] m/s"

@@ -15,7 +15,7 @@
 
 namespace tessera::server {
 
-/// Verification in threads of its own, with progress as events (`verify`).
+/// Runs verification in separate threads and publishes its progress as events (`verify`).
 ///
 /// Threads: any.
 class VerifyJobs {
@@ -34,19 +34,19 @@ class VerifyJobs {
   };
   struct Started {
     std::uint64_t job = 0;
-    int status = 202;  ///< else 422: no net to verify, or unknown properties; 429: too many run
+    int status = 202;  ///< otherwise 422: no net to verify, or unknown properties; 429: too many jobs run
     std::string error, hint;
   };
   [[nodiscard]] Started start(Request request);
   /// {"job", "state", "result"}; nullopt: no such job.
   [[nodiscard]] std::optional<std::string> state(std::uint64_t job) const;
-  /// Gives up what is not yet decided. false: no such job.
+  /// Stops the job; properties that are not decided yet stay undecided. false: no such job.
   bool stop(std::uint64_t job);
 
  private:
   struct Job {
     std::atomic<bool> stop{false}, done{false};
-    std::string result;  ///< of done; guarded by mutex_
+    std::string result;  ///< set when the job is done; guarded by mutex_
     std::thread thread;
   };
   void run(std::uint64_t id, Job& job, const Analysis& analysis, const Request& request);

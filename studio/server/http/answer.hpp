@@ -14,9 +14,10 @@
 /// Requests and answers in JSON.
 namespace tessera::server {
 
-/// As it is: what httplib would compress with Brotli takes seconds for a large net, and the way is short.
+/// Sends the text without compression: Brotli in httplib takes seconds for a large net,
+/// and the connection is local.
 void answer(httplib::Response& response, std::string text, int status = 200);
-/// The pieces one after the other; they are shared, not copied.
+/// Sends the pieces one after the other. They are shared, not copied.
 void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
                    const std::string& type = "application/json");
 /// {"error", "hint"}
@@ -35,7 +36,7 @@ class RequestBody {
   [[nodiscard]] std::string text_or(const char* name, std::string otherwise);
   [[nodiscard]] std::optional<double> number(const char* name);
   [[nodiscard]] bool flag(const char* name);
-  /// The member of that name of those objects of a list of at most 10,000 that have it: numbers from 0 up.
+  /// Collects a member (numbers from 0 up) of the objects in a list of at most 10,000; skips objects without.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
 

@@ -43,7 +43,7 @@ std::string type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-/// Empty: it failed.
+/// Empty: compression failed.
 std::string gzip(const std::string& bytes) {
   constexpr int best = 9, gzip_format = 15 + 16, memory = 8;
   z_stream stream{};

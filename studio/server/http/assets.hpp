@@ -7,19 +7,19 @@
 
 namespace tessera::server {
 
-/// The files of the page, read once: what is not among them cannot be asked for.
+/// The files of the page, read once. No other file can be requested.
 ///
-/// Threads: any, once made.
+/// Threads: any, after construction.
 class Assets {
  public:
   struct Asset {
     std::shared_ptr<const std::string> bytes;
-    std::shared_ptr<const std::string> packed;  ///< by gzip; nullptr: that saves nothing
+    std::shared_ptr<const std::string> packed;  ///< compressed by gzip; nullptr: compression saves nothing
     std::string type;
   };
   /// folder: as Vite builds it, with an index.html; it need not exist.
   explicit Assets(const std::filesystem::path& folder);
-  /// path: "/" or "/assets/index.js". nullptr: there is none.
+  /// path: "/" or "/assets/index.js". nullptr: there is no such file.
   [[nodiscard]] const Asset* find(const std::string& path) const;
 
  private:

@@ -9,15 +9,15 @@
 
 namespace tessera::server {
 
-/// The bytes of one connection. Reading ends for good at the deadline of the request or when it is too long;
-/// writing when the client takes nothing for too long.
+/// The bytes of one connection. Reading ends for good at the deadline of the request or when the request is
+/// too long. Writing ends when the client takes nothing for too long.
 class Connection final : public httplib::Stream {
  public:
-  /// ended: readable when the server ends.
+  /// ended: a descriptor that becomes readable when the server ends.
   Connection(socket_t socket, const HttpLimits& limits, int ended);
 
   [[nodiscard]] bool is_readable() const override { return readable_; }
-  /// The client is still there. Does not wait.
+  /// Whether the client is still connected. Does not wait.
   [[nodiscard]] bool is_writable() const override;
   ssize_t read(char* to, size_t size) override;
   ssize_t write(const char* from, size_t size) override;
@@ -25,8 +25,8 @@ class Connection final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   [[nodiscard]] socket_t socket() const override { return socket_; }
 
-  /// Says that there is no more, and takes what the client is still sending for a moment, so that it reads
-  /// the answer rather than a reset.
+  /// Signals the end of the answer, and for a moment takes what the client is still sending, so that the
+  /// client reads the answer and not a reset.
   void finish();
 
  private:
@@ -40,7 +40,7 @@ class Connection final : public httplib::Stream {
   int ended_;
   Clock::time_point deadline_;
   std::size_t left_;           ///< bytes that may still be read
-  std::size_t ends_head_ = 0;  ///< of the four bytes that end the head, how many have just come
+  std::size_t ends_head_ = 0;  ///< how many of the four bytes that end the head have just been read
   std::array<char, 8192> buffer_{};
   std::size_t next_ = 0, filled_ = 0;
   bool readable_ = true;

@@ -9,16 +9,17 @@
 
 namespace tessera::server {
 
-/// What happens, on its way to all browsers. Nobody who publishes ever waits for one that listens: a browser
-/// that does not keep up is dropped, connects again and asks for what is now.
+/// Distributes events to all browsers. A publisher never waits for a browser: one that does not keep up is
+/// disconnected. It connects again and asks for the current state.
 ///
 /// Threads: any.
 class Events {
  public:
   class Subscription {
    public:
-    /// Waits for events, then a little for more; the text of all of them. Nothing happens for ten seconds: a
-    /// comment, so that a connection that is dead is noticed. Empty: no more events come.
+    /// Waits for events, then a little for more, and returns the text of all of them. If nothing
+    /// happens for ten seconds, it returns a comment, so that a dead connection is noticed. Empty:
+    /// there will be no more events.
     [[nodiscard]] std::string next();
 
    private:
@@ -34,10 +35,10 @@ class Events {
 
   /// json: one line.
   void publish(std::string_view event, std::string_view json);
-  /// The first event of the new one is `first`. nullptr: there are too many already.
+  /// Adds a subscription whose first event is `first`. nullptr: there are too many already.
   [[nodiscard]] std::shared_ptr<Subscription> subscribe(std::string_view first_event, std::string_view json);
   [[nodiscard]] bool has_subscribers() const;
-  /// Every subscription ends; there will be no more.
+  /// Ends every subscription. There will be no more.
   void close();
 
  private:

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_path = 512;
 constexpr std::string_view bearer = "Bearer ";
 
-/// Takes the same time wherever they differ.
+/// Takes the same time wherever the texts differ.
 bool same(std::string_view given, std::string_view wanted) {
   if (given.size() != wanted.size()) return false;
   unsigned difference = 0;
@@ -45,7 +45,7 @@ std::optional<Refusal> RequestGuard::refuse(const httplib::Request& request) con
     return Refusal{403, "this address is not the studio's",
                    "open http://127.0.0.1:" + port_ + "; through a tunnel, with the same port at both ends"};
   if (!comes_from_here(request)) return Refusal{403, "requests of other pages are not answered", ""};
-  // What would be unpacked, pieced together or read for ever.
+  // Bodies that would be decompressed, assembled or read without end.
   if (request.has_header("Transfer-Encoding")) return Refusal{411, "a body needs a Content-Length", ""};
   if (request.has_header("Content-Encoding")) return Refusal{415, "a body must not be compressed", ""};
   if (request.has_header("Range")) return Refusal{416, "there are no parts of an answer", ""};
@@ -67,7 +67,7 @@ bool RequestGuard::comes_from_here(const httplib::Request& request) const {
         !is_here(std::string_view(origin).substr(scheme.size())))
       return false;
   }
-  // What a browser says of a request that it sends for a page; nothing else can say so.
+  // A header that browsers add to requests of pages. Pages cannot set it.
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   return !is_api(request) || site.empty() || site == "same-origin" || site == "none";
 }

@@ -17,9 +17,9 @@ struct Refusal {
   std::string error, hint;
 };
 
-/// Who may ask for what. The page itself is for everybody on this machine; everything under /api/ needs the
-/// token of this start. A foreign page in the same browser is told apart by its Origin, and a name that
-/// resolves to this machine by the Host.
+/// Decides who may request what. Every process on this machine may load the page itself; everything under
+/// /api/ needs the token of this start. A foreign page in the same browser is recognised by its Origin, and
+/// a foreign name that resolves to this machine by the Host.
 ///
 /// Threads: any.
 class RequestGuard {

@@ -22,10 +22,11 @@ constexpr int backlog = 256;
 constexpr std::string_view too_many =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nRetry-After: 1\r\nConnection: close\r\n\r\n";
 
-/// The connection at hand gets no worker: say so and close it.
+/// The current connection gets no worker: answers that and closes it.
 thread_local bool refusing = false;
 
-/// Workers and a bounded queue. What does not fit in is called at once, with `refusing` set.
+/// Workers and a bounded queue. A task that does not fit into the queue is called at
+/// once, with `refusing` set.
 class BoundedQueue final : public httplib::TaskQueue {
  public:
   BoundedQueue(std::size_t workers, std::size_t waiting) : most_(waiting) {
@@ -76,7 +77,7 @@ class BoundedQueue final : public httplib::TaskQueue {
   std::vector<std::thread> threads_;
 };
 
-/// Without SO_REUSEPORT, which httplib sets by default: it would let two servers have one port.
+/// Leaves out SO_REUSEPORT, which httplib sets by default: it would let two servers share one port.
 void set_options(socket_t socket) {
   const int yes = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -95,7 +96,7 @@ HttpServer::~HttpServer() { close(ended_); }
 
 int HttpServer::bind(int port, int tries) {
   const auto bound = [this](int to) {
-    ::listen(svr_sock_, backlog);  // httplib has five
+    ::listen(svr_sock_, backlog);  // httplib uses five
     return to;
   };
   if (port == 0) {

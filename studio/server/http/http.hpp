@@ -10,21 +10,21 @@
 
 namespace tessera::server {
 
-/// An HTTP server on the loopback interface that no client can hold up: one request a connection, a deadline
-/// for all of it, bounded bytes, bounded connections. Handlers are those of httplib.
+/// An HTTP server on the loopback interface that no client can block: one request per connection, one
+/// deadline for the whole request, limited bytes, limited connections. Handlers are those of httplib.
 ///
-/// Threads: handlers run in worker threads; start and stop in one.
+/// Threads: handlers run in worker threads; one thread calls start and stop.
 class HttpServer : public httplib::Server {
  public:
   explicit HttpServer(HttpLimits limits = {});
   ~HttpServer() override;
 
-  /// Binds to the port, or to the next one that is free of `tries`; 0: any. The port, or 0 when all are
-  /// taken.
+  /// Binds to `port`, or to the next free one of `tries` ports; port 0: to any. Returns the
+  /// port, or 0 if all are taken.
   [[nodiscard]] int bind(int port, int tries);
   /// Serves until shut_down, in the calling thread.
   void serve();
-  /// From any thread: no new connections; connections that are open end at once.
+  /// Accepts no new connections and ends the open ones at once. Threads: any.
   void shut_down();
   [[nodiscard]] bool shutting_down() const { return ending_.load(std::memory_order_acquire); }
   [[nodiscard]] const HttpLimits& limits() const { return limits_; }
@@ -34,7 +34,7 @@ class HttpServer : public httplib::Server {
 
   HttpLimits limits_;
   std::atomic<bool> ending_{false};
-  int ended_ = -1;  ///< eventfd, readable once it ends
+  int ended_ = -1;  ///< eventfd, readable once the server ends
 };
 
 }  // namespace tessera::server

@@ -5,7 +5,7 @@
 
 namespace tessera::server {
 
-/// One line; bytes that are not UTF-8, such as those of a file quoted, are replaced.
+/// The text in one line. Bytes that are not UTF-8, for example those of a quoted file, are replaced.
 template <class Json>
 [[nodiscard]] std::string text_of(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);

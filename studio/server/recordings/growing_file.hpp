@@ -5,7 +5,7 @@
 
 namespace tessera::server {
 
-/// The bytes that a file has grown by. It need not exist yet.
+/// Reads the bytes that are appended to a file. The file need not exist yet.
 class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path file) : path_(std::move(file)) {}

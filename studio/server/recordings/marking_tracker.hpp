@@ -14,14 +14,15 @@ class MarkingTracker {
   /// The initial marking. net: must outlive it.
   explicit MarkingTracker(const net::Net& net);
   void fire(std::uint32_t transition);
-  /// One in each of these places, and no others.
+  /// Puts one token into each of these places, and none into the others.
   void set(std::span<const std::uint32_t> places);
-  /// Places that hold one.
+  /// The places that hold a token.
   [[nodiscard]] std::vector<std::uint32_t> marked() const;
 
  private:
   const net::Net& net_;
-  std::vector<std::int32_t> tokens_;  ///< may be below 0 for a moment: threads write when they come to it
+  /// may be below 0 for a moment, because threads write their events with different delays
+  std::vector<std::int32_t> tokens_;
 };
 
 }  // namespace tessera::server

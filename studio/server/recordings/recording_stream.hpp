@@ -10,10 +10,10 @@
 
 namespace tessera::server {
 
-/// The entries of a recording as they come, from wherever and in as many segments as they come.
+/// The entries of a recording as they are written, from any source, in any number of segments.
 class RecordingStream {
  public:
-  /// What has been written since the last call.
+  /// Returns the bytes that were written since the last call.
   using Source = std::function<GrowingRecording::Piece()>;
   /// A file on this machine.
   [[nodiscard]] static Source of_file(const std::filesystem::path& file, GrowingRecording::From from);
@@ -22,13 +22,14 @@ class RecordingStream {
 
   /// Reads a piece. false: there was nothing new.
   bool next();
-  /// The header of the segment, and the entries of the last piece; nullptr: there is no header yet.
+  /// The header of the segment, and the entries of the last piece. nullptr: there is no header yet.
   [[nodiscard]] const std::shared_ptr<const Recording>& recording() const { return recording_; }
-  /// The last `next` has come to a segment: `recording` is another one than before, in the same run.
+  /// Whether the last `next` began a segment: `recording` is another object than before, in the same run.
   [[nodiscard]] bool begins() const { return begins_; }
-  /// There may be more at once.
+  /// Whether more can be read at once.
   [[nodiscard]] bool more() const { return more_; }
-  /// A segment was damaged, or the end of the last one is missing: it was cut off, or is still being written.
+  /// Whether a segment was damaged, or the end of the last one is missing: it was cut off,
+  /// or is still being written.
   [[nodiscard]] bool is_cut() const { return damaged_ || (reader_ && is_cut(*reader_)); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 

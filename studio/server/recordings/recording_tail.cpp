@@ -74,9 +74,9 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   }
 }
 
-/// Of many firings, only the last are kept.
+/// If there are many firings, keeps only the last ones.
 void RecordingTail::keep_the_last(Batch& batch) {
-  // Threads write one after the other; the page shows time.
+  // Threads write one after the other; the page shows the order of time.
   std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
   if (batch.firings.size() <= most_firings) return;
   const std::size_t beyond = batch.firings.size() - most_firings;

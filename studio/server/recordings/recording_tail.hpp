@@ -17,13 +17,13 @@
 
 namespace tessera::server {
 
-/// What the elements of a net are numbered: recordings have names.
+/// Translates the names in recordings into the numbers of a net's elements.
 class NetNames {
  public:
   explicit NetNames(const net::Net& net);
-  /// Per transition of the recording; UINT32_MAX: the net has no such transition.
+  /// For each transition of the recording, its number; UINT32_MAX: the net has no such transition.
   [[nodiscard]] std::vector<std::uint32_t> transitions_of(const Recording& recording) const;
-  /// Places with a token, as an event `marking` lists them.
+  /// The places with a token, as listed by an event `marking`.
   [[nodiscard]] std::vector<std::uint32_t> marked(std::string_view lines) const;
 
  private:
@@ -34,36 +34,38 @@ class NetNames {
   Numbers places_, transitions_;
 };
 
-/// Follows a run by its recording: what has fired, where the tokens are, and what the buffers hold.
+/// Follows a run by its recording: which transitions fired, where the tokens are,
+/// and what the buffers hold.
 class RecordingTail {
  public:
-  /// net: must outlive it.
+  /// net: must outlive this object.
   RecordingTail(RecordingStream::Source source, const net::Net& net);
 
   static constexpr std::size_t most_firings = 2000, largest_value = 4096;
   struct Batch {
     std::int64_t time_ns = 0;   ///< of the last event
-    std::uint64_t dropped = 0;  ///< firings that are not listed, before those that are
+    std::uint64_t dropped = 0;  ///< firings that are not listed; they came before the listed ones
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
-    bool jumped = false;  ///< the marking is what a segment began with, and not only what has fired
-    bool more = false;    ///< there may be more already
+    /// the marking is that with which a segment began, so it does not follow from the firings alone
+    bool jumped = false;
+    bool more = false;  ///< there may be more already
   };
-  /// What has been written since, as far as it can be read in a few milliseconds.
+  /// The entries since the last call, as far as they can be read in a few milliseconds.
   [[nodiscard]] Batch next();
-  /// Places with a token after all that `next` has read.
+  /// The places with a token after everything that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
-  /// {"robot.sensor.line": number, bool, text, list or object} of the buffers whose values have changed since
-  /// they were last taken, about so many bytes of them; the others come next. Not of those that are not
-  /// recorded whole, or larger than largest_value.
+  /// {"robot.sensor.line": number, bool, text, list or object} for the buffers whose values have changed
+  /// since they were last taken, about `most` bytes of them; the others come next time. Leaves out values
+  /// that are not recorded completely, or are larger than largest_value.
   [[nodiscard]] nlohmann::json take_changed_values(std::size_t most = SIZE_MAX);
 
  private:
   struct Segment {
     Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names);
     std::shared_ptr<const Recording> recording;
-    std::vector<std::uint32_t> transitions;  // of the recording: indices of the net
+    std::vector<std::uint32_t> transitions;  // for each transition of the recording, its index in the net
     replay::ValueTrack values;
-    std::deque<std::uint32_t> changed;  // buffers
+    std::deque<std::uint32_t> changed;  // indices of buffers
     std::vector<bool> has_changed;      // per buffer
   };
   void keep(Batch& batch, const Recording::Entry& entry);

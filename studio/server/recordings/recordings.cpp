@@ -45,7 +45,7 @@ RecordingStream stream_of(const fs::path& file) {
   return RecordingStream(RecordingStream::of_file(file, GrowingRecording::From::oldest));
 }
 
-/// Header and last event; null: it is none.
+/// The header and the last event; null: the file is no recording.
 json summary_of(const fs::path& file) {
   RecordingStream stream = stream_of(file);
   json summary;
@@ -67,14 +67,14 @@ json summary_of(const fs::path& file) {
 /// The values of a recording by path, "robot.sensor.line.left": [[t, value]...], as the page plots them.
 class ValueSeries {
  public:
-  /// The next segment, whose entries come now.
+  /// Begins the next segment, whose entries follow.
   void begin(const Recording& header, Recordings::Span span) {
     show_what_was(span.from_ns);
     recording_ = &header;
     track_.emplace(header);
   }
 
-  /// Of those before the span, the last ones are shown where it begins.
+  /// The last values before the span are shown at its beginning.
   void add(const Recording::Entry& entry, Recordings::Span span) {
     const std::int64_t time_ns = entry.event.time_ns;
     if (time_ns >= span.from_ns) show_what_was(span.from_ns);
@@ -92,7 +92,7 @@ class ValueSeries {
   [[nodiscard]] json take() { return std::move(series_); }
 
  private:
-  static constexpr std::size_t most_scalars = 16;  // of a value: longer lists are no curves
+  static constexpr std::size_t most_scalars = 16;  // per value: longer lists are no curves
 
   void show(std::uint32_t buffer, std::int64_t time_ns) {
     const replay::ValueTrack::Value value = track_->value(buffer);
@@ -113,10 +113,10 @@ class ValueSeries {
   json series_ = json::object();
 };
 
-/// What is shown of a recording.
+/// The part of a recording that is shown.
 class Content {
  public:
-  /// net: that the indices are of; nullptr: there is none.
+  /// net: the net to which the indices refer; nullptr: there is none.
   Content(const net::Net* net, Recordings::Span span) : span_(span) {
     if (net == nullptr) return;
     names_.emplace(*net);
@@ -130,7 +130,7 @@ class Content {
     content_ = {
         {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
     is_ordered_ = recording.clock == "simulated";
-    // The first that is left, but not the first of the run; its marking follows.
+    // The first segment that is left, but not the first of the run; its marking follows.
     begins_ = recording.segment.value_or(0) > 0 ? Begins::unknown : Begins::initial;
   }
 
@@ -146,7 +146,7 @@ class Content {
   }
 
   [[nodiscard]] json take(bool is_cut) {
-    // Threads write one after the other; who watches wants the order of time.
+    // Threads write one after the other; an observer wants the order of time.
     if (!is_ordered_) std::ranges::stable_sort(firings_, {}, &decltype(firings_)::value_type::first);
     content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
@@ -171,7 +171,7 @@ class Content {
     const bool known = event.subject < transitions_.size() && transitions_[event.subject] != UINT32_MAX;
     if (event.time_ns > span_.to_ns) return;
     if (event.time_ns >= span_.from_ns) {
-      // Where there is no more room for values, the next part begins.
+      // If there is no more room for values, the next part begins.
       if (known && firings_.size() < Recordings::most_firings && values_.complete())
         firings_.emplace_back(event.time_ns, transitions_[event.subject]);
       else
@@ -182,7 +182,7 @@ class Content {
     }
   }
 
-  /// Before the first firing that is shown; null: the initial one, none: nobody knows.
+  /// The marking before the first firing that is shown; null: the initial one, none: it is not known.
   [[nodiscard]] json marking() const {
     if (begins_ == Begins::initial || !tokens_) return nullptr;
     return begins_ == Begins::marked ? json(tokens_->marked()) : json::array();
@@ -244,7 +244,7 @@ std::map<std::string, fs::path> Recordings::files() const {
   return found;
 }
 
-/// With "modified"; a recording is read whole only when it has changed since.
+/// The summary with "modified". A recording is read as a whole only if it has changed.
 json Recordings::known_summary_of(const fs::path& file) const {
   struct stat status {};
   if (lstat(file.c_str(), &status) != 0) return nullptr;

@@ -13,8 +13,9 @@
 
 namespace tessera::server {
 
-/// The recordings in a project: of the last `tessera simulate` or `run`, of the studio's runs, and *.tsr
-/// beside the specification. One in segments (`--record-limit`) is one, as far as it is left.
+/// The recordings in a project: that of the last `tessera simulate` or `run`, those of the studio's
+/// runs, and *.tsr beside the specification. The segments that are left of a recording with a
+/// limit count as one recording.
 ///
 /// Threads: any.
 class Recordings {
@@ -29,13 +30,13 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "cut", "truncated", "path", "track"} of docs/studio.md: at most most_firings, most_samples (of
-  /// values, together) and most_points of the span. nullopt: there is none of that name. Throws
-  /// std::runtime_error when it cannot be read.
+  /// "values", "cut", "truncated", "path", "track"} of docs/studio.md, within the time span: at most
+  /// most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
+  /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
 
  private:
-  /// By name. Nothing is a file here that is a symbolic link, or in a folder that is one.
+  /// The files by name. Symbolic links, and files in a folder that is one, do not count.
   [[nodiscard]] std::map<std::string, std::filesystem::path> files() const;
   [[nodiscard]] nlohmann::json known_summary_of(const std::filesystem::path& file) const;
   SpecFile& file_;

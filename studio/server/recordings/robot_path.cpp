@@ -10,7 +10,7 @@ namespace tessera::server {
 namespace {
 
 constexpr std::size_t longest_line = 1024;
-constexpr double longest_time_s = 9e9;  // what nanoseconds can count
+constexpr double longest_time_s = 9e9;  // the limit of nanoseconds
 
 std::optional<PathPoint> point_of(std::string_view line) {
   std::array<double, 4> numbers{};
@@ -44,7 +44,7 @@ void ThinnedPath::add(const PathPoint& point) {
   if (count_++ % every_ != 0) return;
   points_.push_back(point);
   if (points_.size() < most_) return;
-  // Every other one goes. One less than there may be, because of the last.
+  // Removes every other point. There is room for one more, because of the last point.
   for (std::size_t index = 0; 2 * index < points_.size(); ++index) points_[index] = points_[2 * index];
   points_.resize((points_.size() + 1) / 2);
   every_ *= 2;

@@ -10,16 +10,17 @@
 
 namespace tessera::server {
 
-/// Where the robot was, in the floor picture.
+/// A pose of the robot in the floor picture.
 struct PathPoint {
   std::int64_t time_ns = 0;
   double x_m = 0, y_m = 0, heading_rad = 0;
 };
 
-/// Reads the path of a simulated robot (sim/trace.hpp) piece by piece. What is no point is passed over.
+/// Reads the path of a simulated robot (sim/trace.hpp) piece by piece. Lines that
+/// are no points are skipped.
 class PathReader {
  public:
-  /// The points of the lines that are whole by now.
+  /// The points of all complete lines.
   [[nodiscard]] std::vector<PathPoint> feed(std::string_view bytes);
 
  private:
@@ -32,7 +33,7 @@ class ThinnedPath {
   /// most: at least 3.
   explicit ThinnedPath(std::size_t most) : most_(most) {}
   void add(const PathPoint& point);
-  /// [[t, x, y, heading]], of which the last is the last that was added.
+  /// [[t, x, y, heading]]. The last row is the point that was added last.
   [[nodiscard]] nlohmann::json rows() const;
 
  private:

@@ -12,14 +12,14 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t piece_of_path = std::size_t{1} << 20U;
-constexpr std::size_t most_values = std::size_t{64} << 10U;  // bytes of an event
+constexpr std::size_t most_values = std::size_t{64} << 10U;  // size of one event in bytes
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
 constexpr auto between_markings = std::chrono::milliseconds(500);
 constexpr auto between_subsystems = std::chrono::milliseconds(200);
 
-/// Of a time that somebody else says.
+/// Nanoseconds of a time that comes from outside.
 std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::clamp(seconds * 1e9, -9e18, 9e18));
 }
@@ -51,7 +51,8 @@ void RunFollower::add_firings(News& news) {
   if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return;
   news.marking = recording_.marking();
   news.firings = {{"t", batch.time_ns}, {"dropped", batch.dropped}, {"firings", batch.firings}};
-  // A page that plays the firings knows the marking; now and then it is told, in case one was lost.
+  // A page that plays the firings knows the marking. It is sent from time to time,
+  // in case a firing was lost.
   const bool plays_on = batch.dropped == 0 && !batch.jumped;
   if (plays_on && Clock::now() - marking_told_ < between_markings) return;
   marking_told_ = Clock::now();

@@ -25,16 +25,16 @@ class RunFollower {
 
   struct News {
     nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
-    std::vector<PathPoint> path;                       ///< more of it
+    std::vector<PathPoint> path;                       ///< new points of the path
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     bool has_state = false, paused = false;
-    bool rested = false;  ///< it has come to rest, maybe again
+    bool rested = false;  ///< the run has come to rest, perhaps again
     std::string broke_at;
     bool more = false;  ///< there is more to read at once
   };
-  /// snapshot: of the control socket, if there is a new one. What it says is told when everything that the
-  /// run had recorded by then has been read.
+  /// snapshot: of the control socket, if there is a new one. It is reported after everything has been read
+  /// that the run had recorded by then.
   /// last: nothing is kept for later.
   [[nodiscard]] News poll(std::optional<project::Snapshot> snapshot, bool last);
   /// Until it is worth while to look again.

@@ -27,7 +27,7 @@ json json_of(const Scalar& scalar) {
 
 namespace {
 
-/// Where "points[3].x" is; what is not there yet is made.
+/// The element "points[3].x"; missing parts are made.
 json& element(json& value, std::string_view path) {
   json* here = &value;
   while (!path.empty()) {

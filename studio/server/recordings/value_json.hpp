@@ -10,7 +10,7 @@ namespace tessera::server {
 /// A number, bool or text.
 [[nodiscard]] nlohmann::json json_of(const ValueLayout::Scalar& scalar);
 
-/// A number, bool, text, list, or {field: value}; null: these are not the bytes of such a value.
+/// A number, bool, text, list, or {field: value}. null: the bytes do not encode such a value.
 [[nodiscard]] nlohmann::json json_of(const ValueLayout& layout, std::string_view bytes);
 
 }  // namespace tessera::server

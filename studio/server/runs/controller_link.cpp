@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// -1: nobody listens there.
+/// -1: no process listens there.
 int connected_to(const std::filesystem::path& file) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -78,9 +78,9 @@ bool ControllerLink::is_process(std::int64_t id) {
   return getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
 }
 
-/// What has come by now.
+/// Reads what has arrived so far.
 void ControllerLink::hear() {
-  constexpr std::size_t most = std::size_t{64} << 20U;  // more makes no sense
+  constexpr std::size_t most = std::size_t{64} << 20U;  // the limit of what makes sense
   std::array<char, 65536> bytes{};
   ssize_t count = 0;
   while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
@@ -93,7 +93,7 @@ void ControllerLink::hear() {
   understand();
 }
 
-/// Up to a piece of the recording that nobody has taken yet: what comes after it is newer.
+/// Handles the messages up to a piece of the recording that waits to be taken; later messages are newer.
 void ControllerLink::understand() {
   std::size_t taken = 0;
   for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {

@@ -25,10 +25,10 @@ class ControllerLink {
   ControllerLink(const ControllerLink&) = delete;
   ControllerLink& operator=(const ControllerLink&) = delete;
 
-  /// Connects to the socket, if somebody listens there by now. own: makes the run end with this connection.
-  /// true: connected.
+  /// Connects to the socket if a process listens there. own: the run ends with this connection.
+  /// Returns whether it is connected.
   bool connect(const std::filesystem::path& socket, bool own);
-  /// It is that process of this machine, and not the end of a tunnel.
+  /// Whether the other end is that process of this machine, and not the end of a tunnel.
   [[nodiscard]] bool is_process(std::int64_t id);
   /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<project::Snapshot> snapshot();
@@ -40,9 +40,9 @@ class ControllerLink {
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();
-  /// It has said that its run is over. Otherwise, when it is over, the connection was lost.
+  /// Whether the controller has said that its run is over. If not, and is_over, the connection was lost.
   [[nodiscard]] bool has_ended() const { return ended_; }
-  /// No answers come any more.
+  /// Ends the connection: there will be no more answers.
   void close();
 
  private:
@@ -54,16 +54,17 @@ class ControllerLink {
   std::string heard_;
   std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
-  std::optional<GrowingRecording::Piece> piece_;  ///< what comes after it waits until it is taken
-  std::mutex mutex_;                              ///< of what follows, and of writing and closing the socket
+  std::optional<GrowingRecording::Piece> piece_;  ///< messages behind it wait until it is taken
+  /// guards the members below, and writing to and closing the socket
+  std::mutex mutex_;
   std::condition_variable answered_;
   std::map<std::int64_t, std::string> answers_;
   std::int64_t last_ = 0;
   bool open_ = false, over_ = false;
 };
 
-/// Names in tessera::monitor_folder() of sockets where somebody listens: controllers on this machine, and
-/// ends of tunnels to others.
+/// Names in tessera::monitor_folder() of sockets where a process listens: controllers on this machine,
+/// and ends of tunnels to others.
 [[nodiscard]] std::vector<std::string> listening_sockets();
 
 }  // namespace tessera::server

@@ -167,7 +167,7 @@ void Run::make_and_run() {
     if (controller) execute(std::move(*controller));
   } catch (const std::exception& error) {
     set_state(State::failed, error.what());
-  } catch (...) {  // of a library: MuJoCo's is no std::exception
+  } catch (...) {  // from a library: MuJoCo's is no std::exception
     set_state(State::failed, "a library failed without saying why");
   }
 }

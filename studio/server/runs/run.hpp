@@ -20,14 +20,14 @@
 
 namespace tessera::server {
 
-/// What is asked of a run.
+/// A request for a run.
 struct RunRequest {
   enum class Kind : std::uint8_t {
-    simulate,  ///< the simulated clock
-    run,       ///< the steady clock and real drivers
-    attach     ///< a controller that somebody else has started
+    simulate,  ///< on the simulated clock
+    run,       ///< on the steady clock with real drivers
+    attach     ///< to a controller that another process has started
   } kind = Kind::simulate;
-  std::string socket;  ///< of attach: a name in tessera::monitor_folder()
+  std::string socket;  ///< for attach: a name in tessera::monitor_folder()
   std::string world, track, duration;
   std::uint64_t seed = 1;
   double speed = 1;
@@ -48,7 +48,7 @@ struct RunControl {
 /// Threads: any.
 class Run {
  public:
-  /// spec: the file. The run's files get a folder of their own (project::RunFolder).
+  /// spec: the specification. The files of the run get a separate folder (project::RunFolder).
   Run(std::string id, RunRequest request, std::filesystem::path spec,
       std::shared_ptr<const Analysis> analysis, Events& events);
   ~Run();
@@ -86,7 +86,7 @@ class Run {
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
   std::thread follower_, thread_;
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;

@@ -11,7 +11,7 @@ Runs::Started Runs::start(RunRequest request) {
   std::shared_ptr<const Analysis> analysis = analyses_.of(content.text);
   if (!content.error.empty() || !analysis->net)
     return {{}, 422, "the file on disk has errors, so there is nothing to run", "save a text without errors"};
-  std::shared_ptr<Run> forgotten;  // ends outside the lock
+  std::shared_ptr<Run> forgotten;  // destroyed outside the lock
   const std::lock_guard lock(mutex_);
   if (std::ranges::count_if(runs_, [](const auto& one) { return !one.second->over(); }) >=
       static_cast<std::ptrdiff_t>(most_running))

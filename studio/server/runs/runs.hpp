@@ -14,7 +14,7 @@
 
 namespace tessera::server {
 
-/// The runs of this start of the studio. Their files stay in .tessera/runs/ (project::RunFolder).
+/// The runs since the studio was started. Their files stay in .tessera/runs/ (project::RunFolder).
 ///
 /// Threads: any.
 class Runs {
@@ -26,13 +26,13 @@ class Runs {
 
   struct Started {
     std::string run;
-    int status = 202;  ///< else 422: the file on disk has errors; 429: too many run
+    int status = 202;  ///< otherwise 422: the file on disk has errors; 429: too many runs
     std::string error, hint;
   };
   [[nodiscard]] Started start(RunRequest request);
   [[nodiscard]] nlohmann::json list() const;
   [[nodiscard]] std::shared_ptr<Run> find(const std::string& id) const;
-  /// Ends all of them, and waits for it.
+  /// Ends all runs and waits until they have ended.
   void stop_all();
 
  private:

@@ -74,6 +74,6 @@ function useShortcuts(): void {
   }, [studio]);
 }
 
-/** In a text field, undo is the field's. */
+/** In a text field, the keys for undo belong to the field. */
 const isField = (target: EventTarget | null, key: string) =>
   target instanceof HTMLInputElement && "zy".includes(key.toLowerCase());

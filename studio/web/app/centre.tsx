@@ -6,7 +6,7 @@ import { usePaneTitle } from "../panels/pane_title";
 import { Player } from "../panels/player";
 import { useStore, useStudio } from "../hooks/use";
 
-/** Between the text and the side panel: what there is of the system to be seen. */
+/** The part between the text and the side panel: it shows the system. */
 export function Centre() {
   const studio = useStudio();
   const { project, problem } = useStore(studio.project, (all) => all);
@@ -17,7 +17,7 @@ export function Centre() {
   if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
   if (!loaded) return <Empty title="Opening…" text="" />;
   const beside = panes.length > 1;
-  // In the structure there are no panes with a name of their own.
+  // The structure view has no named panes.
   const named = beside && view === "net";
   const players = panes.map((pane, at) => (
     <Player key={pane.id} pane={pane} beside={pane.replay ? named : beside} fixed={sameTime && at === 1} />
@@ -45,7 +45,7 @@ function Nets({ players }: { players: React.ReactNode[] }) {
   const panes = useStore(studio.scene.store, (all) => all.panes);
   const beside = panes.length > 1;
   const drawn = panes.flatMap((pane, at): DrawnPane[] => {
-    // What plays or runs is drawn as it was when it began.
+    // A run, a game or a recording is drawn with the net that it had when it began.
     const net = pane.track?.net ?? (desk.mode === "edit" ? edited : desk.net);
     if (!net) return [];
     const head = beside && <PaneHead pane={pane} title={title(pane)} />;

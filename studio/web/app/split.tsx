@@ -10,7 +10,7 @@ function keptSizes(): Sizes {
   return { left: 420, right: 320, ...(JSON.parse(localStorage.getItem(kept) ?? "{}") as Partial<Sizes>) };
 }
 
-/** Three columns; the borders between them are dragged, or moved by arrow keys. */
+/** Three columns. The borders between them can be dragged, or moved by arrow keys. */
 export function Split({ left, right, children }: { left: ReactNode; right: ReactNode; children: ReactNode }) {
   const [sizes, setSizes] = useState(keptSizes);
   const change = (side: keyof Sizes, size: number) => {

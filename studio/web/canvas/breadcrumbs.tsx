@@ -3,7 +3,9 @@ import { ExportButtons } from "./export_button";
 import { layerTitle, pageName } from "../model/labels";
 import type { NetModel } from "../model/net";
 
-/** Where the drawing is, from the system down; each part flies there. Beside it: fold and unfold. */
+/**
+ * The path from the system to the current page. A click on a part flies there. Beside it: fold and unfold.
+ */
 export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
   const studio = useStudio();
   const selected = useStore(studio.view, (view) => view.selected);

@@ -9,7 +9,7 @@ export function ChannelEdge(props: EdgeProps) {
     channel: Channel;
     selected: boolean;
     complaint?: "error" | "warning";
-    /** Height at which it runs when it leads back. */
+    /** Height of the line if the channel leads back. */
     lane?: number;
     /** The middle of its label. */
     label: Point;

@@ -1,7 +1,10 @@
 import type { Box } from "../model/geometry";
 import type { Placed } from "../model/sheets";
 
-/** The page one looks at: the outermost in the middle of the window that can be seen as a whole, or else the innermost there. */
+/**
+ * The current page: the outermost one in the middle of the window that is completely visible, or
+ * else the innermost one there.
+ */
 export function currentPage(visible: Placed[], window: Box): number {
   const [cx, cy] = [window.x + window.width / 2, window.y + window.height / 2];
   let current = 0;

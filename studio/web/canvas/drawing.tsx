@@ -32,14 +32,14 @@ interface DrawingProps {
   sheets: Sheets;
   /** Grows when a sheet has arrived. */
   version: number;
-  /** Others follow where it goes. */
+  /** The other panes follow this one. */
   lead: boolean;
   label: string;
-  /** The page one looks at. */
+  /** Receives the current page. */
   onCurrent: (page: number) => void;
 }
 
-/** A net as one pane shows it: what can be seen of it now, with the tokens of the pane's stage. */
+/** A net in one pane: its visible part, with the tokens of the pane's stage. */
 export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: DrawingProps) {
   const studio = useStudio();
   const flow = useReactFlow();
@@ -64,7 +64,8 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
   );
 
   const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
-  // The view may move between the two clicks of a double one; the first says what is meant.
+  // The view may move between the two clicks of a double click; the first one
+  // decides which element is meant.
   const first = useRef<string | null>(null);
   const click = (event: MouseEvent) => {
     const path = pathAt(event);
@@ -115,7 +116,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
   );
 }
 
-/** What the text or a verification complains of, by path. */
+/** The complaints about the text or of a verification, by path. */
 function useFlags(net: NetModel): ReadonlyMap<string, "error" | "warning"> {
   const studio = useStudio();
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);

@@ -1,6 +1,6 @@
 import type { ElkNode } from "../model/layout";
 
-/** ELK in a worker of its own, loaded when the first page asks for it. */
+/** ELK in a separate worker, loaded when the first page needs it. */
 let ready: Promise<{ layout: (graph: unknown) => Promise<unknown> }> | undefined;
 
 export async function elk(graph: ElkNode): Promise<ElkNode> {

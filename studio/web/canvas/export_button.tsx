@@ -3,7 +3,7 @@ import { useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import { asPng, download, takePicture } from "./picture";
 
-/** What is seen, as a file. */
+/** Buttons that save the visible part as a file. */
 export function ExportButtons({ name }: { name: string }) {
   const studio = useStudio();
   const [busy, setBusy] = useState(false);

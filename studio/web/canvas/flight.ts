@@ -6,7 +6,10 @@ import type { Sheets } from "../model/sheets";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** Flies to where a request leads, as soon as the sheets on the way are there; what is folded on the way is opened. */
+/**
+ * Flies to the target of a request as soon as the sheets on the way are there.
+ * Unfolds the pages on the way.
+ */
 export function useFlight(sheets: Sheets, version: number, lead: boolean): void {
   const studio = useStudio();
   const flow = useReactFlow();

@@ -13,12 +13,12 @@ export interface DrawnPane {
   pane: Pane;
   net: NetModel;
   title: string;
-  /** What stands above and below its drawing. */
+  /** The elements above and below its drawing. */
   head: ReactNode;
   foot: ReactNode;
 }
 
-/** The net, once or twice side by side; all panes show the same part of it. */
+/** The net, once or twice side by side. All panes show the same part of it. */
 export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; between: ReactNode }) {
   const studio = useStudio();
   const selected = useStore(studio.view, (view) => view.selected);
@@ -32,7 +32,7 @@ export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; bet
       {between}
       <div className="panes">
         {panes.map((drawn, at) => (
-          // By position: when something else comes to be shown, the drawing stays where it is.
+          // The key is the position: if the pane gets another content, the view stays where it is.
           <section key={at} className="net-pane" aria-label={`Net of ${drawn.title}`}>
             {drawn.head}
             <ReactFlowProvider>

@@ -4,8 +4,8 @@ import { runningBehaviours } from "../model/game";
 import type { Stage } from "../live/stage";
 
 /**
- * Puts the marking onto what is drawn, by the elements' numbers. This runs at the rate of frames and touches only what
- * is on screen, so it goes past React.
+ * Shows the marking on the drawing, by the elements' numbers. This runs at the frame rate and touches only
+ * what is on screen, so it bypasses React.
  */
 export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
   if (!stage.is(net)) return;

@@ -26,7 +26,7 @@ export interface Picture {
   height: number;
 }
 
-/** What of `areas` (elements with a flow in each) can be seen now. */
+/** The part of `areas` (elements with a flow in each) that is visible now. */
 export function takePicture(areas: readonly Element[]): Picture {
   const frames = areas.map((area) => area.getBoundingClientRect());
   const [left, top] = [Math.min(...frames.map((one) => one.left)), Math.min(...frames.map((one) => one.top))];
@@ -38,7 +38,7 @@ export function takePicture(areas: readonly Element[]): Picture {
   root.append(markers);
   areas.forEach((area, at) => {
     const frame = frames[at]!;
-    // An SVG within one cuts off what is outside of it.
+    // An SVG within an SVG cuts off everything outside of it.
     const size = { width: round(frame.width), height: round(frame.height) };
     const inner = make("svg", { x: round(frame.left - left), y: round(frame.top - top), ...size });
     inner.append(make("rect", { ...size, fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }));
@@ -55,7 +55,7 @@ function stacked(area: Element): Element[] {
   return parts.sort((a, b) => height(a) - height(b));
 }
 
-/** HTML becomes boxes and texts where they stand on the screen; SVG is copied with its style. */
+/** HTML becomes boxes and texts at their positions on the screen; SVG is copied with its style. */
 function add(element: Element, to: Element, frame: DOMRect): void {
   const style = getComputedStyle(element);
   if (hidden(style)) return;
@@ -87,7 +87,7 @@ function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Ele
   const border = width("Top");
   const outlined = border > 0 && width("Left") > 0;
   if (box.width === 0) return;
-  // A border above or below alone is a line.
+  // A border only above or below becomes a line.
   if (!outlined)
     for (const [side, y] of [
       ["Top", box.top],
@@ -153,7 +153,7 @@ function copy(element: Element): Element {
   return same;
 }
 
-/** A mixed colour as the browser computes it, in the words that every program understands. */
+/** A mixed colour as the browser computes it, in a notation that every program understands. */
 export function plainColour(value: string): string {
   const mixed = /^color\(srgb ([-\d.e]+) ([-\d.e]+) ([-\d.e]+)(?: \/ ([\d.e-]+))?\)$/.exec(value);
   if (!mixed) return value;

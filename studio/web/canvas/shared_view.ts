@@ -4,7 +4,10 @@ import { useStudio } from "../hooks/use";
 import type { Look } from "../live/camera";
 import type { Sheet } from "../model/geometry";
 
-/** Looks where the other panes look, or at the whole drawing; before it does, nothing is drawn, for it would be drawn twice. */
+/**
+ * Uses the view of the other panes, or else shows the whole drawing. Nothing is drawn before that,
+ * because it would be drawn twice.
+ */
 export function useSharedView(root: Sheet | undefined): boolean {
   const { camera } = useStudio();
   const flow = useReactFlow();
@@ -24,7 +27,7 @@ export function useSharedView(root: Sheet | undefined): boolean {
     const whole = { x: 0, y: 0, width: root.width, height: root.height };
     if (!camera.look) void flow.fitBounds(whole, { duration: 0, padding: 0.03 }).then(now);
     return () => (leave(), stop());
-    // What the root is later does not move the view.
+    // Later changes of the root do not move the view.
   }, [ready, camera, flow, store]);
   return shown;
 }

@@ -10,19 +10,22 @@ import { Arcs, BarSymbol, PageSymbol, PlaceSymbol } from "./symbols";
 export interface SheetData extends Record<string, unknown> {
   net: NetModel;
   placed: Placed;
-  /** Pages whose nets are drawn by sheets of their own. */
+  /** Pages whose nets are drawn by separate sheets. */
   open: string;
   folded: string;
-  /** How near it is: 2 means that lines and letters would be four times too large, -1 that they are small, -3 mere dots. */
+  /**
+   * How near the sheet is: 2 means that lines and letters would be four times too large, -1 that they are
+   * small, -3 that they are dots.
+   */
   near: number;
   selected: string | null;
   flags: ReadonlyMap<string, "error" | "warning">;
-  /** Whose tokens are on it. */
+  /** The stage whose tokens are shown. */
   stage: Stage;
 }
 export type SheetNode = Node<SheetData, "sheet">;
 
-/** One page's net. Its symbols carry the numbers by which tokens are put on them. */
+/** The net of one page. Its symbols carry the numbers by which tokens are put on them. */
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);

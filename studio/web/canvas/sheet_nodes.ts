@@ -4,7 +4,9 @@ import type { NetModel } from "../model/net";
 import type { Placed, Sheets } from "../model/sheets";
 import type { SheetNode } from "./sheet_node";
 
-/** The sheets that are seen, as nodes of the flow; one that did not change stays the same object, and is not drawn anew. */
+/**
+ * The visible sheets as nodes of the flow. An unchanged sheet stays the same object and is not drawn again.
+ */
 export function useNodes(
   net: NetModel,
   sheets: Sheets,

@@ -4,10 +4,13 @@ import type { NetModel } from "../model/net";
 import { Sheets } from "../model/sheets";
 import { elk } from "./elk";
 
-/** Pages with more children than this open with them folded. */
+/** Pages with more children than this are folded at first. */
 const many = 24;
 
-/** The sheets of each net that is drawn, and a number that grows when one has arrived. Folded is for all what is folded for one. */
+/**
+ * The sheets of each net that is drawn, and a number that grows when a sheet has arrived. Folding one
+ * member of a fleet folds all of them.
+ */
 export function useSheets(nets: readonly NetModel[]): { of: (net: NetModel) => Sheets; version: number } {
   const studio = useStudio();
   const folds = useStore(studio.view, (view) => view.folds);

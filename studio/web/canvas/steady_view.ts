@@ -5,8 +5,9 @@ import { overlap, type Box } from "../model/geometry";
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
 /**
- * Keeps what is seen of the drawing in view when the room for it changes, as when a panel opens below it, and brings the
- * old view back when the room does. Panes that follow another one are moved with it.
+ * Keeps the visible part of the drawing in view when its space changes, for example when a
+ * panel opens below it, and restores the old view when the space returns. Panes that follow
+ * another one are moved with it.
  */
 export function useSteadyView(drawing: Box | undefined, lead = true): void {
   const flow = useReactFlow();

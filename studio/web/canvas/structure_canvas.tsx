@@ -124,7 +124,7 @@ function edgesOf(structure: Structure, selected: string | null, complaints: Comp
   return edges;
 }
 
-/** Agents as robot people draw them; a channel is dragged from an output to an input. */
+/** Agents as roboticists draw them. A channel is made by dragging from an output to an input. */
 export function StructureCanvas() {
   return (
     <ReactFlowProvider>
@@ -155,7 +155,7 @@ function Drawing() {
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
   const dragged = useRef(false);
-  // The click that ends a drag is not meant for what lies under it.
+  // The click that ends a drag is not meant for the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) =>
     dragged.current || select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);

@@ -95,9 +95,9 @@ export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direct
 
 interface PageSymbolProps extends PartProps {
   folded: boolean;
-  /** Its net is drawn in it by a sheet of its own. */
+  /** Its net is drawn inside it, by a separate sheet. */
   open: boolean;
-  /** So far away that a folded page is a dot. */
+  /** So far away that a folded page is drawn as a dot. */
   far: boolean;
   flagged: "error" | "warning" | null;
   onFold: (path: string, folded: boolean) => void;
@@ -141,7 +141,7 @@ function FoldedPage({ box, far }: { box: Box; far: boolean }) {
   );
 }
 
-/** What is between a folded page and its name is part of it, not of the frame below. */
+/** The area between a folded page and its name belongs to the page, not to the frame below. */
 function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"; name: string }) {
   const length = 6 + 6.2 * name.length;
   const { x, y, width, height } = box;
@@ -154,7 +154,10 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
   );
 }
 
-/** A double circle drawn out to a frame: its name above, its net inside, or its name large when that is too small. */
+/**
+ * A double circle stretched into a frame: its name above, its net inside; or its name in large letters
+ * if the net is too small to read.
+ */
 function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: boolean; child: number }) {
   const size = Math.min(34, (box.width - 30) / Math.max(4, page.name.length * 0.62));
   return (
@@ -205,7 +208,7 @@ interface ArcsProps {
   net: NetModel;
   page: number;
   sheet: Sheet;
-  /** So far away that tips cannot be seen: all in one line. */
+  /** So far away that tips are not visible: everything in one line. */
   far: boolean;
 }
 

@@ -10,7 +10,7 @@ export function useStudio(): Studio {
   return studio;
 }
 
-/** A part of a store; the component is drawn again only when that part changes. */
+/** A part of a store. The component is drawn again only if that part changes. */
 export function useStore<T extends object, S>(store: Store<T>, select: (value: T) => S): S {
   const last = useRef<{ value: T; part: S } | null>(null);
   const part = () => {

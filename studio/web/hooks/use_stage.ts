@@ -4,7 +4,10 @@ import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import { useStore, useStudio } from "./use";
 
-/** Running behaviour by path of subsystem ("robot.control" -> "follow"), while something plays on the stage. */
+/**
+ * The running behaviour by path of the subsystem ("robot.control" -> "follow"), while
+ * the stage plays something.
+ */
 export function useRunning(stage: Stage): ReadonlyMap<string, string> {
   const studio = useStudio();
   const net = useStore(stage.shown, (all) => all.net);
@@ -16,7 +19,7 @@ export function useRunning(stage: Stage): ReadonlyMap<string, string> {
     look();
     return stage.subscribe(look);
   }, [net, stage]);
-  // Without its recording one knows of a controller only what it says.
+  // Without the recording, only the reports of the controller are known.
   if (text === "" && live) return told;
   return new Map(
     text

@@ -4,7 +4,7 @@ import { useStore, useStudio } from "./use";
 
 let last: { text: string; structure: Structure } | null = null;
 
-/** The structure of the text as it is now; read once for all who ask. */
+/** The structure of the current text, read once for all components. */
 export function useStructure(): Structure {
   const studio = useStudio();
   const text = useStore(studio.draft.store, (draft) => draft.text);
@@ -14,7 +14,7 @@ export function useStructure(): Structure {
   }, [text]);
 }
 
-/** Complaints by the path of the thing on whose line they are. */
+/** Complaints by the path of the element on whose line they are. */
 export function useComplaints(structure: Structure): ReadonlyMap<string, { severity: "error" | "warning"; messages: string[] }> {
   const studio = useStudio();
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);

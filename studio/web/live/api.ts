@@ -6,7 +6,7 @@ export interface Floor {
   metresPerPixel: number;
 }
 
-/** An answer of the server that is not what was asked for; status 0: there was no answer. */
+/** An error answer of the server; status 0: there was no answer. */
 export class ApiError extends Error {
   constructor(
     readonly status: number,
@@ -20,7 +20,10 @@ export class ApiError extends Error {
 
 const key = "tessera.token";
 
-/** The token of the address (`#token=...`) or of this browser tab; it leaves the address bar at once. */
+/**
+ * The token from the address (`#token=...`) or from this browser tab. It is removed
+ * from the address bar at once.
+ */
 export function takeToken(): string {
   const given = /(?:^#|&)token=([0-9a-f]+)/i.exec(location.hash)?.[1];
   if (given) {
@@ -30,7 +33,7 @@ export function takeToken(): string {
   return sessionStorage.getItem(key) ?? "";
 }
 
-/** Another tab was opened with the key of a server that was started anew: this one can use it too. */
+/** If another tab is opened with the key of a restarted server, this tab uses the key, too. */
 export function shareToken(token: string, taken: (token: string) => void): void {
   const tabs = new BroadcastChannel(key);
   tabs.onmessage = (event: MessageEvent<string>) => {
@@ -39,7 +42,7 @@ export function shareToken(token: string, taken: (token: string) => void): void 
     taken(event.data);
   };
   tabs.postMessage(token);
-  // The new address in the old tab changes only what stands behind the #.
+  // Opening the new address in the old tab changes only the part after the #.
   addEventListener("hashchange", () => {
     if (location.hash.includes("token=")) location.reload();
   });
@@ -122,7 +125,7 @@ export class Api {
       if (!answer.ok) return null;
       return { image: await createImageBitmap(await answer.blob()), metresPerPixel: own?.metres_per_pixel ?? 0.005 };
     } catch {
-      // Without the picture a path is drawn on nothing.
+      // Without the picture, the path is drawn on an empty background.
       return null;
     }
   }

@@ -1,4 +1,4 @@
-/** Where one looks: pixels from the corner, and pixels per unit of the drawing. */
+/** A view: pixels from the corner, and pixels per unit of the drawing. */
 export interface Look {
   x: number;
   y: number;
@@ -7,12 +7,12 @@ export interface Look {
 
 const same = (one: Look, other: Look) => one.x === other.x && one.y === other.y && one.zoom === other.zoom;
 
-/** All panes of the drawing look at the same place: where one moves, the others follow. */
+/** All panes of the drawing share one view: when one moves, the others follow. */
 export class Camera {
   look: Look | null = null;
   private readonly panes = new Set<(look: Look) => void>();
 
-  /** Joins those that move together; `follow` is told where to look. Returns how to leave. */
+  /** Joins the panes that move together; `follow` receives the new view. Returns a function that leaves. */
   join(follow: (look: Look) => void): () => void {
     if (this.panes.size === 0) this.look = null;
     else if (this.look) follow(this.look);

@@ -3,7 +3,7 @@ import type { Events } from "./protocol";
 import { Store } from "./store";
 
 export interface ConnectionState {
-  /** refused: the token is not the server's (it was started anew). */
+  /** refused: the token is not that of the server (it was restarted). */
   state: "connecting" | "open" | "lost" | "refused";
   attempt: number;
 }
@@ -21,7 +21,7 @@ const listened: Record<keyof Events, true> = {
   subsystems: true,
 };
 
-/** The event stream, opened again whenever it breaks. */
+/** The event stream. It is opened again whenever it breaks. */
 export class Connection {
   readonly store = new Store<ConnectionState>({ state: "connecting", attempt: 0 });
   private readonly handlers = new Map<string, Set<Handler>>();
@@ -36,7 +36,7 @@ export class Connection {
     this.handlers.set(name, set);
   }
 
-  /** With another key, when the one there was did not do. */
+  /** Connects with another key after the current one was refused. */
   openWith(token: string): void {
     if (this.store.get().state !== "refused") return;
     this.api.token = token;
@@ -57,7 +57,7 @@ export class Connection {
       });
   }
 
-  /** A stream that breaks says nothing of why; a plain request does. */
+  /** A broken stream does not tell why; a plain request does. */
   private async broken(): Promise<void> {
     this.source?.close();
     const attempt = this.store.get().attempt + 1;

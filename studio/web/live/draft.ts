@@ -7,19 +7,19 @@ import { Store } from "./store";
 
 export interface DraftState {
   text: string;
-  /** The text on disk as far as we know, and its revision. */
+  /** The text on disk as far as known, and its revision. */
   saved: string;
   revision: string;
   diagnostics: Diagnostic[];
-  /** Of the last text that had a net. */
+  /** The net of the last text that had one. */
   net: NetModel | null;
-  /** The net is that of the present text. */
+  /** Whether the net belongs to the current text. */
   current: boolean;
   checking: boolean;
   loaded: boolean;
   canUndo: boolean;
   canRedo: boolean;
-  /** The file on disk, when it changed where we changed it too. */
+  /** The file on disk, if it changed where this page changed it, too. */
   conflict: { text: string; revision: string } | null;
   notice: string;
 }
@@ -28,7 +28,10 @@ const kept = "tessera.draft";
 
 const netOf = ({ net, net_hash }: Analysis) => (net ? new NetModel(net, net_hash ?? "") : null);
 
-/** The specification being edited: one text, its history, what the server says of it, and the file behind it. */
+/**
+ * The specification in the editor: one text, its history, the server's results for
+ * it, and the file on disk.
+ */
 export class Draft {
   readonly store = new Store<DraftState>({
     text: "",
@@ -54,7 +57,7 @@ export class Draft {
     return this.store.get().text !== this.store.get().saved;
   }
 
-  /** Reads the file; text that this tab had not saved before a reload is there again. */
+  /** Reads the file, and restores text that this tab had not saved before a reload. */
   async load(): Promise<void> {
     const answer = await this.api.spec();
     this.history = new History(answer.text);
@@ -76,7 +79,7 @@ export class Draft {
     this.store.set({ diagnostics, current: net !== null, checking: false, ...(net ? { net } : {}) });
   }
 
-  /** A new text; `kind` is "typing" for what should be undone together. */
+  /** A new text. Changes with the same `kind`, such as "typing", are undone together. */
   edit(text: string, kind: string): void {
     if (text === this.store.get().text) return;
     this.history.change(text, kind, performance.now());
@@ -131,7 +134,7 @@ export class Draft {
     }
   }
 
-  /** The file changed on disk, said the server. */
+  /** The server reports that the file changed on disk. */
   async changedOnDisk(revision: string): Promise<void> {
     if (revision === this.store.get().revision) return;
     let answer: SpecAnswer;
@@ -144,7 +147,7 @@ export class Draft {
     if (answer.revision !== this.store.get().revision) this.disk(answer);
   }
 
-  /** Takes what is on disk, merges it with what was changed here, or asks. */
+  /** Takes the content on disk, merges it with the changes of this page, or asks. */
   private disk(file: { text: string; revision: string }): void {
     const { text, saved } = this.store.get();
     if (file.text === text) {
@@ -165,7 +168,7 @@ export class Draft {
     });
   }
 
-  /** The answer to a conflict. Whatever is chosen, undo leads back to the other text of this page. */
+  /** The answer to a conflict. In each case, undo leads back to the other text of this page. */
   resolve(choice: "mine" | "theirs"): void {
     const { conflict } = this.store.get();
     if (!conflict) return;

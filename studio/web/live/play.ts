@@ -4,7 +4,7 @@ import type { Stage } from "./stage";
 import { Store } from "./store";
 
 export interface PlayState {
-  /** What is played: nothing, the token game, or a run that shows a violation. */
+  /** The thing that is played: nothing, the token game, or a run that shows a violation. */
   what: "nothing" | "game" | "trace";
   title: string;
   position: number;
@@ -27,11 +27,11 @@ const nothing: PlayState = {
   waits: [],
 };
 
-/** The token game, and runs that are stepped through. Neither needs a compiler or a server. */
+/** The token game, and stepping through runs. Neither needs a compiler or a server. */
 export class Play {
   readonly store = new Store<PlayState>(nothing);
   private walk: Walk | null = null;
-  /** The net that is played on: that of the text when it began. */
+  /** The net in play: that of the text at the beginning. */
   net: NetModel | null = null;
   private timer: ReturnType<typeof setInterval> | undefined;
 
@@ -51,7 +51,7 @@ export class Play {
     this.tell();
   }
 
-  /** Transition indices of the net; begins at the end of the run, where the violation is. */
+  /** Transition indices of the net. Begins at the end of the run, where the violation is. */
   trace(net: NetModel, steps: readonly number[], title: string, waits: readonly string[]): void {
     this.begin(net, steps, { what: "trace", title, waits });
     this.stage.reset(net, "trace");
@@ -99,7 +99,7 @@ export class Play {
     this.tell();
   }
 
-  /** true: holds, false: does not, undefined: either way. */
+  /** true: the condition holds, false: it does not, undefined: both are possible. */
   setCondition(transition: number, falls: boolean | undefined): void {
     const conditions = new Map(this.store.get().conditions);
     if (falls === undefined) conditions.delete(transition);
@@ -108,7 +108,7 @@ export class Play {
     this.tell();
   }
 
-  /** Lets it run: the game fires anything that can, a run goes on to its end. */
+  /** Runs automatically: the game fires any transition that can fire, a run continues to its end. */
   run(running: boolean): void {
     clearInterval(this.timer);
     this.store.set({ running });

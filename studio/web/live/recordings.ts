@@ -7,12 +7,12 @@ import { Store } from "./store";
 
 export interface RecordingsState {
   list: readonly RecordingInfo[];
-  /** Those that are looked at, from left to right. */
+  /** The open recordings, from left to right. */
   open: readonly Replay[];
   problem: string;
 }
 
-/** What runs left behind, and what of it is looked at. */
+/** The recordings of runs, and those that are open. */
 export class Recordings {
   readonly store = new Store<RecordingsState>({ list: [], open: [], problem: "" });
 
@@ -29,7 +29,7 @@ export class Recordings {
     }
   }
 
-  /** Shows a recording beside the first `keep` of those that are shown, in place of the others. */
+  /** Opens a recording beside the first `keep` open ones, in place of the others. */
   async open(name: string, keep = 0): Promise<void> {
     const { net } = this.draft.store.get();
     if (!net) return;

@@ -11,32 +11,34 @@ export interface ReplayState {
   time: number;
   playing: boolean;
   speed: number;
-  /** The part of a long recording that is asked for is on its way. */
+  /** The requested part of a long recording is on its way. */
   loading: boolean;
 }
 
-/** Gets what is recorded from a moment on, as much of it as is sent at once; null: it was not to be had. */
+/** Loads a part of a recording from a time on, as much as is sent at once; null: it could not be loaded. */
 export type Source = (from: number) => Promise<Recording | null>;
 
-/** A marking is kept every so many firings: a jump replays no more than that. */
+/** A marking is stored every so many firings; a jump replays at most that many. */
 const stride = 4096;
-/** A firing as the recording has it, shown one by one when the way to it is no longer than this. */
+/** Up to this number of firings, the way to a time is shown firing by firing. */
 const near = 2000;
 
 let made = 0;
 
-/** One recording that is looked at: its own stage, and its own moment. Of a long one a part is here, and others are got when they are wanted. */
+/**
+ * An open recording with its own stage and its own time. Of a long recording, one part is loaded at a time.
+ */
 export class Replay {
   readonly id = `recording ${(made += 1)}`;
   readonly stage = new Stage();
   readonly store: Store<ReplayState>;
-  /** The ends of the recording. */
+  /** The first and the last time of the recording. */
   readonly first: number;
   readonly last: number;
-  /** Its end is missing. */
+  /** Whether the end is missing. */
   readonly cut: boolean;
   private readonly path: readonly PathRow[];
-  /** Of the part that is here. */
+  /** The track of the part that is loaded. */
   track!: Track;
   private firings!: readonly FiringRow[];
   private checkpoints!: Int32Array[];
@@ -44,10 +46,10 @@ export class Replay {
   private end!: number;
   private index = 0;
   private frame = 0;
-  /** The moment that is wanted while its part is on its way. */
+  /** The requested time while its part is on its way. */
   private wanted: number | null = null;
 
-  /** `onPart`: there is another track. */
+  /** onPart: called when there is another track. */
   constructor(
     readonly name: string,
     private readonly net: NetModel,
@@ -67,7 +69,7 @@ export class Replay {
   private take(part: Recording, from: number): void {
     this.firings = part.firings;
     this.begin = from;
-    // What fires at the last moment of a part may be cut in two.
+    // The firings of the last instant of a part may be split between two parts.
     this.end = part.dropped ? Math.max(from, (part.firings.at(-1)?.[0] ?? from) - 1) : this.last;
     this.index = 0;
     this.stage.reset(this.net, "recording", part.marking);
@@ -82,16 +84,17 @@ export class Replay {
     this.track = this.trackOf(part);
   }
 
-  /** Whether it is in the part that is here. */
+  /** Whether the time is in the part that is loaded. */
   isHere(time: number): boolean {
     return time >= this.begin && time <= this.end;
   }
 
-  /** Gets parts until the one with the moment that is wanted by then is here. */
+  /** Loads parts until the one with the requested time is here. */
   private async fetch(): Promise<void> {
     this.store.set({ loading: true });
     for (let tries = 0; !this.isHere(this.wanted!); tries += 1) {
-      // Some of what was before is shown, too, unless so much fires that the moment itself is not reached then.
+      // Loads some firings before that time, too, unless there are so many that the part would
+      // not reach the time itself.
       const before = tries === 0 ? (this.end - this.begin) / 4 : 0;
       const from = Math.max(this.first, Math.floor(this.wanted! - before));
       const part = await this.source(from);
@@ -127,7 +130,7 @@ export class Replay {
     return track;
   }
 
-  /** Shows the marking at a time, as near to it as the recording goes. */
+  /** Shows the marking at a time, or at the nearest time in the recording. */
   seek(wanted: number): void {
     const time = Math.min(this.last, Math.max(this.first, wanted));
     if (this.wanted !== null || !this.isHere(time)) {
@@ -145,7 +148,7 @@ export class Replay {
     this.store.set({ time });
   }
 
-  /** The moment of what is shown beside it. */
+  /** Follows the time of the other pane. */
   follow(time: number): void {
     if (Math.min(this.last, Math.max(this.first, time)) !== this.track.now) this.seek(time);
   }
@@ -161,7 +164,7 @@ export class Replay {
     this.index = index;
   }
 
-  /** To the next or the last moment at which something fired. */
+  /** Goes to the next or the previous time at which a transition fired. */
   step(by: 1 | -1): void {
     const here = this.firings[this.index - 1]?.[0] ?? this.first;
     const at = by === 1 ? this.index : count(this.firings, ([t]) => t < here) - 1;

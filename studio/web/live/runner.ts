@@ -22,7 +22,7 @@ import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
 
-/** The next run as its form has it. */
+/** The settings of the form for the next run. */
 export interface Wishes {
   kind: RunKind;
   /** Empty: that of the specification. */
@@ -41,11 +41,11 @@ export interface RunnerState {
   build: readonly string[];
   speed: number;
   problem: string;
-  /** Behaviour by path of subsystem, as the controller says. */
+  /** Behaviour by path of subsystem, as reported by the controller. */
   behaviours: ReadonlyMap<string, string>;
-  /** Where the run pauses. */
+  /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
-  /** It has a pane of the drawing; a run goes on without one too. */
+  /** Whether it has a pane of the drawing; a run continues without one, too. */
   shown: boolean;
 }
 
@@ -67,17 +67,17 @@ const idle: RunnerState = {
   shown: false,
 };
 
-/** Of what the build and the controller print, so many lines. */
+/** The number of output lines of build and controller that are kept. */
 const kept = 400;
 
-/** A run of the controller: started from here or found running, watched through the event stream. */
+/** A run of the controller: started from here or found running, and followed through the event stream. */
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
   readonly stage = new Stage();
   readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
-  /** What was said since the page was last told. */
+  /** Lines that have not been passed to the page yet. */
   private lines: string[] = [];
 
   constructor(
@@ -114,14 +114,14 @@ export class Runner {
     try {
       const { run } = await this.api.start(request);
       this.store.set({ run });
-      // What happened before the answer came is asked for.
+      // Asks for everything that happened before the answer arrived.
       this.told(await this.api.run(run));
     } catch (error) {
       this.store.set({ state: "failed", problem: message(error), shown: false });
     }
   }
 
-  /** After a reload or a lost connection: a run that goes on is watched again. */
+  /** After a reload or a lost connection, follows a running controller again. */
   private async attach(): Promise<void> {
     const { net } = this.draft.store.get();
     try {
@@ -153,7 +153,7 @@ export class Runner {
     void this.api.floor(floor).then((found) => (track.floor = found));
   }
 
-  /** Gives the run its pane of the drawing, or takes it away; the run itself goes on. */
+  /** Gives the run a pane of the drawing, or removes it. The run itself continues. */
   show(shown: boolean): void {
     this.store.set({ shown: shown && this.track !== null });
   }
@@ -172,7 +172,10 @@ export class Runner {
       void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
   }
 
-  /** Of a fast run, poses come too seldom for a line; when it stands, there is time for all that are kept. */
+  /**
+   * In a fast run, poses are too rare for a line. When the run stands still, there is time
+   * to load all that are kept.
+   */
   private async seePath(): Promise<void> {
     const { track } = this;
     const { run } = this.store.get();
@@ -180,7 +183,7 @@ export class Runner {
     try {
       track.pathUpTo((await this.api.run(run)).path);
     } catch {
-      // It stays as it was seen.
+      // It stays as it was shown.
     }
   }
 
@@ -204,11 +207,14 @@ export class Runner {
   private valued({ t, values }: ValuesEvent | RunInfo): void {
     const { track } = this;
     track?.reached(t);
-    // What was asked for may be older than what was told since.
+    // The requested values may be older than values that came since.
     track?.values(track.now, values);
   }
 
-  /** A controller may print thousands of lines a second: the page is told of them together, ten times a second. */
+  /**
+   * A controller may print thousands of lines a second, so the page receives them
+   * together, ten times a second.
+   */
   private said(line: string): void {
     if (bounded(this.lines, kept).push(line) > 1) return;
     setTimeout(() => {
@@ -242,7 +248,10 @@ export class Runner {
     }
   }
 
-  /** Shows the speed at once and asks for it; of many in a row, as a slider gives them, only the latest is asked for. */
+  /**
+   * Shows the speed at once and sends it. Of many changes in a row, as from a
+   * slider, only the latest is sent.
+   */
   async setSpeed(speed: number): Promise<void> {
     this.store.set({ speed });
     if (this.asking) return;
@@ -262,7 +271,7 @@ export class Runner {
     if (state === "running" || state === "paused") void this.control({ command: "breakpoints", breakpoints: next });
   }
 
-  /** Puts the run away. */
+  /** Closes the run. */
   close(): void {
     this.track = null;
     this.store.set({ ...idle, breakpoints: this.store.get().breakpoints });

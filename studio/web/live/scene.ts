@@ -6,23 +6,26 @@ import type { Stage } from "./stage";
 import { Store } from "./store";
 import type { Track } from "./track";
 
-/** One drawing of a net: that of the text, of a run, or of a recording. */
+/** One drawing of a net: of the text, of a run, or of a recording. */
 export interface Pane {
   id: string;
   stage: Stage;
   track: Track | null;
-  /** The recording, when it is one. */
+  /** The recording, if the pane shows one. */
   replay: Replay | null;
 }
 
-/** What two panes do at the moment that the right one shows; the left one when they show the same. */
+/**
+ * The differences between two panes at the time of the right one, or of the left one
+ * if they show the same time.
+ */
 export interface Comparison {
   /** Nanoseconds. */
   time: number;
   differences: readonly Difference[];
   /**
-   * Why there is nothing to compare: one of them was not yet, or no longer, there; or the left one is known in samples only, or is a
-   * long recording of which another part is here.
+   * Why they cannot be compared: one of them does not exist yet, or no longer, at that time; or only
+   * samples of the left one are known; or another part of its long recording is loaded.
    */
   missing: "left" | "right" | "sampled" | "part" | null;
 }
@@ -30,17 +33,17 @@ export interface Comparison {
 export interface SceneState {
   /** One, or two side by side. */
   panes: readonly Pane[];
-  /** The right one shows the same moment as the left one. */
+  /** Whether the right pane shows the same time as the left one. */
   sameTime: boolean;
   comparison: Comparison | null;
 }
 
-/** What fires last does so a little before the end of a run (in ns). */
+/** The last firings are a little before the end of a run (in ns). */
 const slack = 0.5e9;
-/** So many milliseconds between two comparisons. */
+/** Milliseconds between two comparisons. */
 const pause = 100;
 
-/** Which panes there are, and what those side by side have to do with each other. */
+/** The panes, and the comparison of two panes side by side. */
 export class Scene {
   readonly store: Store<SceneState>;
   private frame = 0;
@@ -55,7 +58,7 @@ export class Scene {
     for (const told of [desk.shown, runner.store, recordings.store]) told.subscribe(() => this.look());
   }
 
-  /** How many recordings fit beside what else is shown. */
+  /** How many recordings fit beside the other panes. */
   get room(): number {
     return this.runner.store.get().shown ? 1 : 2;
   }
@@ -74,7 +77,7 @@ export class Scene {
   private panes(before: readonly Pane[]): Pane[] {
     const { desk, runner, recordings } = this;
     const shown: Pane[] = [];
-    // A game on the text has the drawing for itself until it is closed.
+    // A game on the text uses the whole drawing until it is closed.
     if (desk.mode === "edit") {
       if (runner.track && runner.store.get().shown)
         shown.push({ id: "run", stage: runner.stage, track: runner.track, replay: null });
@@ -91,7 +94,7 @@ export class Scene {
     else for (const pane of this.store.get().panes) pane.stage.differ(new Set());
   }
 
-  /** Puts away what a pane shows. A run that goes on does so without being drawn. */
+  /** Closes a pane. A run continues without being drawn. */
   close(pane: Pane): void {
     if (pane.replay) this.recordings.close(pane.replay);
     else if (this.runner.active) this.runner.show(false);
@@ -133,7 +136,7 @@ function compared(left: Track, right: Track, sameTime: boolean): Comparison {
   if (moment > right.end + slack) return { time: moment, differences: [], missing: "right" };
   if (!sameTime && moment > left.known) return { time: moment, differences: [], missing: "left" };
   if (!sameTime && left.dropped > 0) return { time: moment, differences: [], missing: "sampled" };
-  // Of a live run, what fired is known a little later than that it is that late; with it comes the marking.
+  // In a live run, firings become known a little after their time; the marking comes with them.
   const time = Math.min(moment, left.known);
   return { time, differences: differences(left.timeline, right.timeline, time), missing: null };
 }

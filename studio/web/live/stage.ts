@@ -8,23 +8,23 @@ export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
 const pause = 30;
 
 /**
- * What one pane of the drawing shows: the marking, and what just fired. The edited net and the games on it have a stage, the
- * live run and each recording have their own. Listeners are told at most thirty times a second, however many events came: more
- * is not seen, and the time is that of the drawing.
+ * The content of one pane: the marking, and what has just fired. The edited net and the games on it have
+ * one stage; the live run and each recording have their own. Listeners are called at most thirty times a
+ * second, however many events arrive: more is not visible, and the time is needed for drawing.
  */
 export class Stage {
   mode: StageMode = "edit";
   marking: Marking = new Int32Array();
-  /** Per transition how often it fired, and when last (performance.now). */
+  /** For each transition, how often it has fired, and when last (performance.now). */
   counts = new Uint32Array();
-  /** Some firings are not told one by one: the counts are the least there were. */
+  /** Some firings are not reported one by one: the counts are lower bounds. */
   sampled = false;
   firedAt = new Float64Array();
   /** Per page, whether a token is somewhere inside. */
   occupied = new Uint8Array();
-  /** Paths of the subsystems that do something else in what is shown beside. */
+  /** Paths of the subsystems that do something else in the other pane. */
   differing: ReadonlySet<string> = new Set();
-  /** The net that is shown, and how it came there. */
+  /** The net that is shown, and its mode. */
   readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
   private net: NetModel | null = null;
   private readonly listeners = new Set<() => void>();
@@ -53,7 +53,7 @@ export class Stage {
     this.touch();
   }
 
-  /** Places that hold a token each; all others are empty. */
+  /** The places that hold one token each; all others are empty. */
   setMarked(places: readonly number[]): void {
     this.marking.fill(0);
     for (const place of places) if (place < this.marking.length) this.marking[place] = 1;
@@ -65,7 +65,9 @@ export class Stage {
     this.touch();
   }
 
-  /** Counts and shows a firing; the marking follows unless it will be told anew. */
+  /**
+   * Counts and shows a firing. It also moves the tokens, unless the marking will be reported separately.
+   */
   fired(transition: number, move = true): void {
     if (!this.net || transition >= this.counts.length) return;
     if (move && isEnabled(this.net, this.marking, transition)) fire(this.net, this.marking, transition);

@@ -26,7 +26,7 @@ export interface ViewState {
   line: { line: number; request: number } | null;
   /** Path to fly to, with a number that makes each request new. */
   flight: { path: string; request: number } | null;
-  /** Pages that the reader folded or opened, against the rule. */
+  /** Pages that the user folded or unfolded, against the rule. */
   folds: ReadonlyMap<string, boolean>;
   searching: boolean;
 }
@@ -41,12 +41,12 @@ function keptView(): Partial<ViewState> {
   }
 }
 
-/** Everything the page knows, outside React. */
+/** The whole state of the page, outside React. */
 export class Studio {
   readonly api = new Api(takeToken());
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
-  /** Where the net of the text is drawn, and games are played on it. */
+  /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection);
@@ -96,16 +96,16 @@ export class Studio {
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
 
-  /** What the file says of the project may be new: its name, its simulated world. */
+  /** The file's information about the project may be new: its name, its simulated world. */
   private async describeProject(): Promise<void> {
     try {
       this.project.set({ project: await this.api.project() });
     } catch {
-      // The connection tells when the server has gone.
+      // The connection reports that the server is gone.
     }
   }
 
-  /** Another server than before: what it knows of the file may be new. */
+  /** The server has been restarted, so its information about the file may be new. */
   private async greeted(start: string): Promise<void> {
     const known = this.serverStart;
     this.serverStart = start;
@@ -118,19 +118,19 @@ export class Studio {
     }
   }
 
-  /** Starts or watches a run; a game that is played makes room for it. */
+  /** Starts or follows a run. A game in play is closed. */
   async run(request: RunRequest): Promise<void> {
     this.play.stop();
     await this.runner.start(request);
   }
 
-  /** Draws a run again whose pane was put away. */
+  /** Draws a run again whose pane was closed. */
   showRun(): void {
     this.play.stop();
     this.runner.show(true);
   }
 
-  /** Opens a recording beside the first `keep` of those that are open. */
+  /** Opens a recording beside the first `keep` open ones. */
   async replay(name: string, keep: number): Promise<void> {
     this.play.stop();
     await this.recordings.open(name, keep);
@@ -142,7 +142,7 @@ export class Studio {
     if (showLine && span && span.line > 0) this.showLine(span.line);
   }
 
-  /** Selects something of the structure, with its line and its form. */
+  /** Selects an element of the structure, its line and its form. */
   choose(path: string | null, structure: Structure): void {
     const line = path === null ? undefined : findThing(structure, path)?.of.line;
     this.view.set({ selected: path, ...(path === null ? {} : { panel: "inspect" }) });

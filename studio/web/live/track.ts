@@ -12,28 +12,28 @@ export interface Pose {
   heading: number;
 }
 
-/** Of an endless run, as many poses as half an hour has. */
+/** For an endless run, the poses of half an hour. */
 const most = 40_000;
 
 let made = 0;
 
-/** What a run left behind so far; read by what draws it, once per frame. */
+/** The recorded data of a run so far. The drawing reads it once per frame. */
 export class Track {
-  /** Another one for each. */
+  /** A different number for each track. */
   readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
   path: Pose[] = [];
   firings = 0;
-  /** How many of the firings were only counted, because there were too many to be sent. */
+  /** The number of firings that were only counted, because there were too many to send. */
   dropped = 0;
-  /** The moment that is shown. */
+  /** The time that is shown. */
   now = 0;
-  /** Up to when it is known what fired. */
+  /** The time up to which the firings are known. */
   known = 0;
   floor: Floor | null = null;
 
-  /** `whole`: nothing of it is forgotten, for it has an end. */
+  /** whole: nothing is discarded, because the run has an end. */
   constructor(
     readonly net: NetModel,
     readonly whole = false,
@@ -46,7 +46,7 @@ export class Track {
     return Math.max(this.now, this.known);
   }
 
-  /** A live run is shown as it is now. */
+  /** A live run is shown at its current time. */
   reached(time: number): void {
     this.now = Math.max(this.now, time);
   }
@@ -59,7 +59,7 @@ export class Track {
     bounded(this.path, most).push(pose);
   }
 
-  /** The path up to some moment, as somebody else kept it; what came since stays. */
+  /** The path up to a time, from the server; later poses stay. */
   pathUpTo(rows: readonly PathRow[]): void {
     if (rows.length === 0) return;
     const end = rows.at(-1)![0];
@@ -67,7 +67,7 @@ export class Track {
     this.path = [...rows.map(([t, x, y, heading]) => ({ t, x, y, heading })), ...since];
   }
 
-  /** How much of the path lies before the moment that is shown. */
+  /** The number of poses up to the time that is shown. */
   get driven(): number {
     return count(this.path, ({ t }) => t <= this.now);
   }

@@ -17,7 +17,7 @@ export interface VerifierState {
   problem: string;
 }
 
-/** One verification at a time, of the text as it is in the page. */
+/** One verification at a time, of the text in the page. */
 export class Verifier {
   readonly store = new Store<VerifierState>({
     state: "idle",
@@ -78,7 +78,7 @@ export class Verifier {
   }
 }
 
-/** The subsystems that wait for ever in some violation, by path: what the drawing marks. */
+/** The paths of the subsystems that wait for ever in some violation; the drawing marks them. */
 export function stuck(verdicts: readonly Verdict[]): string[] {
   const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits);
   return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];

@@ -5,7 +5,7 @@ import { head, row, type AgentBox } from "./structure_layout";
 const along = [0.5, 0.35, 0.65, 0.2, 0.8];
 const between = (from: number, to: number, part: number) => from + part * (to - from);
 
-/** Where a label may stand: on the piece of the line that is long, its middle first. */
+/** The possible positions of a label: on the longest piece of the line, its middle first. */
 function candidates(from: Point, to: Point, lane: number | undefined): Point[] {
   if (lane !== undefined && leadsBack(from, to)) return along.map((part) => ({ x: between(from.x, to.x, part), y: lane }));
   const x = (from.x + to.x) / 2;
@@ -13,10 +13,13 @@ function candidates(from: Point, to: Point, lane: number | undefined): Point[] {
   return (steep ? along : [0.5]).map((part) => ({ x, y: between(from.y, to.y, part) }));
 }
 
-/** It cannot go straight to the right. */
+/** Whether the channel cannot lead straight to the right. */
 export const leadsBack = (from: Point, to: Point) => to.x < from.x + 40;
 
-/** Where the labels of channels stand, by the channel's index: not over each other, if it can be avoided. */
+/**
+ * The positions of the channels' labels, by the channel's index. They do not
+ * overlap if that can be avoided.
+ */
 export function channelLabels(
   structure: Structure,
   boxes: readonly AgentBox[],

@@ -12,11 +12,14 @@ import {
 } from "./structure";
 import { apply, scalarText, type TextEdit, type YamlPath } from "./yaml_text";
 
-/** Changes of a specification: each takes the structure of a text and gives the text after the change. */
+/**
+ * Changes of a specification. Each function takes the structure of a text and returns
+ * the text after the change.
+ */
 
 const done = (structure: Structure, edits: readonly TextEdit[]) => apply(structure.yaml.text, edits);
 
-/** `name`, or with a number when it is taken. */
+/** `name`, with a number if it is taken. */
 export function freeName(name: string, taken: readonly string[]): string {
   if (!taken.includes(name)) return name;
   for (let number = 2; ; number += 1) if (!taken.includes(`${name}_${number}`)) return `${name}_${number}`;
@@ -59,7 +62,7 @@ export interface ChannelModes {
   timeout: string;
 }
 
-/** The short form where it says everything. */
+/** The short form, if it can express the channel. */
 function channelText(from: string, to: string, modes: ChannelModes): string {
   const fields = [
     ...(modes.send === "blocking" ? ["send: blocking"] : []),
@@ -76,7 +79,7 @@ export function addChannel(structure: Structure, from: string, to: string, modes
 
 // ------------------------------------------------------------------------------------------------ change
 
-/** Sets a field such as `rate` or `terminal`; an empty text takes it away. */
+/** Sets a field such as `rate` or `terminal`; an empty text removes it. */
 export function setField(structure: Structure, at: YamlPath, key: string, text: string): string {
   return done(structure, structure.yaml.set(at, key, text));
 }
@@ -93,7 +96,7 @@ export function setChannel(structure: Structure, channel: Channel, change: Parti
   return done(structure, yaml.set(at, key, value === "non_blocking" ? "" : value));
 }
 
-/** What follows a behaviour, in order. One unconditional entry is written short. */
+/** Sets the entries of `next` in order. A single unconditional entry is written in short form. */
 export function setNext(structure: Structure, behaviour: Behaviour, next: readonly { to: string; when: string }[]): string {
   const one = (entry: { to: string; when: string }) =>
     entry.when ? `{ to: ${entry.to}, when: ${scalarText(entry.when)} }` : entry.to;
@@ -127,7 +130,7 @@ export function renameAgent(structure: Structure, agent: Agent, name: string): s
   return done(structure, [...structure.yaml.renameKey(agent.yaml, name), ...renamePaths(structure, pattern, name)]);
 }
 
-/** All agents that are drawn from the same text. */
+/** The text of all agents that share that part of the file. */
 function sharing(structure: Structure, body: YamlPath): string {
   const names = structure.agents.filter((agent) => agent.body.join("/") === body.join("/")).map((agent) => escaped(agent.name));
   return `(?:${names.join("|")})`;
@@ -143,7 +146,7 @@ export function renameSubsystem(structure: Structure, subsystem: Subsystem, name
   return done(structure, [...structure.yaml.renameKey(subsystem.yaml, name), ...renamePaths(structure, pattern, `$1.${name}`)]);
 }
 
-/** Paths that go on after the subsystem: its behaviours and buffers. */
+/** Paths that continue after the subsystem: its behaviours and buffers. */
 const memberPattern = (structure: Structure, subsystem: Subsystem, member: string) =>
   new RegExp(
     `(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index}\\.${escaped(subsystem.name)})\\.${escaped(member)}(?![\\w])`,
@@ -198,7 +201,7 @@ export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer:
 
 const touches = (end: string, path: string) => withoutIndex(end) === path || withoutIndex(end).startsWith(`${path}.`);
 
-/** Channels, drivers and properties that cannot do without what is at the paths. */
+/** Channels, drivers and properties that need the elements at the paths. */
 function dependents(structure: Structure, paths: readonly string[]): YamlPath[] {
   const hit = (end: string) => paths.some((path) => touches(end, path));
   const { yaml } = structure;
@@ -214,7 +217,9 @@ function dependents(structure: Structure, paths: readonly string[]): YamlPath[] 
   return [...channels, ...drivers];
 }
 
-/** Removes several things, one after the other: what is left of a list decides how the next is removed. */
+/**
+ * Removes several elements, one after the other: the rest of a list decides how the next one is removed.
+ */
 function removeAll(structure: Structure, paths: readonly YamlPath[], reread: (text: string) => Structure): string {
   const fromBelow = [...paths].sort(
     (a, b) => structure.yaml.line(b) - structure.yaml.line(a) || Number(b.at(-1)) - Number(a.at(-1)),
@@ -248,7 +253,7 @@ export function removeBuffer(
   );
 }
 
-/** With the entries of `next` that lead to it. */
+/** Also removes the entries of `next` that lead to it. */
 export function removeBehaviour(
   structure: Structure,
   subsystem: Subsystem,

@@ -1,6 +1,6 @@
 import type { NetModel } from "./net";
 
-/** How the free conditions of a net fall: by transition; absent means either way. */
+/** The values of the free conditions of a net by transition; absent: both are possible. */
 export type Conditions = ReadonlyMap<number, boolean>;
 
 /** A marking of the flat net: tokens per place. */
@@ -8,26 +8,28 @@ export type Marking = Int32Array;
 
 export const initialMarking = (net: NetModel): Marking => Int32Array.from(net.places, (place) => place.tokens);
 
-/** Every input place holds enough tokens. Says nothing of conditions. */
+/** Whether every input place holds enough tokens. Conditions are not considered. */
 export function isEnabled(net: NetModel, marking: Marking, transition: number): boolean {
   return net.transitions[transition]!.inputs.every((arc) => marking[arc.place]! >= arc.weight);
 }
 
-/** Enabled, and its condition can hold. */
+/** Whether the transition is enabled and its condition can hold. */
 export function isActive(net: NetModel, marking: Marking, transition: number, conditions?: Conditions): boolean {
   const condition = net.transitions[transition]!.condition;
   if (condition?.truth === "never" || conditions?.get(transition) === false) return false;
   return isEnabled(net, marking, transition);
 }
 
-/** Takes the tokens of the input places and puts those of the output places; `times` -1 takes it back. */
+/** Takes tokens from the input places and puts tokens into the output places; `times` -1 undoes that. */
 export function fire(net: NetModel, marking: Marking, transition: number, times: 1 | -1 = 1): void {
   const { inputs, outputs } = net.transitions[transition]!;
   for (const arc of inputs) marking[arc.place]! -= times * arc.weight;
   for (const arc of outputs) marking[arc.place]! += times * arc.weight;
 }
 
-/** The fewest tokens with which a run can have begun: those that it takes before it puts any there. */
+/**
+ * The smallest marking with which a run can have begun: the tokens that it takes before it puts any there.
+ */
 export function markingBefore(net: NetModel, run: Iterable<number>): Marking {
   const before: Marking = new Int32Array(net.places.length);
   const now = before.slice();
@@ -46,7 +48,7 @@ export function activeTransitions(net: NetModel, marking: Marking, conditions?: 
   return net.transitions.flatMap((_, index) => (isActive(net, marking, index, conditions) ? [index] : []));
 }
 
-/** The behaviours that hold a token, by subsystem index: what is running now. */
+/** The behaviours that hold a token, by subsystem index: those that run now. */
 export function runningBehaviours(net: NetModel, marking: Marking): Map<number, string> {
   const running = new Map<number, string>();
   net.places.forEach((place, index) => {
@@ -57,7 +59,7 @@ export function runningBehaviours(net: NetModel, marking: Marking): Map<number, 
   return running;
 }
 
-/** A run of firings that can be gone through in both directions. */
+/** A run of firings with steps in both directions. */
 export class Walk {
   readonly steps: number[];
   position = 0;
@@ -71,7 +73,7 @@ export class Walk {
     this.marking = initialMarking(net);
   }
 
-  /** False when the next step cannot be fired: the run is not one of this net. */
+  /** false: the next step cannot be fired, so the run does not belong to this net. */
   forward(): boolean {
     const next = this.steps[this.position];
     if (next === undefined || !isEnabled(this.net, this.marking, next)) return false;
@@ -93,7 +95,7 @@ export class Walk {
     while (this.position > position && this.back());
   }
 
-  /** Fires something new here; what came after is forgotten. */
+  /** Fires another transition here; the later steps are dropped. */
   choose(transition: number): boolean {
     if (!isEnabled(this.net, this.marking, transition)) return false;
     this.steps.length = this.position;

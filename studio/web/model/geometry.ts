@@ -16,16 +16,16 @@ export interface Route {
   into: "node" | "transition";
   points: Point[];
 }
-/** The drawing of one page: boxes of the symbols themselves; labels stand beside them. */
+/** The drawing of one page: the boxes of the symbols; labels stand beside them. */
 export interface Sheet {
   width: number;
   height: number;
   nodes: Box[];
   transitions: Box[];
   routes: Route[];
-  /** Whether the net runs down (labels to the right) or right (labels below). */
+  /** The direction of the net: down (labels to the right) or right (labels below). */
   direction: "down" | "right";
-  /** Whether its pages stand in a grid, with lanes of arcs beside the columns. */
+  /** Whether its pages are in a grid, with lanes of arcs beside the columns. */
   grid?: boolean;
 }
 
@@ -36,7 +36,7 @@ export const bar = { long: 34, thick: 6 };
 export const header = 22;
 export const margin = 24;
 
-/** About the width of a text in the drawing's font. */
+/** The approximate width of a text in the drawing's font. */
 export const textWidth = (text: string, size = 11) => text.length * size * 0.58;
 
 /** An SVG path along points, with rounded corners. */
@@ -69,7 +69,7 @@ function towards(from: Point, to: Point, distance: number): Point {
 export const intersects = (a: Box, b: Box) =>
   a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
-/** What two boxes have in common. */
+/** The intersection of two boxes. */
 export function overlap(a: Box, b: Box): Box | undefined {
   if (!intersects(a, b)) return undefined;
   const [x, y] = [Math.max(a.x, b.x), Math.max(a.y, b.y)];

@@ -17,7 +17,7 @@ export class History {
     return this.future.length > 0;
   }
 
-  /** `kind` names what changes ("typing"); `now` is in milliseconds. */
+  /** kind: the kind of change ("typing"); now: in milliseconds. */
   change(text: string, kind: string, now: number): void {
     if (text === this.text) return;
     const joins = kind === "typing" && this.lastKind === kind && now - this.lastTime < 600;

@@ -1,6 +1,6 @@
 import type { NetModel, Operation, Page, PageTransition } from "./net";
 
-/** What is written beside the symbols. */
+/** The labels of the symbols. */
 
 export const layerTitle: Record<Page["layer"], string> = {
   system: "multi-agent system",
@@ -27,15 +27,14 @@ export function operationText(page: Page, operation: Operation | null): string {
   }
 }
 
-/** The condition in brackets, or nothing when it always holds. */
+/** The condition in brackets; empty if it always holds. */
 export function conditionText(transition: PageTransition, limit = 26): string {
   const text = transition.condition?.text ?? "";
   if (!text) return "";
   return `[${text.length > limit ? `${text.slice(0, limit - 1)}…` : text}]`;
 }
 
-/** The local name: of a fused place its last part, with its buffer. */
-/** What a screen reader says of an element. */
+/** The text of a screen reader for an element. */
 export function spoken(net: NetModel, path: string): string {
   const asPage = net.pageByPath.get(path);
   if (asPage !== undefined) return `${layerTitle[net.page(asPage).layer]} ${path || "system"}`;
@@ -50,9 +49,9 @@ export function spoken(net: NetModel, path: string): string {
   return `place ${path}${operation ? `, ${operation}` : ""}`;
 }
 
-/** The same text, which breaks between the parts of its paths; an arrow is one sign. */
+/** The same text with line breaks allowed between the parts of its paths, and an arrow as one character. */
 export const breakable = (text: string) => text.replaceAll("->", " → ").replace(/\.(?=\w)/g, ".\u200b");
 
-/** A sentence as a server says it: begins with a capital unless with a path. */
+/** A sentence of the server, with a capital letter unless it begins with a path. */
 export const sentence = (text: string) =>
   breakable(/^[\w[\]]+\./.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1));

@@ -3,8 +3,8 @@ import { conditionText, operationText } from "./labels";
 import type { NetModel, Page } from "./net";
 
 /**
- * Layout of one page at a time. A page has the same size on its parent's sheet whatever is inside, so that a change
- * inside a page moves nothing outside, and equal pages are laid out once.
+ * Layout of one page at a time. A page has the same size on its parent's sheet whatever is inside. So a
+ * change inside a page moves nothing outside, and equal pages are laid out only once.
  */
 
 export interface ElkNode {
@@ -26,7 +26,7 @@ export interface ElkEdge {
 }
 export type Elk = (graph: ElkNode) => Promise<ElkNode>;
 
-/** Space that an open page takes on its parent's sheet, by its layer. */
+/** The size of an open page on its parent's sheet, by its layer. */
 export const openSize: Record<Page["layer"], { width: number; height: number }> = {
   system: { width: 800, height: 600 },
   agent: { width: 420, height: 290 }, // as its subsystems ask, see agentSize
@@ -47,14 +47,14 @@ function symbolSize(net: NetModel, page: Page, node: number, folded: Folded): { 
   return net.page(child).layer === "agent" ? agentSize(net, child, folded) : openSize[net.page(child).layer];
 }
 
-/** An agent takes the shape of the row of its subsystems, which no change within them alters. */
+/** An agent has the shape of the row of its subsystems, which changes within them do not affect. */
 function agentSize(net: NetModel, agent: number, folded: Folded): { width: number; height: number } {
   const inside = fan(net, net.page(agent), folded);
   const width = Math.min(620, Math.max(260, inside.width * 0.42));
   return { width, height: Math.round((width * inside.height) / inside.width) + header };
 }
 
-/** Equal signatures have equal sheets. */
+/** Pages with equal signatures have equal sheets. */
 export function signature(net: NetModel, index: number, folded: Folded): string {
   const page = net.page(index);
   const nodes = page.nodes.map((node, at) => {
@@ -65,7 +65,7 @@ export function signature(net: NetModel, index: number, folded: Folded): string 
   return `${page.layer};${nodes.join("|")};${bars.join("|")}`;
 }
 
-/** Lays out one page. The layered pages ask ELK, the fans of system and agent need nobody. */
+/** Lays out one page. The layered pages use ELK; the fans of system and agent do not. */
 export async function layoutPage(net: NetModel, index: number, folded: Folded, elk: Elk): Promise<Sheet> {
   const page = net.page(index);
   if (isFan(page)) return fan(net, page, folded);
@@ -84,7 +84,7 @@ interface Grid {
 function gridOf(sizes: { width: number; height: number }[], labels: number): Grid {
   const width = Math.max(...sizes.map((size) => size.width), 60);
   const height = Math.max(...sizes.map((size) => size.height), 40);
-  // In one row the name stands beside the symbol, in a grid below it.
+  // In one row, the name is beside the symbol; in a grid, below it.
   if (sizes.length <= 4) {
     const cell = { width: width + Math.max(48, 2 * labels - width + 24), height: height + 60 };
     return { columns: Math.max(1, sizes.length), cell };
@@ -93,7 +93,7 @@ function gridOf(sizes: { width: number; height: number }[], labels: number): Gri
   return { columns: Math.ceil(Math.sqrt((sizes.length * cell.height * 1.25) / cell.width)), cell };
 }
 
-/** System and agent: a wide bar forks into all pages and a wide bar joins them; many pages stand in a grid. */
+/** System and agent: a wide bar forks into all pages, and a wide bar joins them. Many pages form a grid. */
 function fan(net: NetModel, page: Page, folded: Folded): Sheet {
   const pages = page.nodes.flatMap((node, at) => (node.page === null ? [] : [at]));
   const sizes = pages.map((at) => symbolSize(net, page, at, folded));
@@ -132,7 +132,10 @@ function fan(net: NetModel, page: Page, folded: Folded): Sheet {
   return sheet;
 }
 
-/** Straight drops in one row; in a grid a lane beside each column, `lane` from its middle. Folded pages are met at their sides. */
+/**
+ * Straight lines down in one row. In a grid, a lane beside each column, at `lane` from its middle; arcs
+ * reach folded pages at their sides.
+ */
 function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: number, lane: number): Route[] {
   const rod = sheet.transitions[at]!;
   const route = (node: number, into: "node" | "transition"): Route => {
@@ -165,9 +168,9 @@ function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: nu
 interface Symbol {
   width: number;
   height: number;
-  /** Of the symbol and its labels together. */
+  /** Size of the symbol together with its labels. */
   outer: { width: number; height: number };
-  /** Where the symbol stands within. */
+  /** Position of the symbol within. */
   offset: Point;
 }
 
@@ -226,7 +229,7 @@ function elkGraph(net: NetModel, page: Page, folded: Folded, direction: "down" |
   ];
   children[page.input]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "FIRST";
   children[page.output]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "LAST";
-  // A channel's memory stands beside the flow: its arcs do not count as steps of it, whichever way they point.
+  // The memory of a channel is beside the flow: its arcs do not count as steps, whatever their direction.
   const memory = (node: number, at: number): ElkEdge => ({
     id: memoryEdge(node, at),
     sources: [`n${node}.out`],
@@ -296,7 +299,7 @@ function sheetOf(net: NetModel, page: Page, folded: Folded, direction: "down" | 
   return { width: graph.width ?? 0, height: graph.height ?? 0, nodes, transitions, routes, direction };
 }
 
-/** Ports stand at the border of symbol and labels together; the arc goes on to the symbol itself. */
+/** Ports are at the border of symbol and labels together; this continues the arc to the symbol itself. */
 function meet(points: Point[], from: Box, to: Box, direction: "down" | "right"): Point[] {
   if (points.length < 2) return points;
   const ends = points.map((point) => ({ ...point }));
@@ -316,7 +319,7 @@ function meet(points: Point[], from: Box, to: Box, direction: "down" | "right"):
 const beside = (points: Point[], from: Box): Point[] =>
   points.map((point, at) => (at === 0 ? { ...point, y: from.y + from.height } : { ...point }));
 
-/** Where the inside of an open page is drawn within the page's box. */
+/** Position and scale of the inside of an open page within the page's box. */
 export function inset(box: Box, sheet: Sheet): { x: number; y: number; scale: number } {
   const scale = Math.min((box.width - 8) / sheet.width, (box.height - header - 6) / sheet.height);
   return {

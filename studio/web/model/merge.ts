@@ -1,4 +1,4 @@
-/** Line by line: what changed between two texts, and the merge of two changes of one text. */
+/** Line by line: the differences of two texts, and the merge of two changes of one text. */
 
 export interface Hunk {
   /** Lines [from, to) of the old text become `lines`. */
@@ -30,7 +30,7 @@ export function diff(before: readonly string[], after: readonly string[]): Hunk[
     tail += 1;
   const old = before.slice(head, before.length - tail);
   const fresh = after.slice(head, after.length - tail);
-  // Far too different to be worth a table: one hunk.
+  // The texts are too different to be compared in a table: one hunk.
   if (old.length * fresh.length > 4_000_000) return [{ from: head, to: head + old.length, lines: fresh }];
   return hunksOf(old, fresh, commonTable(old, fresh)).map((hunk) => ({ ...hunk, from: hunk.from + head, to: hunk.to + head }));
 }

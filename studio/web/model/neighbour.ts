@@ -3,7 +3,7 @@ import { boxWithin, type Sheets } from "./sheets";
 
 export type Direction = "left" | "right" | "up" | "down";
 
-/** The element of a page that lies next in a direction; without a selection the page's first. */
+/** The next element of a page in a direction; without a selection, the first element of the page. */
 export function neighbour(net: NetModel, sheets: Sheets, page: number, from: string | null, direction: Direction): string | null {
   const placed = sheets.placed(page);
   if (!placed) return null;

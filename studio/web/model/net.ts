@@ -5,19 +5,22 @@ import type { FlatPlace, FlatTransition, NetJson, Page, PageNode, Span } from ".
 export type { Condition, FlatArc, FlatPlace, FlatTransition, Layer, NetJson, Operation, Page, PageNode, Span } from "./net_json";
 export type { PageTransition } from "./net_json";
 
-/** One thing that can be looked for, selected and flown to. */
+/** An element that can be searched, selected and flown to. */
 export interface Element {
   path: string;
   kind: "page" | "place" | "transition";
   page: number;
-  /** Index within the page's nodes or transitions; of a page: within its parent (-1: the root). */
+  /** Index within the page's nodes or transitions; for a page, within its parent (-1: the root). */
   index: number;
   span: Span;
 }
 
 const join = (path: string, name: string) => (path ? `${path}.${name}` : name);
 
-/** Which of a list belong to each page, without a list per page: the last one of it, and for each the one before. */
+/**
+ * The elements of a list by page, without a list per page: the last one of each page, and for
+ * each element the one before.
+ */
 class ByPage {
   private readonly last: Int32Array;
   private readonly before: Int32Array;
@@ -41,8 +44,8 @@ class ByPage {
 const indexByName = (all: readonly { name: string }[]) => new Map(all.map(({ name }, index) => [name, index]));
 
 /**
- * The net with the ways through it: by path, from drawn elements to flat ones and back. Large nets open without being
- * looked through: what only some views ask for is made when they do.
+ * The net with the relations in it: by path, and from drawn elements to flat ones and back. A large net
+ * opens without a pass over all of it: data for single views is made when they need it.
  */
 export class NetModel {
   readonly pages: Page[];
@@ -59,7 +62,7 @@ export class NetModel {
 
   constructor(
     readonly json: NetJson,
-    /** Its name among nets, where one is known. */
+    /** Its hash, if known. */
     readonly hash = "",
   ) {
     this.pages = json.pages;
@@ -112,14 +115,14 @@ export class NetModel {
     return of.find(index, (at) => this.places[at]!.name === name);
   }
 
-  /** Places that are on no page of their own, by name. */
+  /** Places that belong to no page, by name. */
   private get fusedPlaces(): ReadonlyMap<string, number> {
     return (this.fused ??= new Map(
       this.places.flatMap(({ name, page }, index) => (page === null ? [[name, index] as const] : [])),
     ));
   }
 
-  /** Whether something that was made of the net of that name belongs to this one. */
+  /** Whether data that was made for the net with that hash belongs to this one. */
   isNamed(hash: string | null | undefined): boolean {
     return !hash || !this.hash || hash === this.hash;
   }
@@ -128,19 +131,22 @@ export class NetModel {
     return this.pages[index]!;
   }
 
-  /** Pages drawn inside a page, in drawing order. */
+  /** Pages inside a page, in the order of drawing. */
   children(index: number): number[] {
     return this.page(index).nodes.flatMap((node) => (node.page === null ? [] : [node.page]));
   }
 
-  /** From the system down to the page. */
+  /** The pages from the system down to the page. */
   ancestry(index: number): number[] {
     const chain: number[] = [];
     for (let at: number | null = index; at !== null; at = this.page(at).parent) chain.unshift(at);
     return chain;
   }
 
-  /** The element with that path, drawn on the page that owns it. A fused place is drawn on several; the first is meant. */
+  /**
+   * The element with that path, on the page that owns it. A fused place is drawn on several
+   * pages; the result is the first.
+   */
   find(path: string): Element | undefined {
     const page = this.pageByPath.get(path);
     if (page !== undefined) return this.pageElement(page);
@@ -167,7 +173,7 @@ export class NetModel {
     return { path, kind: "page", page: parent ?? 0, index: at, span };
   }
 
-  /** What is drawn on one page. */
+  /** The elements drawn on one page. */
   elementsOf(index: number): Element[] {
     const page = this.page(index);
     const nodes = page.nodes.map((node, at): Element => {
@@ -194,7 +200,7 @@ export class NetModel {
     return [...nodes, ...bars];
   }
 
-  /** The behaviour page that each page lies in, or null above the behaviours. */
+  /** The behaviour page that contains the page; null above the behaviours. */
   behaviourOf(page: number | null): Page | null {
     for (let at = page; at !== null; at = this.page(at).parent) if (this.page(at).layer === "behaviour") return this.page(at);
     return null;

@@ -1,4 +1,7 @@
-/** What matches a search, best first: every word must occur, in order or not; shorter and later matches rank higher. */
+/**
+ * The matches of a search, best first. Every word must occur, in any order; shorter and
+ * later matches rank higher.
+ */
 export function rank<T>(text: string, all: readonly T[], nameOf: (one: T) => string): T[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length === 0) return [...all];

@@ -1,17 +1,17 @@
 import { bounded, count } from "./sorted";
 
-/** What a value was over time. Times in nanoseconds. */
+/** A value over time. Times in nanoseconds. */
 export interface Samples<T = number> {
   times: number[];
   values: T[];
 }
 
-/** What is kept of a run that may go on for ever. */
+/** The number of samples that are kept in an endless run. */
 const most = 6000;
 
 /** Values over time, by path: "robot.sensor.line.left". A value holds until the next one. */
 export class Series {
-  /** Numbers, and what is true (1) or false (0). */
+  /** Numbers; true is 1 and false is 0. */
   readonly samples = new Map<string, Samples>();
   private readonly all = new Map<string, Samples<unknown>>();
 
@@ -21,7 +21,7 @@ export class Series {
     return [...this.all.keys()].sort();
   }
 
-  /** Tells what changed; the rest stays as it was. */
+  /** Adds changed values; the others stay as they were. */
   add(time: number, path: string, value: unknown): void {
     if (Array.isArray(value)) {
       if (value.length > 16) this.sample(this.all, time, path, `${value.length} values`);
@@ -34,7 +34,7 @@ export class Series {
     }
   }
 
-  /** What it was at a moment; before the first one is known, nothing. */
+  /** The value at a time; undefined before the first one. */
   at(path: string, time: number): unknown {
     const { times, values } = this.all.get(path) ?? { times: [], values: [] };
     return values[count(times, (one) => one <= time) - 1];
@@ -48,7 +48,7 @@ export class Series {
   }
 }
 
-/** 0.3, 12.5, 1.2e+7: short, and stable in width. */
+/** 0.3, 12.5, 1.2e+7: short, and of constant width. */
 export function shown(value: unknown): string {
   if (value === undefined) return "";
   if (typeof value === "boolean") return value ? "true" : "false";

@@ -12,24 +12,24 @@ export interface Placed {
   scale: number;
 }
 
-/** What the window shows: a box of the drawing, and pixels per unit. */
+/** The visible window: a box of the drawing, and pixels per unit. */
 export interface Window extends Box {
   zoom: number;
 }
 
-/** The inside of a page is drawn when a unit of it takes at least so many pixels. */
+/** The inside of a page is drawn if one of its units takes at least this number of pixels. */
 export const legible = 0.24;
 
 /**
- * The sheets of a net, laid out when they are first looked at. A net that differs little keeps the sheets of all
- * pages that did not change.
+ * The sheets of a net, laid out when they are first needed. A net with few differences keeps the
+ * sheets of all unchanged pages.
  */
 export class Sheets {
   private readonly bySignature: Map<string, Sheet>;
   private readonly waiting = new Set<string>();
   private readonly signatures = new Map<number, string>();
 
-  /** `changed` is called when a sheet that was asked for has arrived. */
+  /** changed: called when a requested sheet has arrived. */
   constructor(
     readonly net: NetModel,
     readonly folded: Folded,
@@ -46,7 +46,7 @@ export class Sheets {
     return known;
   }
 
-  /** The sheet, or nothing yet: then it is being made. */
+  /** The sheet; undefined while it is being made. */
   get(page: number): Sheet | undefined {
     const key = this.signature(page);
     const sheet = this.bySignature.get(key);
@@ -60,7 +60,9 @@ export class Sheets {
     return sheet;
   }
 
-  /** Where a page's sheet lies, asking for every sheet on the way; nothing as long as one is missing. */
+  /**
+   * The position of a page's sheet. Requests every sheet on the way; undefined as long as one is missing.
+   */
   placed(page: number): Placed | undefined {
     const parent = this.net.page(page).parent;
     const sheet = this.get(page);
@@ -82,7 +84,7 @@ export class Sheets {
     };
   }
 
-  /** The sheets to be drawn for a window, parents first: those that are in it and large enough to be read. */
+  /** The sheets to draw in a window, parents first: those that are in it and large enough to be read. */
   visible(window: Window): Placed[] {
     const found: Placed[] = [];
     const visit = (at: Placed) => {
@@ -94,7 +96,7 @@ export class Sheets {
         const sheet = this.get(node.page);
         return sheet ? [this.within(at, node.page, index, sheet)] : [];
       });
-      // Where one can be read, its neighbours are shown too if they nearly can.
+      // If one sheet is legible, its neighbours that nearly are so are shown, too.
       const enough = inside.some((one) => one.scale * window.zoom >= legible) ? 0.8 * legible : legible;
       for (const one of inside) if (one.scale * window.zoom >= enough) visit(one);
     };

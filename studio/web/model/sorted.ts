@@ -1,4 +1,4 @@
-/** How many rows at the beginning of a list hold to something that the rest does not. */
+/** The number of rows at the beginning of a list for which `holds` is true; it is false for the rest. */
 export function count<Row>(rows: ArrayLike<Row>, holds: (row: Row) => boolean): number {
   let [low, high] = [0, rows.length];
   while (low < high) {
@@ -9,7 +9,7 @@ export function count<Row>(rows: ArrayLike<Row>, holds: (row: Row) => boolean): 
   return low;
 }
 
-/** A list that is cut at its beginning before it grows beyond what is kept. */
+/** A list that is cut at its beginning before it exceeds `most` entries. */
 export function bounded<T>(list: T[], most: number): T[] {
   if (list.length >= most) list.splice(0, Math.ceil(most / 4));
   return list;

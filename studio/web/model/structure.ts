@@ -2,9 +2,9 @@ import { isMap, isScalar, isSeq } from "yaml";
 import { YamlText, type YamlPath } from "./yaml_text";
 
 /**
- * What robot people draw of a specification: agents with a control subsystem, virtual receptors and effectors, buffers and
- * channels. Read from the text as far as it goes, so that a file with errors is shown too; what is right and wrong, the
- * parser of the server says.
+ * A specification as roboticists draw it: agents with a control subsystem, virtual receptors and effectors,
+ * buffers and channels. It is read from the text as far as possible, so that a file with errors is shown,
+ * too. The parser of the server decides what is right and wrong.
  */
 
 export interface Buffer {
@@ -40,7 +40,7 @@ export interface Subsystem {
 export interface Agent {
   name: string;
   yaml: YamlPath;
-  /** Where its subsystems stand: at the agent or at its template. */
+  /** The part of the file with its subsystems: at the agent or at its template. */
   body: YamlPath;
   template: string;
   count: string;
@@ -60,7 +60,7 @@ export interface Channel {
 }
 const mode = (end: Channel["send"]) => (end === "blocking" ? "B" : "N");
 
-/** What a channel is, in a word: the modes of its ends, or its model; and its timeout. */
+/** A short description of a channel: the modes of its ends, or its model, and its timeout. */
 export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
   modes: model || `${mode(send)} → ${mode(receive)}`,
   timeout,
@@ -80,7 +80,7 @@ export type Thing =
   | { kind: "buffer"; of: Buffer; subsystem: Subsystem }
   | { kind: "channel"; of: Channel };
 
-/** `robot[3].control` is drawn where `robot.control` is. */
+/** The path in the drawing: `robot[3].control` is drawn as `robot.control`. */
 export const withoutIndex = (path: string) => path.replace(/\[[^\]]*\]/g, "");
 
 export const channelPath = (index: number) => `channel:${index}`;
@@ -109,7 +109,7 @@ function readAgent(yaml: YamlText, name: string): Agent {
   return { name, yaml: at, body, template, count: yaml.valueText([...at, "count"]) ?? "", line: yaml.line(at), subsystems };
 }
 
-/** Templates may stand for other templates. */
+/** A template may refer to another template. */
 function bodyOf(yaml: YamlText, at: YamlPath): YamlPath {
   const seen = new Set<string>();
   let body = at;
@@ -205,7 +205,10 @@ function readChannel(yaml: YamlText, index: number): Channel {
   };
 }
 
-/** What a path names: `robot`, `robot.control`, `robot.control.follow`, `robot.control.line`, `channel:2`. */
+/**
+ * The element that a path names: `robot`, `robot.control`, `robot.control.follow`,
+ * `robot.control.line`, `channel:2`.
+ */
 export function findThing(structure: Structure, path: string): Thing | undefined {
   if (path.startsWith("channel:")) {
     const of = structure.channels[Number(path.slice(8))];
@@ -224,7 +227,7 @@ export function findThing(structure: Structure, path: string): Thing | undefined
   return buffer && { kind: "buffer", of: buffer, subsystem };
 }
 
-/** The innermost thing on a line. */
+/** The innermost element on a line. */
 export function thingAt(structure: Structure, line: number): string | undefined {
   const channel = structure.channels.find((one) => one.line === line);
   if (channel) return channelPath(channel.index);

@@ -1,6 +1,9 @@
 import { channelLabel, withoutIndex, type Agent, type Structure, type Subsystem } from "./structure";
 
-/** Where the structure view puts things: receptors left, control in the middle, effectors right, agents below each other. */
+/**
+ * Layout of the structure view: receptors left, control in the middle, effectors
+ * right, agents below each other.
+ */
 
 export interface SubsystemBox {
   path: string;
@@ -11,7 +14,7 @@ export interface SubsystemBox {
 }
 export interface AgentBox extends SubsystemBox {
   subsystems: SubsystemBox[];
-  /** Real receptors and effectors: the devices behind virtual ones, below them. */
+  /** Real receptors and effectors: the devices of the virtual ones, drawn below them. */
   devices: (SubsystemBox & { of: string })[];
 }
 
@@ -19,7 +22,7 @@ export const row = 22;
 export const head = 44;
 const width = { receptor: 190, control: 230, effector: 190 };
 const gap = { x: 110, y: 30, device: 26 };
-/** Between columns a channel shows its label, with a piece of line at either end. */
+/** The gap between columns: a channel shows its label there, with a piece of line at each end. */
 const gapFor = (labels: readonly { modes: string; timeout: string }[]) =>
   Math.max(gap.x, ...labels.map(({ modes, timeout }) => (modes.length + timeout.length) * 6.8 + 60));
 
@@ -60,7 +63,7 @@ export function layoutStructure(structure: Structure): AgentBox[] {
   });
 }
 
-/** Channels that lead back, to the left, go below the boxes, each in a lane of its own. */
+/** Channels that lead back to the left go below the boxes, each in its own lane. */
 const lane = 22;
 const columnOf = { receptor: 0, control: 1, effector: 2 };
 const owner = (path: string) => withoutIndex(path).split(".").slice(0, 2).join(".");
@@ -70,7 +73,7 @@ function isBack(agent: Agent, channel: { from: string; to: string }): boolean {
   return from !== undefined && to !== undefined && columnOf[from.kind] >= columnOf[to.kind];
 }
 
-/** Heights at which channels that cannot go straight to the right run to the left, by the channel's index. */
+/** The heights of the channels that cannot lead straight to the right, by the channel's index. */
 export function lanes(structure: Structure, boxes: readonly AgentBox[]): Map<number, number> {
   const heights = new Map<number, number>();
   const taken = new Map<string, number>();
@@ -94,7 +97,7 @@ function layoutAgent(agent: Agent, top: number, between: number): AgentBox {
   const columnHeight = (column: Subsystem[]) => column.reduce((sum, one) => sum + withDevice(one) + gap.y, -gap.y);
   const tallest = Math.max(60, ...columns.map(columnHeight));
   const box: AgentBox = { path: agent.name, x: 0, y: top, width: 0, height: tallest + 66, subsystems: [], devices: [] };
-  // One box a column: their tops stand in line, and so do the first channels.
+  // With one box per column, their tops are aligned, and so are the first channels.
   const inOneRow = columns.every((column) => column.length === 1);
   let x = 24;
   for (const column of columns) {

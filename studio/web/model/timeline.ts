@@ -1,7 +1,7 @@
 import type { NetModel } from "./net";
 import { bounded, count } from "./sorted";
 
-/** From when a behaviour ran; until the next one of its lane. */
+/** The time at which a behaviour began; it ran until the next segment of its lane. */
 export interface Segment {
   start: number;
   behaviour: string;
@@ -12,20 +12,22 @@ export interface Lane {
   subsystem: number;
   segments: Segment[];
   firings: number[];
-  /** Those that it has, in the order of the specification. */
+  /** Its behaviours, in the order of the specification. */
   behaviours: string[];
-  /** From when on all segments are kept. */
+  /** The time from which all segments are kept. */
   since: number;
 }
 
-/** What is kept of a run that may go on for ever. */
+/** The number of segments that are kept in an endless run. */
 const most = 20_000;
 
-/** Which behaviour of each subsystem ran when, and when its transitions fired. Times in nanoseconds. */
+/**
+ * The running behaviour of each subsystem over time, and the times of its firings. Times in nanoseconds.
+ */
 export class Timeline {
   readonly lanes: Lane[];
   private readonly laneOf = new Map<number, number>();
-  /** Per transition the lane, and the behaviour in which it puts a token. */
+  /** For each transition, its lane and the behaviour into which it puts a token. */
   private readonly entered: (string | null)[];
   private readonly subsystems: (number | null)[];
 
@@ -58,7 +60,7 @@ export class Timeline {
     this.enter(lane, time, this.entered[transition] ?? "");
   }
 
-  /** What was running at a moment, by subsystem; needed where not every firing is told. */
+  /** The running behaviours at a time, by subsystem. Needed where not every firing is reported. */
   tell(time: number, running: ReadonlyMap<number, string>): void {
     for (const lane of this.lanes) this.enter(lane, time, running.get(lane.subsystem) ?? "");
   }
@@ -69,7 +71,7 @@ export class Timeline {
     lane.segments.push({ start: time, behaviour });
   }
 
-  /** What ran at a moment, "" for nothing; undefined when that is no longer known. */
+  /** The behaviour that ran at a time, "" for none; undefined: that is no longer known. */
   static behaviourAt(lane: Lane, time: number): string | undefined {
     if (time < lane.since) return undefined;
     return lane.segments[count(lane.segments, (one) => one.start <= time) - 1]?.behaviour ?? "";
@@ -81,7 +83,7 @@ export class Timeline {
   }
 }
 
-/** A subsystem that does not do the same in two runs at the same time. */
+/** A subsystem that does different things in two runs at the same time. */
 export interface Difference {
   path: string;
   behaviours: readonly [string, string];

@@ -15,12 +15,13 @@ import {
 } from "yaml";
 
 /**
- * The specification as text that is edited in place: the parsed document says where things stand, and an edit replaces
- * just those characters. Comments, order, alignment and quotes of everything else stay as they are.
+ * The specification as a text that is edited in place. The parsed document gives positions,
+ * and an edit replaces only those characters. Comments, order, alignment and quotes of
+ * everything else stay as they are.
  */
 
 export type YamlPath = readonly (string | number)[];
-/** What is put in: a scalar or flow text as it shall stand in the file, or a map of such. */
+/** A new value: a scalar or flow text as it is to appear in the file, or a map of such values. */
 export type Value = string | { [key: string]: Value };
 export interface TextEdit {
   from: number;
@@ -34,7 +35,10 @@ export function apply(text: string, edits: readonly TextEdit[]): string {
     .reduce((now, edit) => now.slice(0, edit.from) + edit.insert + now.slice(edit.to), text);
 }
 
-/** How a text is written as a scalar: in quotes only where YAML needs them. Flow collections and numbers stay as they are. */
+/**
+ * A text as a YAML scalar: in quotes only if YAML needs them. Flow collections and
+ * numbers stay as they are.
+ */
 export function scalarText(text: string): string {
   const trimmed = text.trim();
   if (/^(true|false|-?\d+(\.\d+)?)$/.test(trimmed)) return trimmed;
@@ -52,7 +56,7 @@ export class YamlText {
     this.document = parseDocument(text, { lineCounter: this.lines, keepSourceTokens: false });
   }
 
-  /** The node at a path, through aliases no; nothing when there is none. */
+  /** The node at a path, not followed through aliases; undefined: there is none. */
   node(path: YamlPath): Node | undefined {
     const found = path.length === 0 ? this.document.contents : this.document.getIn(path as (string | number)[], true);
     return (found as Node | null | undefined) ?? undefined;
@@ -72,7 +76,7 @@ export class YamlText {
     return this.map(path)?.items.map((pair) => keyText(pair)) ?? [];
   }
 
-  /** The text of a scalar as it means, or of anything else as it stands in the file. */
+  /** The value of a scalar, or the text of any other node in the file. */
   valueText(path: YamlPath): string | undefined {
     const node = this.node(path);
     if (!node || !node.range) return undefined;
@@ -100,7 +104,7 @@ export class YamlText {
 
   // ---------------------------------------------------------------------------------------------- edits
 
-  /** Puts `key: value` at the end of the map at `path`, making the map when it is not there. */
+  /** Inserts `key: value` at the end of the map at `path`; makes the map if it does not exist. */
   insert(path: YamlPath, key: string, value: Value): TextEdit[] {
     const map = this.map(path);
     if (!map) return this.insertMap(path, key, value);
@@ -119,7 +123,7 @@ export class YamlText {
     return this.insert(path.slice(0, -1), String(path.at(-1)), inside);
   }
 
-  /** Puts another value where one stands; in flow style where it stands within flow style. */
+  /** Replaces a value; within flow style, the new value is in flow style. */
   private replaceWith(path: YamlPath, value: Value): TextEdit[] {
     const pair = this.pair(path);
     if (!pair) return [];
@@ -130,13 +134,13 @@ export class YamlText {
     return [{ from, to, insert }];
   }
 
-  /** From after the colon to the end of the value. */
+  /** The range from after the colon to the end of the value. */
   private valueRange(pair: PairOf): [number, number] {
     const colon = this.text.indexOf(":", pair.key.range![1]) + 1;
     return [colon, Math.max(colon, pair.value?.range ? endOf(pair) : colon)];
   }
 
-  /** Sets a scalar of the map at `path`; an empty text takes the key away. Spaces before the value stay. */
+  /** Sets a scalar of the map at `path`; an empty text removes the key. Spaces before the value stay. */
   set(path: YamlPath, key: string, text: string): TextEdit[] {
     const at = [...path, key];
     const pair = this.pair(at);
@@ -157,7 +161,7 @@ export class YamlText {
     return range ? [{ from: range[0], to: range[1], insert: name }] : [];
   }
 
-  /** Takes away an entry of a map or an item of a list, with its line when it has one of its own. */
+  /** Removes an entry of a map or an item of a list, together with its line if it has one of its own. */
   remove(path: YamlPath): TextEdit[] {
     const parent = this.node(path.slice(0, -1));
     if (!isCollection(parent)) return [];
@@ -179,7 +183,7 @@ export class YamlText {
     return { from: startOf(items[0]!), to: startOf(items[1]!), insert: "" };
   }
 
-  /** Puts an item at the end of the list at `path`. */
+  /** Adds an item at the end of the list at `path`. */
   append(path: YamlPath, item: string): TextEdit[] {
     const list = this.seq(path);
     if (!list || list.items.length === 0) {
@@ -195,7 +199,7 @@ export class YamlText {
     return [this.afterLine(endOf(last), `${" ".repeat(this.columnOf(dash))}- ${item}`)];
   }
 
-  /** Replaces parts of a scalar that match, where it stands. */
+  /** Replaces matching parts of a scalar in place. */
   replaceWithin(node: Node | null | undefined, pattern: RegExp, by: string): TextEdit[] {
     if (!node?.range) return [];
     const [from, to] = [node.range[0], node.range[1]];
@@ -221,7 +225,7 @@ function startOf(item: PairOf | Node): number {
   return isPair(item) ? (item as PairOf).key.range![0] : (item as Node).range![0];
 }
 
-/** Where the last thing of an entry ends, without the comments and empty lines after it. */
+/** The end of an entry, without the comments and empty lines after it. */
 function endOf(item: PairOf | Node): number {
   if (!isPair(item)) return endOfNode(item as Node);
   const { key, value } = item as PairOf;
@@ -240,7 +244,7 @@ function flow(value: Value): string {
   return entries.length === 0 ? "{}" : `{ ${entries.join(", ")} }`;
 }
 
-/** What stands after the colon: maps that hold maps as blocks, others in one line. */
+/** The text after the colon: maps that contain maps as blocks, others in one line. */
 function block(value: Value, indent: number): string {
   if (typeof value === "string") return ` ${value}`;
   const entries = Object.entries(value);

@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { Icon } from "./icons";
 
-/** The name of the program, which opens what there is to say about it. */
+/** The name of the program. A click shows information about it. */
 export function About() {
   const [open, setOpen] = useState(false);
   return (

@@ -9,10 +9,10 @@ const missing = {
   sampled: "this run was too fast to be compared; its recording can be",
 };
 
-/** More than that are counted. */
+/** If there are more differences than this, only their number is shown. */
 const most = 6;
 
-/** Between two panes: whether they show the same moment, and which subsystems do something else at it. */
+/** The bar between two panes: whether they show the same time, and which subsystems differ at it. */
 export function ComparisonBar() {
   const studio = useStudio();
   const { sameTime, comparison } = useStore(studio.scene.store, (all) => all);

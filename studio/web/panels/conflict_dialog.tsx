@@ -2,7 +2,7 @@ import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { diff } from "../model/merge";
 
-/** The file changed on disk where it was changed here: neither is thrown away without a question. */
+/** The file changed on disk where this page changed it, too: the user decides which version to keep. */
 export function ConflictDialog() {
   const studio = useStudio();
   const conflict = useStore(studio.draft.store, (draft) => draft.conflict);

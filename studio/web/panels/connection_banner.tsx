@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { useStore, useStudio } from "../hooks/use";
 
-/** Says when the server is gone, and what was done about it. */
+/** Reports that the server is gone, and what was done about it. */
 export function ConnectionBanner() {
   const studio = useStudio();
   const { state, attempt } = useStore(studio.connection.store, (all) => all);

@@ -6,20 +6,22 @@ const axis = 18;
 const names = 108;
 const last = 4;
 
-/** The time that is shown: what was lately; of a recording what is around the moment shown. */
+/**
+ * The time span that is shown: the last seconds; in a recording, the span around the time that is shown.
+ */
 function shownTime(track: Track, seconds: number): { start: number; end: number } {
   const length = seconds * 1e9;
   const end = track.end > track.now ? Math.min(track.end, track.now + length / 2) : track.now;
   return { start: Math.max(end, length) - length, end: Math.max(end, length) };
 }
 
-/** The time at a distance from the left, as the timeline is drawn. */
+/** The time at a distance from the left edge of the timeline. */
 export function timeAt(track: Track, seconds: number, x: number, width: number): number {
   const { start, end } = shownTime(track, seconds);
   return start + Math.min(1, Math.max(0, (x - names) / (width - names - last))) * (end - start);
 }
 
-/** A lane per subsystem: which behaviour ran, as bands with their names, and its firings as ticks. */
+/** One lane per subsystem: its behaviours as bands with their names, and its firings as ticks. */
 export function drawTimeline(
   context: CanvasRenderingContext2D,
   size: Size,
@@ -78,7 +80,7 @@ export function niceStep(rough: number): number {
   return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
-/** How dark the bands of a lane's first, second, … behaviour are. */
+/** The darkness of the bands of a lane's first, second, … behaviour. */
 const shades = [0.14, 0.4, 0.26, 0.52];
 
 function drawBands(

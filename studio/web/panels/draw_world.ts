@@ -2,7 +2,10 @@ import type { Pose, Track } from "../live/track";
 import { niceStep } from "./draw_timeline";
 import type { Colours, Size } from "./painted";
 
-/** The path of the robot over the floor up to the moment that is shown, x to the right and y up, with a scale in metres. */
+/**
+ * The path of the robot over the floor up to the time that is shown, x to the right and y
+ * up, with a scale in metres.
+ */
 export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, none: string): void {
   const { path } = track;
   context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
@@ -23,10 +26,10 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
   drawScale(context, size, colours, scale);
 }
 
-/** Poses further apart in time than that (in ns) say nothing of the way between them. */
+/** Poses further apart in time than this (in ns) are not joined by a line. */
 const apart = 1.5e9;
 
-/** What was driven so far; what a recording has beyond the moment that is shown, as a faint line. */
+/** The path so far. The later part of a recording is a faint line. */
 function drawPath(
   context: CanvasRenderingContext2D,
   colours: Colours,
@@ -87,7 +90,7 @@ function boundsOf(path: Track["path"], floor: Track["floor"]) {
     box.bottom = Math.min(box.bottom, y);
     box.top = Math.max(box.top, y);
   }
-  // At least half a metre, or a robot that stands still fills the window.
+  // At least half a metre; otherwise a robot that stands still would fill the window.
   if (floor) return box;
   const grow = (low: number, high: number) => Math.max(0, 0.5 - (high - low)) / 2 + 0.05;
   const [across, along] = [grow(box.left, box.right), grow(box.bottom, box.top)];

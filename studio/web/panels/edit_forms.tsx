@@ -16,7 +16,7 @@ import { Choice, Field } from "./field";
 const nameProblem = (text: string) =>
   edits.isName(text) ? undefined : "Letters, digits and single underscores, beginning with a letter";
 
-/** Puts a changed text into the draft and selects what was changed. */
+/** Puts a changed text into the draft and selects the changed element. */
 function useEdit() {
   const studio = useStudio();
   return (text: string, select?: string | null) => {

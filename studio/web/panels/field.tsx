@@ -8,12 +8,14 @@ interface FieldProps {
   /** Offered while typing. */
   choices?: readonly string[];
   mono?: boolean;
-  /** Why a text will not do, or nothing. */
+  /** The reason why a text is not accepted; undefined: it is. */
   wrong?: (text: string) => string | undefined;
   onChange: (text: string) => void;
 }
 
-/** A text that takes effect when it is left or by Enter; Escape takes it back. */
+/**
+ * A text field whose value takes effect when the field is left or on Enter; Escape restores the old value.
+ */
 export function Field({ label, value, hint, placeholder, choices, mono, wrong, onChange }: FieldProps) {
   const id = useId();
   const [text, setText] = useState(value);

@@ -34,7 +34,7 @@ export function Icon({ name }: { name: string }) {
   );
 }
 
-/** A button that is a picture; its name is told when one points at it. */
+/** A button with an icon; its name is shown when the pointer rests on it. */
 export function IconButton({
   name,
   label,
@@ -44,7 +44,7 @@ export function IconButton({
 }: {
   name: string;
   label: string;
-  /** Where there is more to say than the label does. */
+  /** Set if there is more to say than the label. */
   title?: string;
   disabled?: boolean;
   onClick: () => void;

@@ -7,7 +7,7 @@ import type { Element, NetModel } from "../model/net";
 import { findThing, type Thing } from "../model/structure";
 import { EditForm } from "./edit_forms";
 
-/** What the selected element is, and what can be changed about it. */
+/** Describes the selected element, and shows what can be changed about it. */
 export function InspectPanel() {
   const studio = useStudio();
   const structure = useStructure();
@@ -58,7 +58,7 @@ export function InspectPanel() {
   );
 }
 
-/** Where a run under simulated time pauses. */
+/** The breakpoints of a run in simulated time. */
 function Breakpoints({ net, element, path }: { net: NetModel; element: Element; path: string }) {
   if (element.kind === "place") return <BreakpointButton at={{ place: net.placeByName.get(path)! }} text="Pause a run here" />;
   const transition = net.transitionByName.get(path);

@@ -2,7 +2,7 @@ import type { Outcome } from "../live/protocol";
 
 const count = (many: number) => many.toLocaleString("en");
 
-/** What came of a run that is over. */
+/** The result of a run that has ended. */
 export function OutcomeOf({ outcome }: { outcome: Outcome }) {
   const { simulated_s, wall_s, real_time_factor, firings, lost_events, warnings, subsystems } = outcome;
   return (

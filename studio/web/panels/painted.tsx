@@ -26,7 +26,7 @@ function coloursOf(element: Element): Colours {
   };
 }
 
-/** A canvas that is painted again while what it shows changes. */
+/** A canvas that is painted again when its content changes. */
 export function Painted({
   label,
   draw,
@@ -34,12 +34,14 @@ export function Painted({
   onPick,
   every = 48,
 }: {
-  /** What is to be seen; empty: nothing that is not said beside it. */
+  /** A description of the picture; empty: the text beside it says everything. */
   label: string;
-  /** Milliseconds between pictures: twenty a second read as motion, and leave the time to the drawing of the net. */
+  /**
+   * Milliseconds between pictures: twenty a second look like motion, and leave time for drawing the net.
+   */
   every?: number;
   draw: (context: CanvasRenderingContext2D, size: Size, colours: Colours) => void;
-  /** What the picture depends on: it is painted again only when that is another. */
+  /** The state on which the picture depends: it is painted again only if that changes. */
   of: () => string;
   onPick?: ((x: number, width: number) => void) | undefined;
 }) {

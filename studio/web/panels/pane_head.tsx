@@ -2,7 +2,7 @@ import { useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { IconButton } from "./icons";
 
-/** Above each of two panes: what it shows, and how to put it away. */
+/** The head above each of two panes: its title, and a button to close it. */
 export function PaneHead({ pane, title }: { pane: Pane; title: string }) {
   const studio = useStudio();
   return (

@@ -10,10 +10,10 @@ export const stateTitles = {
   failed: "Failed",
 };
 
-/** Why a run ended, in words; what is not here is words already. */
+/** The reason for the end of a run in words; other reasons are words already. */
 export const reason = (why: string): string => ({ duration: "the time asked for is over" })[why] ?? why;
 
-/** What a pane shows, in few words. */
+/** The content of a pane in a few words. */
 export function usePaneTitle(): (pane: Pane) => string {
   const studio = useStudio();
   const state = useStore(studio.runner.store, (all) => all.state);

@@ -95,7 +95,7 @@ function Choices({ net }: { net: NetModel }) {
   );
 }
 
-/** The states of the channels: which of each one's places hold a token. */
+/** The states of the channels: which of their places hold a token. */
 function Channels({ net }: { net: NetModel }) {
   const studio = useStudio();
   useStore(studio.play.store, (all) => all.position);
@@ -127,7 +127,7 @@ function Steps({ net }: { net: NetModel }) {
   const current = useRef<HTMLButtonElement>(null);
   useEffect(() => void current.current?.scrollIntoView({ block: "nearest" }), [position]);
   const { steps } = studio.play;
-  // A long game shows its end.
+  // Only the end of a long game is shown.
   const first = Math.max(0, Math.min(position, length) - 300);
   return (
     <ol className="step-list">

@@ -7,7 +7,10 @@ import { clock } from "./clock";
 import { IconButton } from "./icons";
 import { stateTitles } from "./pane_title";
 
-/** Below a drawing that is stepped through: back, forward, let it run, to any position. `beside`: there is another pane. */
+/**
+ * The controls below a drawing with steps: back, forward, run, and any position.
+ * `beside`: there is another pane.
+ */
 export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; fixed: boolean }) {
   if (pane.replay) return <RecordingPlayer replay={pane.replay} beside={beside} fixed={fixed} />;
   if (pane.track) return beside ? <RunBar track={pane.track} /> : null;
@@ -67,7 +70,7 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
   );
 }
 
-/** What a run beside something else needs most. */
+/** The most important controls of a run beside another pane. */
 function RunBar({ track }: { track: Track }) {
   const studio = useStudio();
   const { state, kind } = useStore(studio.runner.store, (all) => all);

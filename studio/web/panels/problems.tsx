@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
 
-/** The complaints of the parser, and where they are. */
+/** The complaints of the parser, and their positions. */
 export function Problems() {
   const studio = useStudio();
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);

@@ -2,7 +2,7 @@ import { useEffect } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { RecordingInfo } from "../live/protocol";
 
-/** What runs left behind, to be looked at again: alone, beside the run, or two side by side. */
+/** The recordings of runs, to be opened alone, beside the run, or two side by side. */
 export function RecordingsPanel() {
   const studio = useStudio();
   const { list, open, problem } = useStore(studio.recordings.store, (all) => all);

@@ -118,7 +118,7 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
   );
 }
 
-/** What is running now, in one look. */
+/** The behaviours that run now, by subsystem. */
 function RunningNow() {
   const studio = useStudio();
   const running = useRunning(studio.runner.stage);

@@ -17,7 +17,7 @@ function everything(net: NetModel | null): Found[] {
   return [...pages.filter((page) => page.path), ...places, ...bars];
 }
 
-/** Find by path: type parts of it, choose, and the drawing flies there. */
+/** Search by path: type parts of it and choose; the drawing flies there. */
 export function Search() {
   const studio = useStudio();
   const net = useStore(studio.draft.store, (draft) => draft.net);

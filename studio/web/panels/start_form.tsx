@@ -23,7 +23,7 @@ const wrongSpeed = (text: string) =>
 const wrongSeed = (text: string) =>
   Number.isSafeInteger(number(text)) && number(text) >= 0 ? undefined : "A whole number, not negative";
 
-/** Controllers that were started elsewhere, to be watched. */
+/** Controllers that were started elsewhere and can be followed. */
 function AttachForm() {
   const studio = useStudio();
   const [sockets, setSockets] = useState<readonly string[] | null>(null);
@@ -62,7 +62,7 @@ function AttachForm() {
   );
 }
 
-/** What to run, and how. */
+/** The settings of the next run. */
 export function StartForm() {
   const studio = useStudio();
   const runner = useStore(studio.runner.store, (all) => all);
@@ -75,7 +75,7 @@ export function StartForm() {
   const tracks = worlds.flatMap((world) => world.tracks);
   if (kind === "attach") return <AttachForm />;
   const start = async (paused: boolean) => {
-    // What runs is what is on disk.
+    // A run uses the file on disk.
     if (dirty && !(await studio.draft.save())) return;
     const simulated = kind === "simulate";
     const request: RunRequest = {

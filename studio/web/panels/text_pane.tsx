@@ -19,7 +19,10 @@ const colours = HighlightStyle.define([
   { tag: [tags.punctuation, tags.separator, tags.squareBracket, tags.brace], class: "tok-punctuation" },
 ]);
 
-/** The specification as text. It and the drawing are two views of the same draft; undo is the draft's. */
+/**
+ * The specification as text. The text and the drawing are two views of the same
+ * draft, which also handles undo.
+ */
 export default function TextPane() {
   const studio = useStudio();
   const host = useRef<HTMLDivElement>(null);
@@ -110,7 +113,7 @@ function mark(editor: EditorView, diagnostics: readonly Diagnostic[]): void {
   editor.dispatch(setDiagnostics(editor.state, marks));
 }
 
-/** Lines and columns count from 1; a text that was edited meanwhile may be shorter. */
+/** Lines and columns count from 1; a text that was edited in the meantime may be shorter. */
 function offset(doc: Text, line: number, column: number): number {
   if (line < 1) return 0;
   const at = doc.line(Math.min(line, doc.lines));

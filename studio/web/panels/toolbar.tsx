@@ -63,7 +63,7 @@ export function Toolbar() {
   );
 }
 
-/** What the last verification said of the text as it is, in one look. */
+/** The result of the last verification of the current text, in a summary. */
 function Verdicts() {
   const studio = useStudio();
   const { verdicts, text, state } = useStore(studio.verifier.store, (all) => all);

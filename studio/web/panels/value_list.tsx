@@ -4,7 +4,7 @@ import { shown, type Samples } from "../model/series";
 import { count } from "../model/sorted";
 import { Painted, type Colours, type Size } from "./painted";
 
-/** Every value by its path, with what it was lately; a click plots it large. */
+/** Every value by its path, with its recent course; a click shows a large plot. */
 export function ValueList({ track, seconds, none }: { track: Track; seconds: number; none: string }) {
   const [, look] = useState(0);
   const [plotted, setPlotted] = useState<string | null>(null);
@@ -79,7 +79,7 @@ function plot(
   context.lineWidth = large ? 1.5 : 1;
   context.beginPath();
   for (let at = first; at < end; at += 1) {
-    // A value holds until the next one: steps, not slopes.
+    // A value holds until the next one, so it is drawn in steps and not in slopes.
     if (at > first) context.lineTo(x(times[at]!), y(values[at - 1]!));
     context.lineTo(x(times[at]!), y(values[at]!));
   }

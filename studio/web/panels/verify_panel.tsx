@@ -5,7 +5,7 @@ import { sentence } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { Icon } from "./icons";
 
-/** What each property asks, in words. */
+/** The question of each property in words. */
 const asks: Record<string, string> = {
   safe: "no place ever holds two tokens",
   exclusive_channels: "one side at a time uses a channel's memory",

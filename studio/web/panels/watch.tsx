@@ -8,7 +8,7 @@ import { Painted } from "./painted";
 import { usePaneTitle } from "./pane_title";
 import { ValueList } from "./value_list";
 
-/** Below the drawing while something runs or is replayed: who did what when, values, and the world from above. */
+/** The panels below the drawing during a run or replay: timeline, values, and the world from above. */
 export function Watches() {
   const studio = useStudio();
   const { panes, sameTime } = useStore(studio.scene.store, (all) => all);
@@ -39,7 +39,7 @@ interface WatchProps {
   replay: Replay | null;
   seconds: number;
   onSeconds: (seconds: number) => void;
-  /** Its time is that of what is shown beside it. */
+  /** Whether its time is that of the pane beside it. */
   fixed: boolean;
 }
 
@@ -92,7 +92,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
   );
 }
 
-/** Counts that change all the time; told to nobody who only listens. */
+/** Counts that change all the time; a screen reader does not announce them. */
 function Facts({ track }: { track: Track }) {
   const ref = useRef<HTMLSpanElement>(null);
   useEffect(() => {

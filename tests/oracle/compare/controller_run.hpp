@@ -1,5 +1,5 @@
-// Real controllers of random specifications: made by the command, run in simulated time, their firings played
-// on the oracle's net.
+// Real controllers of random specifications. The command makes them; they run in simulated time; the oracle's
+// net replays their firings.
 #pragma once
 
 #include "compare.hpp"
@@ -12,8 +12,8 @@ struct ControllerRun {
   std::vector<Disagreement> disagreements;
 };
 
-/// Generates, builds and simulates the controller under `command.folder()`, for one second, with conditions
-/// drawn from `seed`.
+/// Generates, builds and simulates the controller under `command.folder()` for one second, with
+/// conditions drawn from `seed`.
 ControllerRun run_controller(const Specification& specification, const Command& command, unsigned seed);
 
 }  // namespace oracle

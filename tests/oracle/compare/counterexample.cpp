@@ -253,8 +253,7 @@ class Checker {
     return !users(channel, !sends).empty();
   }
 
-  /// A token of this side stands before a transition of the channel, and no continuation takes it from
-  /// there.
+  /// A token of this side waits before a transition of the channel, and no continuation takes it from there.
   bool blocked(const FlatNet::ChannelInfo& channel, bool sends) const {
     for (const int t : users(channel, sends)) {
       for (const int place : net_.transitions[static_cast<std::size_t>(t)].pre) {

@@ -1,5 +1,5 @@
-// What conditions can do (design, sections 4, 6 and 7): which ways a behaviour may end, and which entry of
-// `next` follows.
+// The effect of conditions (design, sections 4, 6 and 7): how a behaviour may end, and
+// which entry of `next` follows.
 #pragma once
 
 #include <vector>

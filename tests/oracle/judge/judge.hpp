@@ -1,5 +1,5 @@
-// The verdicts of section 7 of the design and of docs/specification.md, by looking at every reachable
-// marking.
+// The verdicts of section 7 of the design and of docs/specification.md, computed
+// from every reachable marking.
 #pragma once
 
 #include <optional>
@@ -52,8 +52,8 @@ class Judge {
   ReachabilityGraph graph_;
 };
 
-/// Is a communication model of the author's sound when somebody at either side uses it for ever
-/// (docs/verification.md)?
+/// Whether a communication model of a specification is sound if each side is used for
+/// ever (docs/verification.md).
 bool sound_model(const Model& model);
 
 }  // namespace oracle

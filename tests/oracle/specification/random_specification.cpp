@@ -235,8 +235,8 @@ class Generator {
     if (random_.percent(15)) subsystem.start = random_.of(subsystem.behaviours).name;
   }
 
-  /// Every behaviour takes time: by a rate, a blocking channel, or `takes`; three in a hundred may not, and
-  /// are refused.
+  /// Every behaviour takes time, by a rate, a blocking channel, or `takes`. Three in a hundred
+  /// need not, and are refused.
   void time() {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) subsystem.rate = random_.percent(65);

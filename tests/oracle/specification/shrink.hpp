@@ -7,8 +7,7 @@
 
 namespace oracle {
 
-/// Leaves out and simplifies, one thing after the other, while `still_shows` says so. Calls it at most
-/// `tries` times.
+/// Removes and simplifies parts one by one while `still_shows` is true. Calls it at most `tries` times.
 Specification shrink(Specification specification,
                      const std::function<bool(const Specification&)>& still_shows, int tries);
 

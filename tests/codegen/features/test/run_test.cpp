@@ -52,8 +52,8 @@ TEST(System, EndsWithTheSafeCommands) {
       << "zero, where the specification gives no safe command";
 }
 
-// `rest` ends by memory.count, which stands behind a cell of type Part: conditions and functions have to
-// agree on where that is.
+// `rest` ends by memory.count, which is stored after a cell of type Part: conditions and functions
+// must agree on its address.
 TEST(System, ConditionsSeeTheMemoryThatFunctionsWrite) {
   tessera::RunOptions options;
   options.duration = 1s;

@@ -19,7 +19,7 @@ struct File {
 ///
 /// spec_path: how the compiler shall name the specification in messages about conditions (#line).
 /// Threads:   pure; same input, same bytes. Linear in the net.
-/// Source:    paper, sec. V: places, transitions, arcs and pages to C++.
+/// Source:    paper, sec. V-B: places, transitions, arcs and pages to C++.
 [[nodiscard]] std::vector<File> generate(const verify::VerifiedNet& net, const spec::Model& model,
                                          const std::string& spec_path);
 

@@ -21,7 +21,7 @@ struct LocalNet {
   struct Place {
     std::string name;
     std::uint32_t behaviour = net::no_index;  ///< that it belongs to; none: the subsystem itself
-    std::string does{};                   ///< C++: "tessera::calls(\"follow\")"; empty: nothing
+    std::string does{};                       ///< C++: "tessera::calls(\"follow\")"; empty: nothing
   };
   struct Transition {
     std::string name;

@@ -122,8 +122,8 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
 std::string behaviours_table(const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
-    rows.push_back(
-        {net::no_index, {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+    rows.push_back({net::no_index,
+                    {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);

@@ -4,9 +4,8 @@
 #include <array>
 #include <string_view>
 
-#include "tessera/net_words.hpp"
-
 #include "tessera/nearest.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::layers {
 namespace {

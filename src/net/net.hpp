@@ -149,7 +149,7 @@ struct Node {
   std::uint32_t tokens = 0;  ///< initial marking
   Operation operation{};
   PlaceRole role = PlaceRole::none;  ///< of a fused place: as its fusion set
-  std::uint32_t block = no_index;        ///< into Parts::blocks
+  std::uint32_t block = no_index;    ///< into Parts::blocks
 };
 
 struct PageTransition {
@@ -168,8 +168,8 @@ struct Page {
   Layer layer = Layer::system;
   PageId parent{};                         ///< invalid for the root
   std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
-  std::uint32_t agent = no_index;              ///< of the layers below the system
-  std::uint32_t behaviour = no_index;          ///< of the subsystem, from the behaviour layer down
+  std::uint32_t agent = no_index;          ///< of the layers below the system
+  std::uint32_t behaviour = no_index;      ///< of the subsystem, from the behaviour layer down
   std::uint32_t input = 0, output = 0;     ///< indices into nodes
   std::vector<Node> nodes{};
   std::vector<PageTransition> transitions{};

@@ -90,7 +90,8 @@ class Teller {
   }
 
   void communicate(TransitionId id, Deed& deed) const {
-    const std::string buffer = deed.block == net::no_index ? std::string() : net_.parts().blocks[deed.block].name;
+    const std::string buffer =
+        deed.block == net::no_index ? std::string() : net_.parts().blocks[deed.block].name;
     const bool overwrites = net_[id].role == net::TransitionRole::overwrite;
     if (net_[id].condition.kind == Condition::Kind::elapsed) {
       deed.text = "waits for " + buffer + " until its timeout";

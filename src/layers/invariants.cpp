@@ -3,8 +3,8 @@
 #include <iterator>
 #include <span>
 #include <string>
-#include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "layers/built_in.hpp"
@@ -214,21 +214,19 @@ class Channels {
   void gather(net::PageId id) {
     const std::vector<net::Node>& nodes = pages_.pages[id.value].nodes;
     const auto places = places_.of(id);
+    std::uint32_t drawn = net::no_index;
+    std::size_t number = 0;
     for (std::uint32_t node = 0; node < nodes.size(); ++node) {
       if (nodes[node].fusion.valid() || nodes[node].block == net::no_index) continue;
-      if (nodes[node].role == net::PlaceRole::output) continue;  // of the page as well
-      const net::Parts::Block& block = pages_.parts.blocks[nodes[node].block];
-      const std::string_view own = std::string_view(nodes[node].name).substr(block.name.size() + 1);
-      gather_own(at(block.channel), block.sends, own, places[node]);
+      // A block draws the places of its side in their order, and its output last.
+      if (std::exchange(drawn, nodes[node].block) != nodes[node].block) number = spec::ModelSide::out + 1;
+      const net::Parts::Block& block = pages_.parts.blocks[drawn];
+      gather_own(at(block.channel), block.sends, number++, places[node]);
     }
   }
 
-  static void gather_own(Gathered& channel, bool sends, std::string_view name, PlaceId place) {
-    const std::vector<spec::ModelSide::Place>& own =
-        (sends ? channel.model->send : channel.model->receive).places;
-    const auto found = std::ranges::find(own, name, &spec::ModelSide::Place::name);
-    if (found == own.end()) return;
-    const auto number = static_cast<std::size_t>(found - own.begin());
+  static void gather_own(Gathered& channel, bool sends, std::size_t number, PlaceId place) {
+    if (number >= (sends ? channel.model->send : channel.model->receive).places.size()) return;
     for (std::size_t index = 0; index < channel.invariants.size(); ++index) {
       const PairInvariant& known = (*channel.known)[index];
       add_term(channel.invariants[index], place, (sends ? known.send : known.receive)[number]);

@@ -1,10 +1,11 @@
 #include "reduce/components.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <span>
+#include <string>
+#include <unordered_map>
 
 namespace tessera::reduce {
 namespace {
@@ -21,11 +22,14 @@ class Colours {
  public:
   Colours(const net::Net& net, const std::vector<std::vector<std::uint32_t>>& sets)
       : net_(net), places_(static_cast<std::uint32_t>(net.places().size())) {
-    const std::hash<std::string> hash;
-    for (const net::Place& place : net.places())
-      colours_.push_back(mix(hash(template_name(place.name)), place.tokens));
+    // Names are numbered as they come, so that the order of colours does not depend on what they say.
+    std::unordered_map<std::string, Colour> numbers;
+    const auto number = [&](const std::string& name) {
+      return numbers.try_emplace(template_name(name), numbers.size()).first->second;
+    };
+    for (const net::Place& place : net.places()) colours_.push_back(mix(number(place.name), place.tokens));
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-      colours_.push_back(mix(hash(template_name(net.transitions()[index].name)), sets[index].size()));
+      colours_.push_back(mix(number(net.transitions()[index].name), sets[index].size()));
     // Names distinguish most elements; a few rounds pass the difference on to their neighbours.
     for (int round = 0; round < 4; ++round) refine();
   }

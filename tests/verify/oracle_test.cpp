@@ -38,7 +38,7 @@ Marking end_of(const net::Net& net, const std::vector<net::TransitionId>& run) {
 }
 
 net::Net starting_in(const net::Net& net, const Marking& tokens) {
-  net::Net other;
+  net::Net other(net.shared_parts());
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     net::Place place = net.places()[index];
     place.tokens = tokens[index];

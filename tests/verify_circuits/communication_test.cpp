@@ -88,7 +88,7 @@ TEST(Communication, ABehaviourWithoutAnEntryForAllOtherCasesIsIncomplete) {
 
 /// Copies a net with one transition changed.
 net::Net changed(const net::Net& net, const std::string& transition, net::PlaceId also_into) {
-  net::Net copy;
+  net::Net copy(net.shared_parts());
   for (const net::Place& place : net.places()) copy.add(place);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};

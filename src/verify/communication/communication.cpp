@@ -257,6 +257,9 @@ class Channels {
 
 /// Transitions that would move tokens behind the back of the readers.
 std::string stray_transition(const net::Net& net, const Steps& steps) {
+  for (const net::Place& place : net.places())
+    if (place.subsystem != net::no_subsystem && place.subsystem >= net.parts().subsystems.size())
+      return "'" + place.name + "' is of a subsystem that the net does not name";
   if (steps.stray()) return "'" + net[*steps.stray()].name + "' joins more than a subsystem and a channel";
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};

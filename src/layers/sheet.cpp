@@ -11,8 +11,9 @@ Draft::Draft(const spec::Model& specification)
     : model(specification), wiring(specification), memory(specification.channels.size()) {
   for (const spec::Agent& agent : model.agents) net.parts.agents.push_back(agent.path);
   for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
-    net::Parts::Subsystem& part =
-        net.parts.subsystems.emplace_back(model.instance_path(instance), model.instances[instance].agent);
+    net::Parts::Subsystem& part = net.parts.subsystems.emplace_back();
+    part.path = model.instance_path(instance);
+    part.agent = model.instances[instance].agent;
     for (const spec::Behaviour& behaviour : model.subsystem(instance).behaviours)
       part.behaviours.push_back(behaviour.name);
   }

@@ -30,7 +30,7 @@ bool NetPlay::match_transitions() {
       mismatch_ = fmt::format("the net has no transition '{}'", recorded.name);
       return false;
     }
-    transitions_.emplace_back(found->second);
+    transitions_.push_back({found->second});
     channels_.push_back(channel_of(transitions_.back()));
     if (channels_.back() != none) count = std::max(count, channels_.back() + 1);
   }

@@ -73,7 +73,7 @@ std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters)
   if (rows.size() <= most) return 0;
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_partition(order, [&](std::size_t row) { return matters(rows[row]); });
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t row) { return matters(rows[row]); });
   const std::size_t hidden = rows.size() - most;
   order.resize(most);
   std::ranges::sort(order);

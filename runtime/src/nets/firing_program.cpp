@@ -132,7 +132,7 @@ class FiringCompilation {
     for (const ExecutableNet::Transition& transition : net_.transitions)
       priorities.push_back(transition.priority);
     std::ranges::sort(priorities, std::greater<>());
-    priorities.erase(std::ranges::unique(priorities).begin(), priorities.end());
+    priorities.erase(std::unique(priorities.begin(), priorities.end()), priorities.end());
     program_.ranks = static_cast<std::uint32_t>(priorities.size());
     for (const std::uint32_t t : program_.original_transition)
       program_.rank.push_back(static_cast<std::uint32_t>(

@@ -212,7 +212,7 @@ void Monitor::execute_commands(MonitorClient& client) {
 void Monitor::execute_request(MonitorClient& client, const Request& request) {
   if (std::holds_alternative<commands::Own>(request.command)) return client.own_run();
   if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
-    const std::string wrong = std::visit([this](const auto& one) { return execute(one); }, *command);
+    const std::string wrong = std::visit([this](const auto& one) { return this->execute(one); }, *command);
     if (client.gone()) return;
     client.add(answer_line(request.id, wrong));
   } else {

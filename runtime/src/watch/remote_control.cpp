@@ -28,7 +28,7 @@ RemoteControl::~RemoteControl() { close(news_); }
 
 std::string RemoteControl::execute(const SimulationCommand& command) {
   const std::lock_guard lock(mutex_);
-  std::string wrong = std::visit([this](const auto& one) { return apply(one); }, command);
+  std::string wrong = std::visit([this](const auto& one) { return this->apply(one); }, command);
   if (!wrong.empty()) return wrong;
   update();
   const std::uint64_t one = 1;

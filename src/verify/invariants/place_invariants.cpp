@@ -150,7 +150,7 @@ class Bounds {
         used.push_back(*index);
     }
     std::ranges::sort(used);
-    used.erase(std::ranges::unique(used).begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::uint32_t index : used)
       for (const Invariant::Term& term : invariants_[index].terms)
         if (term.weight < 0) replaced.push_back(term.place);

@@ -192,8 +192,7 @@ class Search {
     what.safe = safe;
     for (const Goal* goal : goals) places_of(*goal, what.observed);
     std::ranges::sort(what.observed);
-    const auto rest = std::ranges::unique(what.observed);
-    what.observed.erase(rest.begin(), rest.end());
+    what.observed.erase(std::unique(what.observed.begin(), what.observed.end()), what.observed.end());
     return what;
   }
 
@@ -205,8 +204,7 @@ class Search {
     for (const PlaceId place : places) parts.push_back(where_[place.value].first);
     std::ranges::sort(parts, {},
                       [&](std::uint32_t part) { return std::pair(components_.all[part].kind, part); });
-    const auto rest = std::ranges::unique(parts);
-    parts.erase(rest.begin(), rest.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     return parts;
   }
 

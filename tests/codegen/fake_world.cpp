@@ -38,6 +38,9 @@ class FakeWorld : public tessera::World {
 
 }  // namespace
 
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
 // NOLINTNEXTLINE(readability-identifier-naming): the name that the runtime looks up
 extern "C" std::unique_ptr<tessera::World> tessera_open_world(const tessera::WorldOptions&, std::string&) {
   return std::make_unique<FakeWorld>();

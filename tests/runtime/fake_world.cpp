@@ -80,6 +80,9 @@ class FakeWorld final : public tessera::World {
 
 }  // namespace
 
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
 extern "C" std::unique_ptr<tessera::World> tessera_open_world(const tessera::WorldOptions& options,
                                                               std::string& error) {
   if (options.world == "missing.xml") {

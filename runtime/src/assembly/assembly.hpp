@@ -45,8 +45,7 @@ struct Assembly {
 /// Checks that the tables are the net that was verified, and puts everything together.
 ///
 /// Errors: other tables version, names that do not resolve, another hash, unknown or bad parameters, real
-/// buffers
-///         without a driver, a world, recording or scenario that cannot be opened: false and `error`.
+///         buffers without a driver, a world, recording or scenario that cannot be opened: false and `error`.
 [[nodiscard]] bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error);
 
 /// A subsystem by itself.

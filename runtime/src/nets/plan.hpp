@@ -81,8 +81,7 @@ struct Plan {
 /// fused: per port of the net, the fused places of the channel behind it.
 ///
 /// Errors: a name that the tables do not declare, a transition that touches two channels or takes from no
-/// place of the
-///         subsystem, more than most_shared_places fused places: nullopt and `error`.
+///         place of the subsystem, more than most_shared_places fused places: nullopt and `error`.
 [[nodiscard]] std::optional<Plan> compile(const SubsystemNet& net,
                                           std::span<const std::span<const FusedPlace>> fused,
                                           std::string& error);

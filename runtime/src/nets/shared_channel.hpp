@@ -28,8 +28,8 @@ namespace tessera {
 /// So every later change of the word sees the registration. If a registered need may be taken after a
 /// change, the side that made the change wakes the registered side. Only two changes can have this effect:
 /// a firing (it changes the marking and who fired last) and a registration that shrinks (it may release
-/// the other side, see below).
-/// release the other side, see below). Nothing else can make a need takeable.
+/// the other side, see below). Nothing else can make a need takeable.
+///
 /// *Fairness.* A side that has been passed over says so when it registers again: it had registered,
 /// was woken, and found that the other side had fired again. From then on, the side that fired last
 /// does not take while the other is registered for a need that is met; it registers itself instead.

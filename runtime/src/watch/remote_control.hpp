@@ -14,8 +14,8 @@
 namespace tessera {
 
 /// Requests of those who watch a run in simulated time: pause, single steps, breakpoints, speed
-/// (tessera/monitor.hpp has the commands). They change
-/// neither the transitions that the run fires nor their simulated times.
+/// (tessera/monitor.hpp has the commands). They change neither the transitions that the run fires nor their
+/// simulated times.
 ///
 /// Threads: `execute` and `shown` the watcher's, the rest the run's.
 class RemoteControl {

@@ -15,8 +15,7 @@ struct SystemScope {
 /// Reads the subsystem below `entry`, whose key is its name.
 ///
 /// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
-/// those of
-///         buffers, parameters and behaviours.
+///         those of buffers, parameters and behaviours.
 [[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemScope& around,
                                        Diagnostics& out);
 

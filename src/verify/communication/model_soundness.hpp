@@ -20,12 +20,11 @@ struct ClosedModel {
 /// sides.
 ///
 /// Errors: E431 a place can hold two tokens; E432 one slot can be written and read at once; E433 a side can
-/// come to
-///         where it never ends, or to where nothing is ever written or read again; E434 too large to tell.
-/// true: none. Threads: pure.
+///         come to where it never ends, or to where nothing is ever written or read again; E434 too large to
+///         tell. True: there is nothing to complain of.
+/// Threads: pure.
 /// Source: van der Aalst, *The application of Petri nets to workflow management*, 1998 (soundness), for two
-/// nets
-///         that share places.
+///         nets that share places.
 [[nodiscard]] bool judge_soundness(const ClosedModel& model, diagnostics::Diagnostics& out);
 
 }  // namespace tessera::verify

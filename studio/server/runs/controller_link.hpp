@@ -35,8 +35,8 @@ class ControllerLink {
   /// What the controller's recording holds besides what was asked for before, as it was after the last
   /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
-  /// nullopt: done. Waits for the connection and the answer, at most five
-  /// seconds each. Meanwhile somebody has to call connect and snapshot.
+  /// nullopt: done. Waits for the connection and the answer, at most five seconds each. Meanwhile somebody
+  /// has to call connect and snapshot.
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();

@@ -192,7 +192,9 @@ class TreeBuilder final : public YAML::EventHandler {
     frame.key_usable = false;
     frame.pending = {key.text, key.span, nullptr};
     if (!key.is_scalar()) {
-      out_.error("E010", key.span, "a key must be plain text", "write { and [ in a value in quotes");
+      out_.error("E010", key.span, "a key must be plain text",
+                 key.is_null() ? "YAML reads NULL, null and ~ as nothing: choose another name"
+                               : "write { and [ in a value in quotes");
     } else if (const auto [first, added] = frame.lines.emplace(key.text, key.span.line); !added) {
       out_.error("E009", key.span, "duplicate key " + diagnostics::quoted(key.text),
                  "the first one is on line " + std::to_string(first->second) + "; keep one of them");

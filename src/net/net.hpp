@@ -72,7 +72,7 @@ struct Condition {
     bool terminal, error;  ///< t5; t6, by a condition or a failure
     bool operator==(const After&) const = default;
   };
-  /// next: the endings after which the entry can be taken, and those after which it can be that no entry holds.
+  /// next: the endings after which the entry can be taken; the endings after which possibly no entry holds.
   After follows{true, true}, none_follows{true, true};
   bool operator==(const Condition&) const = default;
 

@@ -18,7 +18,8 @@ struct Act {
   std::uint32_t line = 0;  ///< of the specification, where the stretch begins; 0: none
 };
 
-/// Tells a run of a net made of the five layers, or of its abstract net (verify/communication/abstraction.hpp).
+/// Describes in words a run of a net made of the five layers, or of its abstract net
+/// (verify/communication/abstraction.hpp).
 ///
 /// Threads: pure. Linear in the net and the run.
 [[nodiscard]] std::vector<Act> narrate(const net::Net& net, const std::vector<net::TransitionId>& run);

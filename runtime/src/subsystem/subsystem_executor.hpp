@@ -24,13 +24,13 @@ namespace tessera {
 /// transition with a timeout has alternatives, these are tried first.
 ///
 /// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
-/// not before the token's arrival and later than that of the call before. All behaviours share these instants.
-/// The first call starts at once. Instants passed over are overruns, unless the time was spent waiting for
-/// other subsystems. With Overrun::catch_up, the missed calls follow late, one after the other.
+/// not before the token's arrival and later than that of the call before. All behaviours share these
+/// instants. The first call starts at once. Instants passed over are overruns, unless the time was spent
+/// waiting for other subsystems. With Overrun::catch_up, the missed calls follow late, one after the other.
 ///
-/// *Ends.* When the token is in `out`, the subsystem has ended. This is a fault, which stops the system, if it
-/// happens after an error (no entry of `next` leads to another behaviour). It is also a fault if no condition
-/// of `next` holds, or if one throws.
+/// *Ends.* When the token is in `out`, the subsystem has ended. This is a fault, which stops the system, if
+/// it happens after an error (no entry of `next` leads to another behaviour). It is also a fault if no
+/// condition of `next` holds, or if one throws.
 ///
 /// Threads: the subsystem's. No allocation and no lock in `step`, apart from what user code does.
 class SubsystemExecutor {

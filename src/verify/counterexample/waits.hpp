@@ -9,7 +9,7 @@
 
 namespace tessera::verify {
 
-/// Who waits for whom in one marking of a net, in words.
+/// Describes in words which subsystems wait for each other in one marking of a net.
 class Waits {
  public:
   /// tokens: of every place. Precondition: the net outlives this.

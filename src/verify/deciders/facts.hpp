@@ -18,7 +18,7 @@
 
 namespace tessera::verify {
 
-/// What is known about a net under one assumption.
+/// Facts about a net under one assumption.
 struct NetUnderAssumption {
   net::Net abstract;
   ProbedNet probed;
@@ -31,7 +31,7 @@ struct NetUnderAssumption {
   [[nodiscard]] std::string why_no_circuits() const;
 };
 
-/// What the deciders know of a net. Each fact is computed once, when it is first asked for.
+/// Facts about a net that the deciders use. Each fact is computed once, when it is first asked for.
 ///
 /// Threads: one.
 class Facts {

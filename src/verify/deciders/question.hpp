@@ -23,7 +23,7 @@ struct Question {
     claims            ///< claims of `property`; subjects: their numbers
   } kind = Kind::safe;
   Assume assume = Assume::conditions;
-  /// What the question is about: the subjects that are still open. The answer is yes if it is yes for each.
+  /// The subjects of the question that are still open. The answer is yes if it is yes for each.
   /// Empty for a question about the net as a whole.
   std::vector<std::uint32_t> subjects{};
   const net::Property* property = nullptr;
@@ -35,7 +35,7 @@ struct Question {
          (question.property == nullptr || question.property->kind != net::Property::Kind::reachable);
 }
 
-/// What a method found out about a question.
+/// The result of a method for a question.
 struct Finding {
   enum class Kind : std::uint8_t { holds, violated, unknown } kind = Kind::unknown;
   std::string method{};       ///< name of the method; empty: the title of the decider

@@ -7,7 +7,7 @@
 #include "net/net.hpp"
 #include "verify/invariants/unit_invariants.hpp"
 
-/// What place invariants say about pages and channels.
+/// The pages and channels that place invariants do not settle.
 namespace tessera::verify {
 
 /// Something that the invariants do not settle.

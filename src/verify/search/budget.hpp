@@ -7,7 +7,7 @@
 
 namespace tessera::verify {
 
-/// What is left of the limits of a question that takes several explorations.
+/// Computes how much of its limits a question that takes several explorations has left.
 class Budget {
  public:
   explicit Budget(const explore::Limits& limits) : limits_(limits), start_(Clock::now()) {}

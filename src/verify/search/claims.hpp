@@ -5,7 +5,7 @@
 #include "explore/formula.hpp"
 #include "net/property.hpp"
 
-/// What the properties of the author ask, in terms of places.
+/// The properties of the author as formulas over places.
 namespace tessera::verify {
 
 [[nodiscard]] explore::Formula formula_of(const net::Statement& statement);

@@ -9,7 +9,7 @@
 
 namespace tessera::verify {
 
-/// What is asked about a goal, a formula over places.
+/// The question about a goal, a formula over places.
 enum class Ask : std::uint8_t {
   reachable,         ///< Is a marking reachable in which `what` is true? yes: with a run.
   always_reachable,  ///< Can one be reached from every reachable marking? no: with a run to where none can.

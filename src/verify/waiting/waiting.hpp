@@ -11,7 +11,7 @@
 
 namespace tessera::verify {
 
-/// What is known about subsystems that wait for each other.
+/// The result of judge_waiting.
 struct WaitingReport {
   std::vector<bool> goes_on;  ///< per subsystem: proved to go on for ever, or until it ends
   std::string why_not;        ///< for the first group that is not proved

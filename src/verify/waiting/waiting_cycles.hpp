@@ -34,7 +34,7 @@ class WaitingCycleSearch {
   /// Waits that neither a channel nor a trap excludes: a cycle, or one wait for a subsystem that need not
   /// come back, or a mesh.
   [[nodiscard]] const std::vector<Wait>& suspected() const { return suspected_; }
-  /// The first of the suspected waits is for somebody who need not come back.
+  /// The first of the suspected waits is for a subsystem that need not come back.
   [[nodiscard]] bool deserted() const { return deserted_; }
   /// Leaves these subsystems out of further searches.
   void give_up_on(std::span<const std::uint32_t> subsystems);

@@ -38,7 +38,7 @@ struct Unit {
 /// "src/control.cpp", or "src/robot/control.cpp" when there are several definitions.
 [[nodiscard]] std::string user_file(const std::vector<Unit>& units, const Unit& unit);
 
-/// What all generated files of one system are made from.
+/// The input from which all files of one system are generated.
 struct Project {
   const spec::Model& model;
   const verify::VerifiedNet& net;

@@ -34,7 +34,7 @@ struct SubsystemStatistics {
   std::uint64_t overwrites = 0;  ///< firings of `t1o`
 };
 
-/// What each subsystem did. Linear in the recording (quantiles: linear on average).
+/// The statistics of each subsystem. Linear in the recording (quantiles: linear on average).
 [[nodiscard]] std::vector<SubsystemStatistics> statistics_of(const Recording& recording);
 
 }  // namespace tessera::replay

@@ -33,7 +33,7 @@ class ValueTrack {
     bool hashed = false;
     const ValueLayout* layout;  ///< nullptr: the type is not known
   };
-  /// What a buffer, by its number, holds now. Valid until the next call of `follow`.
+  /// The value that a buffer, given by its number, holds now. Valid until the next call of `follow`.
   [[nodiscard]] Value value(std::uint32_t buffer) const;
 
  private:

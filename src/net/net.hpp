@@ -30,7 +30,7 @@ using FusionId = Id<struct FusionTag>;          ///< a fusion set of a hierarchi
 enum class Layer : std::uint8_t { system, agent, subsystem, behaviour, communication };
 inline constexpr std::size_t layer_count = 5;
 
-/// What a token put into a place starts (paper, sec. II).
+/// The operation that a token starts when it is put into a place (paper, sec. II).
 struct Operation {
   enum class Kind : std::uint8_t {
     none,
@@ -89,7 +89,7 @@ inline constexpr std::uint32_t no_index = UINT32_MAX;  ///< no behaviour, no blo
 
 // ------------------------------------------------------------------------------------------ roles
 
-/// What a place is in the five layers. Programs ask for the role; the name is for people.
+/// The role of a place in the five layers. Programs ask for the role; the name is for people.
 enum class PlaceRole : std::uint8_t {
   none,          ///< no role, or a net that was not made from a specification
   input,         ///< of its page
@@ -103,7 +103,7 @@ enum class PlaceRole : std::uint8_t {
   acknowledged  ///< a value was read, and the sender does not know it yet
 };
 
-/// What a transition is in the five layers, beside its condition.
+/// The role of a transition in the five layers, besides its condition.
 enum class TransitionRole : std::uint8_t {
   none,
   start,        ///< enters the page: starts its agents, its subsystems, or its first behaviour
@@ -113,7 +113,7 @@ enum class TransitionRole : std::uint8_t {
   no_successor  ///< a behaviour is left and no initial condition holds
 };
 
-/// What the numbers of a net's elements mean: the agents, subsystems, channels and blocks it was made of.
+/// The meaning of the numbers of a net's elements: the agents, subsystems, channels and blocks of the net.
 /// Empty for a net that was not made from a specification.
 struct Parts {
   struct Subsystem {
@@ -249,7 +249,7 @@ class Net {
   Net() = default;
   explicit Net(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
-  /// What the numbers of its elements mean; nets made from one another share it.
+  /// The meaning of the numbers of its elements. Nets made from one another share it.
   [[nodiscard]] const Parts& parts() const { return *parts_; }
   [[nodiscard]] const std::shared_ptr<const Parts>& shared_parts() const { return parts_; }
 

@@ -17,7 +17,7 @@ struct File {
 /// The controller that executes exactly `net`: headers, tables and bindings to the user's functions, plus the
 /// CMakeLists.txt that builds them. Paths are relative to `.tessera/generated`.
 ///
-/// spec_path: how the compiler shall name the specification in messages about conditions (#line).
+/// spec_path: the name of the specification in messages of the compiler about conditions (#line).
 /// Threads:   pure; same input, same bytes. Linear in the net.
 /// Source:    paper, sec. V-B: places, transitions, arcs and pages to C++.
 [[nodiscard]] std::vector<File> generate(const verify::VerifiedNet& net, const spec::Model& model,

@@ -8,8 +8,9 @@
 
 namespace tessera::codegen {
 
-/// The conditions of one unit: the expressions, each compiled under the line and column it has in the
-/// specification, in the scope of the user's transition functions, and the two functions that ask them.
+/// The conditions of one unit: the expressions, and the two functions that evaluate them. Each
+/// expression is compiled in the scope of the user's transition functions, with the line and column that
+/// it has in the specification.
 class Conditions {
  public:
   Conditions(const Project& project, const Unit& unit);
@@ -17,23 +18,25 @@ class Conditions {
   /// tessera::Subsystem::decide and ::route.
   [[nodiscard]] std::string decide() const;
   [[nodiscard]] std::string route() const;
-  /// Private members of the class that asks them: the conditions, and what `decide` remembers for `route`.
+  /// Private members of the class that evaluates them: the conditions, and what `decide`
+  /// remembers for `route`.
   /// Empty: none.
   [[nodiscard]] std::string members() const;
   /// `tessera_Conditions`, in the namespace of the unit: the functions. Empty: there are none.
   [[nodiscard]] std::string declaration() const;
-  /// The functions. Their lines count as lines of the specification, so nothing else may follow them in the
-  /// file.
+  /// The functions. Their lines count as lines of the specification, so nothing else may follow them
+  /// in the file.
   [[nodiscard]] std::string definitions() const;
 
  private:
   struct Function {
     std::string name;  ///< "tessera_follow_terminal_lost"
     const spec::Expression* expression;
-    std::string says;  ///< for the reader: "follow ends when lost"
+    std::string says;  ///< a comment for the reader: "follow ends when lost"
     bool remembered = false;
   };
-  /// What one behaviour asks, as indices into functions_, parallel to the specification.
+  /// The conditions that one behaviour asks for, as indices into functions_, in the order
+  /// of the specification.
   struct Asked {
     std::vector<std::size_t> error, terminal;
     std::vector<std::size_t> next;  ///< per entry; only meaningful for expressions

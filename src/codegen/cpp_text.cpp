@@ -30,8 +30,8 @@ std::string element_name(const spec::Model& model, const spec::Type& type,
   return hidden.contains(name) ? fmt::format("::{}::{}", model.system, name) : name;
 }
 
-/// Whether copies of it had better share their elements: those of 4 KB and more, structures counted as 16
-/// bytes.
+/// Whether copies of it had better share their elements: those of 4 KB and more, structures counted
+/// as 16 bytes.
 bool is_large(const spec::Type& type) {
   const std::uint64_t element = type.kind == spec::Type::Kind::scalar   ? spec::bytes_of(type.scalar)
                                 : type.kind == spec::Type::Kind::string ? type.capacity

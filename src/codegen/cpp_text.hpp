@@ -19,7 +19,7 @@ inline constexpr std::size_t column_limit = 110;
 [[nodiscard]] std::string type_name(const spec::Model& model, const spec::Type& type,
                                     const std::set<std::string_view>& hidden = {});
 
-/// Adds what `type` needs: "<array>", "<cstdint>", "<tessera/bounded_string.hpp>".
+/// Adds the headers that `type` needs: "<array>", "<cstdint>", "<tessera/bounded_string.hpp>".
 void add_headers(const spec::Type& type, std::set<std::string>& headers);
 
 /// #include lines of one block, sorted, and the empty line behind them; nothing for an empty set.
@@ -53,8 +53,8 @@ struct Declaration {
 /// A member function whose body is `statements`, each without indentation: on one line where it fits.
 [[nodiscard]] std::string member_function(std::string_view head, const std::vector<std::string>& statements);
 
-/// A file as it is, unless names are so long that a line exceeds the column limit: then the formatter keeps
-/// off the whole file.
+/// Returns the file unchanged, unless a line exceeds the column limit because of long names. Then
+/// clang-format is switched off for the whole file.
 [[nodiscard]] std::string keep_formatter_off_long_lines(std::string text);
 
 }  // namespace tessera::codegen

@@ -11,7 +11,7 @@ namespace tessera::codegen {
 struct DriverTables {
   std::string options;          ///< definitions of tables that the rows name; ends with an empty line
   std::string real, simulated;  ///< rows of CppDriver; empty: none
-  std::string classes;          ///< what the rows call the classes of the drivers; ends with an empty line
+  std::string classes;          ///< names of the driver classes in the rows; ends with an empty line
   std::set<std::string> headers;
 };
 [[nodiscard]] DriverTables driver_tables(const Project& project);

@@ -9,8 +9,8 @@
 
 namespace tessera::codegen {
 
-/// The part of the flat net that one subsystem executes, with names that lack its path, as
-/// tessera::SubsystemNet has it.
+/// The part of the flat net that one subsystem executes, as in tessera::SubsystemNet: names do not include
+/// the path of the subsystem.
 struct LocalNet {
   struct Port {
     std::string name, buffer;
@@ -20,7 +20,7 @@ struct LocalNet {
   };
   struct Place {
     std::string name;
-    std::uint32_t behaviour = net::no_index;  ///< that it belongs to; none: the subsystem itself
+    std::uint32_t behaviour = net::no_index;  ///< its behaviour; no_index: the subsystem itself
     std::string does{};                       ///< C++: "tessera::calls(\"follow\")"; empty: nothing
   };
   struct Transition {
@@ -34,14 +34,14 @@ struct LocalNet {
   std::vector<Transition> transitions;
 };
 
-/// What the instances of one unit execute. Most share a net; those at the end of a fleet may have fewer
-/// channels.
+/// The nets that the instances of one unit execute. Most instances share one; those at the end of a fleet may
+/// have fewer channels.
 struct NetVariants {
   std::vector<LocalNet> nets;
   std::vector<std::uint32_t> of_instance;  ///< per instance of the unit, into nets
 };
 
-/// One end of a channel: where its block is, "" where no behaviour uses it.
+/// The two ends of a channel: for each the port of its block, or "" if no behaviour uses it.
 struct ChannelPorts {
   std::string from, to;
 };

@@ -52,7 +52,7 @@ std::vector<Row> grouped(const std::vector<Element>& elements, const spec::Subsy
 using Widths = std::array<std::size_t, 4>;
 using Rows = std::span<const Row>;
 
-/// Of a group, so that one long name does not spread all rows.
+/// The column widths of one group of rows, so that one long name does not widen all rows.
 Widths widths_of(Rows rows) {
   Widths widths{};
   for (const Row& each : rows)

@@ -12,24 +12,24 @@
 
 namespace tessera::codegen {
 
-/// A subsystem of a definition that some agent runs: the unit that gets a header, a source and the user's
-/// functions.
+/// A subsystem of a definition that some agent runs: the unit that gets a header, a source and
+/// the user's functions.
 struct Unit {
   const spec::Definition* definition = nullptr;
   const spec::Subsystem* subsystem = nullptr;
-  std::vector<spec::Index> instances;  ///< that run it, in the order of the model
+  std::vector<spec::Index> instances;  ///< the instances that run it, in the order of the model
 };
 
-/// Every unit, definition by definition; what no agent uses is left out. Linear in the instances.
+/// Every unit, definition by definition, except those that no agent uses. Linear in the instances.
 [[nodiscard]] std::vector<Unit> units_of(const spec::Model& model);
 
 /// "robot.control"
 [[nodiscard]] std::string unit_path(const Unit& unit);
-/// "line_follower::robot::control": the user's.
+/// "line_follower::robot::control": the namespace of the user's code.
 [[nodiscard]] std::string unit_namespace(const spec::Model& model, const Unit& unit);
-/// "tessera_generated::units::robot::control": what Tessera adds to a unit. Names of specifications and
-/// generated names meet in no scope: ours stand in `tessera_generated`, or begin with `tessera_` where they
-/// have to stand beside the user's, and `check` keeps both for us.
+/// "tessera_generated::units::robot::control": the namespace of what Tessera adds to a unit. Generated names
+/// cannot clash with names of the specification: they stand in `tessera_generated`, or begin with `tessera_`
+/// where they have to stand beside the user's. `check` reserves both.
 [[nodiscard]] std::string generated_namespace(const Unit& unit);
 /// "robot/control.hpp"
 [[nodiscard]] std::string unit_header(const Unit& unit);
@@ -38,12 +38,12 @@ struct Unit {
 /// "src/control.cpp", or "src/robot/control.cpp" when there are several definitions.
 [[nodiscard]] std::string user_file(const std::vector<Unit>& units, const Unit& unit);
 
-/// What all generated files of one system are made from.
+/// The input from which all files of one system are generated.
 struct Project {
   const spec::Model& model;
   const verify::VerifiedNet& net;
-  std::string spec_path;  ///< in #line
-  std::string spec_name;  ///< in comments: "spec.yaml"
+  std::string spec_path;  ///< its name in #line
+  std::string spec_name;  ///< its name in comments: "spec.yaml"
   std::vector<Unit> units;
   std::vector<NetVariants> nets;  ///< one per unit
 

@@ -41,8 +41,8 @@ std::string bind_real(const Project& project, const spec::Subsystem& subsystem, 
                      type_name(project.model, field.type, hidden), safe, part);
 }
 
-/// The number that is limited stands behind the payload of the buffer, whose members are those of the
-/// structure.
+/// The number that is limited stands behind the payload of the buffer, whose members are those
+/// of the structure.
 std::string bind_limit(const spec::Subsystem& subsystem, const spec::Limit& limit) {
   const std::string& buffer = subsystem.real[limit.real].name;
   std::vector<std::string> members;

@@ -22,7 +22,7 @@ std::string table(std::string_view type, std::string_view name, const std::strin
   return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
 }
 
-/// Of the drivers in C++; many controllers have none.
+/// The table of the drivers in C++. Many controllers have none.
 std::string driver_table(std::string_view name, const std::string& rows) {
   return rows.empty() ? rows : table("CppDriver", name, rows) + '\n';
 }

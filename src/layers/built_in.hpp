@@ -13,8 +13,8 @@ namespace tessera::layers {
 [[nodiscard]] const spec::CommunicationModel& model_of(const spec::Model& model,
                                                        const spec::Channel& channel);
 
-/// The roles of what a model consists of: those of the built-in models, whose forms an author's model may
-/// have too. A shared place has a role only if it starts with the tokens of that role.
+/// The role of an element of a communication model. Roles are those of the built-in models; a model of the
+/// author may have the same form. A shared place has a role only if it starts with the tokens of that role.
 [[nodiscard]] net::PlaceRole role_of(const spec::SharedPlace& place);
 [[nodiscard]] net::PlaceRole role_of(const spec::ModelSide::Place& place);
 [[nodiscard]] net::TransitionRole role_of(const spec::ModelSide::Transition& transition);

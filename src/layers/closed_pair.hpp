@@ -5,10 +5,10 @@
 
 namespace tessera::layers {
 
-/// A communication model alone: both sides, the places they share, and for each side a user who sends or
-/// receives again and again. Places and transitions are named "send.work", "receive.begin"; shared places by
-/// their names. Operations and fused places are of channel 0; every element has its line of the
-/// specification.
+/// A communication model alone: both sides, the places they share, and for each side a transition by which
+/// it sends or receives again and again. Places and transitions are named "send.work", "receive.begin";
+/// shared places keep their names. Operations and fused places belong to channel 0. Every element has its
+/// line of the specification.
 struct ClosedPair {
   net::Net net;
   net::TransitionId sends_again, receives_again;

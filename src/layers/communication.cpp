@@ -140,8 +140,8 @@ net::PageId draw_nothing(Sheet& sheet) {
 
 }  // namespace
 
-/// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per channel it
-/// uses.
+/// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per
+/// channel it uses.
 net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index,
                                Direction direction) {
   const bool sends = direction == Direction::send;

@@ -5,7 +5,7 @@
 
 namespace tessera::layers {
 
-/// What the specification knows of a condition, as the net says it.
+/// Translates what the specification knows about a condition into the terms of the net.
 [[nodiscard]] constexpr net::Condition::Truth truth(spec::Truth known) {
   switch (known) {
     case spec::Truth::free:

@@ -42,8 +42,8 @@ class Places {
   std::vector<PlaceId> fused_;
 };
 
-/// The places of a communication page: those outside any branch, and those of each branch of a parallel
-/// transfer.
+/// The places of a communication page: those outside any branch, and those of each branch of
+/// a parallel transfer.
 struct Branches {
   Nodes trunk;
   std::vector<Nodes> branches;  ///< empty unless the page forks
@@ -88,9 +88,9 @@ void add(Invariant& invariant, std::span<const PlaceId> places, const Nodes& nod
   for (const std::uint32_t node : nodes) invariant.terms.push_back({places[node], weight});
 }
 
-/// One token per subsystem, wherever it is: still above, in the subsystem, or waiting above for the others to
-/// end. Of the branches of a parallel transfer it counts the first; `branches` says that the others hold as
-/// much.
+/// One token per subsystem, wherever it is: still above, in the subsystem, or waiting above for the others
+/// to end. In a parallel transfer it counts the first branch; `branches` says that the other branches
+/// hold as much.
 class Subsystems {
  public:
   Subsystems(const net::HierarchicalNet& pages, const Places& places, std::size_t instances)
@@ -141,9 +141,9 @@ class Subsystems {
   std::vector<Invariant> branches_;  // second and later branches
 };
 
-/// What holds of the memory of each channel by its model, summed over all behaviours that use it. First those
-/// that say that one of several places is marked, then those that say how much places of both sides hold
-/// together.
+/// What holds of the memory of each channel by its model, summed over all behaviours that use it. First
+/// those that say that one of several places is marked, then those that say how much places of both
+/// sides hold together.
 class Channels {
  public:
   Channels(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net,

@@ -11,7 +11,7 @@
 
 namespace tessera::layers {
 
-/// Looks up what the paths of properties mean in a flat net.
+/// Finds the places of a flat net that the paths of properties mean.
 class NetPaths {
  public:
   NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net);

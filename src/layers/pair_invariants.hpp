@@ -7,8 +7,8 @@
 
 namespace tessera::layers {
 
-/// A sum over the memory of a channel that no firing of either side changes, however many behaviours use the
-/// sides. `in` and `out` of a side weigh nothing: they belong to the behaviour as well.
+/// A weighted sum over the memory of a channel that no firing of either side changes, however many behaviours
+/// use the sides. `in` and `out` of a side have weight zero: they belong to the behaviour as well.
 struct PairInvariant {
   std::vector<std::int32_t> shared;         ///< weights, as CommunicationModel::shared
   std::vector<std::int32_t> send, receive;  ///< weights, as ModelSide::places
@@ -18,11 +18,11 @@ struct PairInvariant {
   [[nodiscard]] bool is_unit() const;
 };
 
-/// The invariants of a model that say something of its shared places, those that are units first. Closes each
-/// side to a loop, computes the minimal semiflows of the pair, and takes the places of the loops out again:
-/// each side holds one token, so that what is counted at `in` and `out` is what its other places do not hold.
+/// The invariants of a model that concern its shared places, unit invariants first. Closes each side to a
+/// loop, computes the minimal semiflows of the pair, and removes the places of the loops again: each side
+/// holds one token, so that the token is at `in` or `out` exactly if no other place of the side holds it.
 ///
-/// Exponential at worst; stops with what is known by then where that would take long.
+/// Exponential at worst. Stops early if it would take long, and returns the invariants found by then.
 /// Source: Farkas' algorithm, as in Colom and Silva, *Convex geometry and semiflows in P/T nets*, 1991.
 [[nodiscard]] std::vector<PairInvariant> pair_invariants(const spec::CommunicationModel& model);
 

@@ -10,11 +10,10 @@
 
 namespace tessera::layers {
 
-/// The properties of the specification, over places of the net. A path names a place, or a page and with it
-/// all places in it; a channel and a state of it, which may be given by a buffer if that belongs to one
-/// channel.
+/// The properties of the specification, over places of the net. A path names a place, a page with all places
+/// in it, or a channel and one of its states. A buffer may stand for its channel if it has only one.
 ///
-/// pages, net: build(model), and that flattened.
+/// pages, net: build(model), and the flat net of it.
 /// Errors: E101 names that the net does not have; E112 a path that ends too early, or a buffer of several
 /// channels. One per property and fleet.
 [[nodiscard]] std::optional<std::vector<net::Property>> properties(const spec::Model& model,

@@ -10,19 +10,20 @@
 
 namespace tessera::layers {
 
-/// What the five layers draw into, together.
+/// The net that the functions of the five layers draw together.
 struct Draft {
   explicit Draft(const spec::Model& specification);
 
   const spec::Model& model;
   Wiring wiring;
   net::HierarchicalNet net;
-  /// Per channel the fusion sets of the shared places of its model; none for channels that no behaviour uses.
+  /// For each channel, the fusion sets of the shared places of its model. None if no behaviour
+  /// uses the channel.
   std::vector<std::vector<net::FusionId>> memory;
 };
 
-/// One page while it is drawn. Its id exists from the start, so that pages below it can name it as their
-/// parent.
+/// One page while it is drawn. Its id exists from the start, so that pages below it can name it
+/// as their parent.
 class Sheet {
  public:
   Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
@@ -36,16 +37,16 @@ class Sheet {
   std::uint32_t page(net::PageId page);
   std::uint32_t fused(std::string_view name, net::FusionId set);
 
-  /// The new transition, so that more can be said of it; valid until the next one.
+  /// Returns the new transition, so that more of it can be set. Valid until the next one.
   net::PageTransition& transition(std::string_view name, std::vector<std::uint32_t> inputs,
                                   std::vector<std::uint32_t> outputs, net::Condition condition = {});
 
-  /// What is drawn from here on belongs to the block (index into net::Parts::blocks) or, net::no_index, to none.
+  /// What is drawn from here on belongs to this block, an index into net::Parts::blocks. net::no_index: none.
   void in_block(std::uint32_t block) { block_ = block; }
 
   [[nodiscard]] net::PageId id() const { return id_; }
   [[nodiscard]] net::Page& drawn() { return page_; }
-  /// Puts the page into the net. The sheet is spent.
+  /// Puts the page into the net. The sheet must not be used afterwards.
   net::PageId finish(std::uint32_t input, std::uint32_t output);
 
  private:

@@ -53,8 +53,8 @@ Condition::After after(Possible possible) {
   return {possible(spec::Ending::terminal), possible(spec::Ending::error) || possible(spec::Ending::failure)};
 }
 
-/// The initial conditions of a behaviour's successors: of the entries of `next`, the first that holds is
-/// taken.
+/// The initial conditions of a behaviour's successors: of the entries of `next`, the first that
+/// holds is taken.
 std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
   if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always) return {{}};
   std::vector<Condition> conditions;

@@ -8,14 +8,14 @@ namespace tessera::layers {
 
 enum class Direction : std::uint8_t { send, receive };
 
-/// Which channels join the buffers of each instance, in channel order.
+/// The channels that begin or end at the buffers of each instance, in channel order.
 class Wiring {
  public:
   explicit Wiring(const spec::Model& model);
 
-  /// The channels that a behaviour of `instance` sends to or receives from, in the order of the blocks of its
-  /// page: its `send:`/`receive:` list (channels of one output in channel order), else the order of
-  /// Model::channels.
+  /// The channels that a behaviour of `instance` sends to or receives from, in the order of the blocks
+  /// of its page: its `send:`/`receive:` list (channels of one output in channel order), else the
+  /// order of Model::channels.
   [[nodiscard]] std::vector<spec::Index> used(spec::Index instance, const spec::Behaviour& behaviour,
                                               Direction direction) const;
 

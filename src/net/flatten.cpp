@@ -187,8 +187,8 @@ class Flattening {
     }
   }
 
-  /// The place behind a node. For a page, it is the place at its port; the net may again
-  /// be entered through a page.
+  /// The place behind a node. For a page, it is the place at its port; the net may again be entered
+  /// through a page.
   [[nodiscard]] PlaceId resolve(PageId page, std::uint32_t node, std::uint32_t Page::*port) const {
     while (net_.pages[page.value].nodes[node].page.valid()) {
       page = net_.pages[page.value].nodes[node].page;

@@ -30,7 +30,7 @@ using FusionId = Id<struct FusionTag>;          ///< a fusion set of a hierarchi
 enum class Layer : std::uint8_t { system, agent, subsystem, behaviour, communication };
 inline constexpr std::size_t layer_count = 5;
 
-/// What a token put into a place starts (paper, sec. II).
+/// The operation that a token starts when it is put into a place (paper, sec. II).
 struct Operation {
   enum class Kind : std::uint8_t {
     none,
@@ -65,14 +65,14 @@ struct Condition {
     bool exhaustive;
     bool operator==(const Known&) const = default;
   };
-  /// What is known if any iteration may end by a failure: user code throws, a device fails, the watchdog
-  /// strikes. nullopt: the same as without.
+  /// What is known if any iteration may end with a failure: user code throws, a device fails, a call takes
+  /// longer than the watchdog allows. nullopt: the same as without failures.
   std::optional<Known> with_failures{};
   struct After {
     bool terminal, error;  ///< t5; t6, by a condition or a failure
     bool operator==(const After&) const = default;
   };
-  /// next: after which of the two the entry can be taken; after which it can be that no entry holds.
+  /// next: the endings after which the entry can be taken; the endings after which possibly no entry holds.
   After follows{true, true}, none_follows{true, true};
   bool operator==(const Condition&) const = default;
 
@@ -89,32 +89,32 @@ inline constexpr std::uint32_t no_index = UINT32_MAX;  ///< no behaviour, no blo
 
 // ------------------------------------------------------------------------------------------ roles
 
-/// What a place is in the five layers. Programs ask for the role; the name is for people.
+/// The role of a place in the five layers. Programs ask for the role; the name is for people.
 enum class PlaceRole : std::uint8_t {
-  none,          ///< nothing that anybody asks for, or of a net that no specification made
+  none,          ///< no role, or a net that was not made from a specification
   input,         ///< of its page
   output,        ///< of its page
   waiting,       ///< of a block: until the value is acknowledged
-  no_successor,  ///< a behaviour was left and no initial condition held (verify/communication/abstraction.hpp)
+  no_successor,  ///< a behaviour was left and no initial condition held: see verify::abstract_net
   // The memory of a channel, of the form that the built-in models have:
-  lock,         ///< both sides are non-blocking: nobody uses the memory
+  lock,         ///< both sides are non-blocking: neither uses the memory now
   empty,        ///< no value
-  full,         ///< a value that nobody has read
+  full,         ///< a value that has not been read
   acknowledged  ///< a value was read, and the sender does not know it yet
 };
 
-/// What a transition is in the five layers, beside its condition.
+/// The role of a transition in the five layers, besides its condition.
 enum class TransitionRole : std::uint8_t {
   none,
   start,        ///< enters the page: starts its agents, its subsystems, or its first behaviour
   end,          ///< leaves the page
-  overwrite,    ///< of a block: sends in place of a value that nobody has read
+  overwrite,    ///< of a block: replaces a value that has not been read
   skip,         ///< of a block: there is nothing to read
   no_successor  ///< a behaviour is left and no initial condition holds
 };
 
-/// What the numbers of a net's elements mean: the agents, subsystems, channels and blocks it was made of.
-/// Empty for a net that no specification made.
+/// The meaning of the numbers of a net's elements: the agents, subsystems, channels and blocks of the net.
+/// Empty for a net that was not made from a specification.
 struct Parts {
   struct Subsystem {
     std::string path;         ///< "robot.control"
@@ -168,8 +168,8 @@ struct Page {
   Layer layer = Layer::system;
   PageId parent{};                         ///< invalid for the root
   std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
-  std::uint32_t agent = no_index;          ///< of the layers below the system
-  std::uint32_t behaviour = no_index;      ///< of the subsystem, from the behaviour layer down
+  std::uint32_t agent = no_index;          ///< in the layers below the system
+  std::uint32_t behaviour = no_index;      ///< in the subsystem; from the behaviour layer down
   std::uint32_t input = 0, output = 0;     ///< indices into nodes
   std::vector<Node> nodes{};
   std::vector<PageTransition> transitions{};
@@ -209,8 +209,8 @@ struct Place {
   std::uint32_t channel = UINT32_MAX;  ///< of a fused place
   Span span{};
   PlaceRole role = PlaceRole::none;
-  std::uint32_t agent = no_index;      ///< of the layers below the system
-  std::uint32_t behaviour = no_index;  ///< of the subsystem, from the behaviour layer down
+  std::uint32_t agent = no_index;      ///< in the layers below the system
+  std::uint32_t behaviour = no_index;  ///< in the subsystem; from the behaviour layer down
   std::uint32_t block = no_index;      ///< into Parts::blocks
 
   [[nodiscard]] bool is(Layer of_layer, PlaceRole of_role) const {
@@ -227,21 +227,21 @@ struct Transition {
   std::uint32_t subsystem = no_subsystem;
   Span span{};
   TransitionRole role = TransitionRole::none;
-  std::uint32_t agent = no_index;      ///< of the layers below the system
-  std::uint32_t behaviour = no_index;  ///< of the subsystem, from the behaviour layer down
+  std::uint32_t agent = no_index;      ///< in the layers below the system
+  std::uint32_t behaviour = no_index;  ///< in the subsystem; from the behaviour layer down
   std::uint32_t block = no_index;      ///< into Parts::blocks
 };
 
-/// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones may have
-/// more.
+/// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones
+/// may have more.
 struct Arc {
   PlaceId place;
   std::uint32_t weight = 1;
   auto operator<=>(const Arc&) const = default;
 };
 
-/// A place/transition net with the origin of every element. Immutable once built; arcs are stored per
-/// transition.
+/// A place/transition net with the origin of every element. Immutable once built; arcs are
+/// stored per transition.
 ///
 /// Threads: const members from any thread.
 class Net {
@@ -249,7 +249,7 @@ class Net {
   Net() = default;
   explicit Net(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
-  /// What the numbers of its elements mean; nets made from one another share it.
+  /// The meaning of the numbers of its elements. Nets made from one another share it.
   [[nodiscard]] const Parts& parts() const { return *parts_; }
   [[nodiscard]] const std::shared_ptr<const Parts>& shared_parts() const { return parts_; }
 

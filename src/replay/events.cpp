@@ -46,7 +46,7 @@ std::string path_of(const Recording& recording, const Event& event) {
   return event.instance() < recording.instances.size() ? recording.instances[event.instance()] : "system";
 }
 
-/// Of an event that is no value.
+/// The text of an event that is not a value.
 std::string text_of(const Recording& recording, const Entry& entry) {
   const Event& event = entry.event;
   switch (event.kind()) {
@@ -91,7 +91,7 @@ std::string prefix_of(const Event& event) {
 
 struct Row {
   Event event;
-  std::string text;  ///< as somebody wants to have it
+  std::string text;  ///< as it is printed
 };
 
 /// The rows that `make` makes of the selected events, in the order of their times.

@@ -9,12 +9,12 @@
 
 namespace tessera::replay {
 
-/// Which events of a recording somebody wants to see.
+/// The events of a recording to show.
 struct Selection {
   double from_s = 0, to_s = HUGE_VAL;
-  std::size_t last = 0;    ///< the last so many of them; 0: all
+  std::size_t last = 0;    ///< only this many, the last ones; 0: all
   std::string subsystem;   ///< path, or "system"; empty: all
-  std::string containing;  ///< in their text
+  std::string containing;  ///< only events whose text contains this
   bool events = true;      ///< firings, log lines, faults and the like
   /// Values of buffers whose path contains this; nullopt: none.
   std::optional<std::string> values;
@@ -28,7 +28,7 @@ void write_csv(const Recording& recording, const Selection& selection, std::ostr
 
 /// Values as CSV, a row per change: time_ns, buffer, status (empty, "invalid", "no value", "failed"),
 /// stamp_ns, then a column per field of the selected buffers, empty where a buffer has no such field. A value
-/// that is one number stands in the column `value`; of arrays the first 16 elements are shown.
+/// that is one number stands in the column `value`. Only the first 16 elements of an array are shown.
 void write_values_csv(const Recording& recording, const Selection& selection, std::ostream& to);
 
 }  // namespace tessera::replay

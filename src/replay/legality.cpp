@@ -45,8 +45,8 @@ class Play {
   static Judgement illegal(std::string why) { return {Verdict::illegal, std::move(why)}; }
   static Judgement incomplete(std::string why) { return {Verdict::incomplete, std::move(why)}; }
 
-  /// Where to play from: of a recording whose first segments are gone, behind the marking that the first
-  /// which is left begins with.
+  /// Finds the entry to begin with. If the first segments of a recording are gone, this is the entry after
+  /// the marking with which the first remaining segment begins.
   Outcome begin(Entries::const_iterator& from) {
     from = recording_.entries.begin();
     if (recording_.segment.value_or(0) == 0) return {};
@@ -104,7 +104,7 @@ class Play {
                        path_of(event));
   }
 
-  /// Of what was found legal.
+  /// The judgement of a recording without illegal firings.
   [[nodiscard]] Judgement of_the_end() const {
     if (recording_.truncated) return incomplete("the recording is cut off at its end");
     if (recording_.lost > 0)
@@ -167,7 +167,7 @@ class AnyOrder : Play {
     Outcome outcome = begin(entry);
     for (; !outcome && entry != recording_.entries.end(); ++entry)
       outcome = entry->event.kind() == Event::Kind::marking ? end_part(*entry) : take(entry->event);
-    // What is lost and was not missed in between is missed at the end of a subsystem.
+    // Lost events that were not missed in between are missed at the end of a subsystem.
     if (!outcome) outcome = play_part(recording_.truncated || recording_.lost > known_lost_);
     if (outcome) return *outcome;
     return missing_.empty() ? of_the_end() : incomplete(missing_);

@@ -22,45 +22,46 @@ class NetPlay {
   static constexpr std::uint32_t none = UINT32_MAX;
 
   NetPlay(const Recording& recording, const net::Net& net);
-  /// Why the recording is none of this net; empty: every transition was found. Nothing else may be called
-  /// then.
+  /// Why the recording does not belong to this net; empty: every transition was found. If it is not empty,
+  /// nothing else may be called.
   [[nodiscard]] const std::string& mismatch() const { return mismatch_; }
 
   /// Why a firing cannot be the next.
   struct Obstacle {
     enum class Kind : std::uint8_t {
-      no,       ///< it can
-      never,    ///< whatever other subsystems do, and whatever of them is missing
-      version,  ///< its channel is not as far yet: version `due` comes first
-      token     ///< a token that another subsystem or the upper layers bring
+      no,       ///< nothing: it can
+      never,    ///< whatever other subsystems do, and whichever of their events are missing
+      version,  ///< version `due` of its channel comes first
+      token     ///< it lacks a token that another subsystem or the upper layers give
     } kind = Kind::no;
-    std::uint32_t place = none;  ///< that holds no token
-    std::uint32_t due = 0;       ///< of versions
+    std::uint32_t place = none;  ///< the place without a token
+    std::uint32_t due = 0;       ///< the version that comes first
   };
   [[nodiscard]] Obstacle obstacle(const Event& firing) const;
   /// "2.500000 s: 'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
   [[nodiscard]] std::string complaint(const Event& firing, const Obstacle& obstacle) const;
 
-  /// What is wrong after it: a second token in a place; empty: nothing. Precondition: no obstacle.
+  /// Fires. Returns what is wrong afterwards, a second token in a place; empty: nothing.
+  /// Precondition: no obstacle.
   [[nodiscard]] std::string fire(const Event& firing);
 
   /// The tokens where a segment begins; nullopt and `wrong` when the event names a place that is not there.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> read_marking(const Recording::Entry& entry,
                                                                        std::string& wrong);
-  /// From here on; the versions of the channels are not known then.
+  /// Continues from this marking. The versions of the channels are then unknown.
   void start_from(std::vector<std::uint32_t> marking);
   /// The first place that holds another number of tokens; none: they are the same.
   [[nodiscard]] std::uint32_t difference(const std::vector<std::uint32_t>& marking) const;
 
   [[nodiscard]] std::uint32_t channels() const { return static_cast<std::uint32_t>(versions_.size()); }
-  /// That a firing touches, or none.
+  /// The channel that a firing touches, or none.
   [[nodiscard]] std::uint32_t channel_of(const Event& firing) const { return channels_[firing.subject]; }
   [[nodiscard]] bool knows_version(std::uint32_t channel) const {
     return versions_[channel].is != Version::unknown;
   }
   /// The next firing of the channel carries this version, if none is missing.
   void guess_version(std::uint32_t channel, std::uint32_t version);
-  /// None was missing.
+  /// No firing was missing: the guessed versions are right.
   void confirm_versions();
 
   [[nodiscard]] const std::vector<std::uint32_t>& marking() const { return marking_; }

@@ -7,16 +7,16 @@
 
 namespace tessera::replay {
 
-/// Which behaviour of a subsystem ran when.
+/// The behaviours of a subsystem over time.
 struct Lane {
   struct Stretch {
-    std::size_t behaviour;  ///< into `behaviours`
+    std::size_t behaviour;  ///< index into `behaviours`
     double from_s, to_s;
   };
   std::string path;                     ///< of the subsystem
   std::vector<std::string> behaviours;  ///< in order of first appearance
   std::vector<Stretch> stretches;
-  std::vector<double> errors_s;  ///< when an iteration ended in an error
+  std::vector<double> errors_s;  ///< times at which an iteration ended in an error
   std::uint64_t iterations = 0;
 };
 

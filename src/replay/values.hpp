@@ -17,23 +17,23 @@ class ValueTrack {
   explicit ValueTrack(const Recording& recording);
 
   struct Change {
-    std::uint32_t number = 0;  ///< into Recording::buffers
+    std::uint32_t number = 0;  ///< index into Recording::buffers
     const Recording::Buffer& buffer;
     ValueEvent event;
-    std::string_view bytes;  ///< what it holds now; of a hashed value number and hash
+    std::string_view bytes;  ///< what the buffer holds now; for a hashed value, its size and hash
     bool hashed = false;
-    const ValueLayout* layout;  ///< nullptr: of a type that is not known
+    const ValueLayout* layout;  ///< nullptr: the type is not known
   };
-  /// nullopt: the entry is no value. Entries of one subsystem must come in their order. Valid until the next
-  /// call.
+  /// nullopt: the entry is no value. Entries of one subsystem must come in their order. Valid until
+  /// the next call.
   [[nodiscard]] std::optional<Change> follow(const Recording::Entry& entry);
 
   struct Value {
-    std::string_view bytes;  ///< empty: there was none yet
+    std::string_view bytes;  ///< empty: no value yet
     bool hashed = false;
-    const ValueLayout* layout;  ///< nullptr: of a type that is not known
+    const ValueLayout* layout;  ///< nullptr: the type is not known
   };
-  /// What a buffer, by its number, holds now. Valid until the next call of `follow`.
+  /// The value that a buffer, given by its number, holds now. Valid until the next call of `follow`.
   [[nodiscard]] Value value(std::uint32_t buffer) const;
 
  private:

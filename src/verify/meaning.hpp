@@ -6,17 +6,17 @@
 
 namespace tessera::verify {
 
-/// How a property speaks of runs and choices.
+/// The form of a property: which markings it speaks of, and what it says of them.
 enum class Sort : std::uint8_t {
-  universal,     ///< of every marking
-  completeness,  ///< of every marking, that something can fire in it
-  always_can,    ///< of every marking, that something can come of it
-  follows,       ///< of some markings, that something always comes of them
-  existential    ///< of some marking
+  universal,     ///< something is true in every marking
+  completeness,  ///< something can fire in every marking
+  always_can,    ///< something can be reached from every marking
+  follows,       ///< something always follows some markings
+  existential    ///< something is true in some marking
 };
 
-/// What a verdict on a net whose conditions are free choices says about the net whose conditions choose.
-/// Empty for unknown.
+/// What a verdict on the abstract net, whose conditions are free choices, says about the executed net, whose
+/// conditions choose. Empty for unknown.
 [[nodiscard]] std::string meaning_of(Verdict verdict, Sort sort);
 
 }  // namespace tessera::verify

@@ -25,26 +25,27 @@ enum class Verdict : std::uint8_t { holds, violated, unknown };
 struct PropertyResult {
   std::string name;  ///< "safe", or the author's name
   Verdict verdict = Verdict::unknown;
-  std::string asks = {};         ///< of the author's: "always_reachable robot.motor.drive"
+  std::string asks = {};         ///< a property of the author: "always_reachable robot.motor.drive"
   std::string method = {};       ///< "place invariants"
-  std::string why = {};          ///< for violated and unknown: in one line
-  std::string meaning = {};      ///< of the verdict for the net with conditions
+  std::string why = {};          ///< violated, unknown: the reason, in one line
+  std::string meaning = {};      ///< what the verdict means for the net with conditions
   std::string explanation = {};  ///< what the method did: sizes before and after reductions
-  /// violated: a run that shows it, if one was found. Transitions of abstract_net (verify/abstraction.hpp).
+  /// violated: a run that shows it, if one was found: transitions of abstract_net()
+  /// (verify/communication/abstraction.hpp).
   std::vector<net::TransitionId> trace = {};
-  bool has_trace = false;               ///< an empty run can be one: the start is already bad
-  std::vector<std::string> waits = {};  ///< violated: who waits for whom where the run ends
+  bool has_trace = false;               ///< a trace may be empty: the initial marking is a violation
+  std::vector<std::string> waits = {};  ///< violated: who waits for whom at the end of the run
   struct Behaviour {
     std::string path;        ///< "robot.control.stop"
     std::uint32_t line = 0;  ///< of the specification
     bool operator==(const Behaviour&) const = default;
   };
-  /// live_behaviours, violated: all that are known never to run.
+  /// live_behaviours, violated: all behaviours that are known never to run.
   std::vector<Behaviour> behaviours = {};
   double seconds = 0;
   std::uint64_t states = 0;  ///< markings visited
-  bool warning = false;      ///< a violation is worth knowing, and no more
-  bool exceptions = false;   ///< judged, and the trace named, with exceptions possible everywhere
+  bool warning = false;      ///< a violation is only a warning
+  bool exceptions = false;   ///< verdict and trace are about the net under Assume::exceptions
 };
 
 struct Report {
@@ -53,11 +54,12 @@ struct Report {
   std::string verification_hash;  ///< see verification_hash below
 
   [[nodiscard]] bool all_hold() const;
-  /// violated if a property is that is no warning; else unknown if one is; else holds.
+  /// Warnings do not count: violated if another property is violated; else unknown if one is
+  /// unknown; else holds.
   [[nodiscard]] Verdict overall() const;
 };
 
-/// What a net may be accepted in spite of. Who accepts it says so.
+/// The verdicts in spite of which a net may be accepted. The caller of accept() names them.
 struct InSpiteOf {
   bool unknown = false;   ///< a property that could not be decided
   bool violated = false;  ///< a property that is violated
@@ -83,8 +85,8 @@ class VerifiedNet {
 /// Threads: pure. Linear in the net and the invariants.
 [[nodiscard]] Report check(const net::Net& net, const std::vector<net::Invariant>& invariants);
 
-/// The net as a VerifiedNet if every property of the report that is no warning holds, or fails only in a way
-/// that is named; else nullopt. A report without properties says nothing, and is not enough.
+/// The net as a VerifiedNet, if every property of the report holds, is a warning, or fails only in a way that
+/// `in_spite_of` names; else nullopt. A report without properties is not enough.
 [[nodiscard]] std::optional<VerifiedNet> accept(net::Net net, Report report, InSpiteOf in_spite_of = {});
 
 // ---------------------------------------------------------------------------------------------- prove
@@ -93,23 +95,23 @@ class VerifiedNet {
 [[nodiscard]] const std::vector<std::string>& method_names();
 
 struct ProveOptions {
-  std::chrono::duration<double> time{60};  ///< for all properties together, shared out fairly
+  std::chrono::duration<double> time{60};  ///< for all properties together, divided fairly
   std::uint64_t bytes = std::uint64_t{2} << 30U;
   std::string method = {};   ///< use only this one of method_names(); empty: the first that has an answer
   reduce::Rules rules = {};  ///< reductions that may be used
   std::vector<std::string> only;            ///< names of properties; empty: all
-  const std::atomic<bool>* stop = nullptr;  ///< true: give up what is not yet decided
+  const std::atomic<bool>* stop = nullptr;  ///< true: give up the properties that are still open
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;
 };
 
-/// What is asked, besides the net.
+/// The input of prove: the net, and what is asked about it.
 struct Subject {
   const net::Net& net;
-  /// The pages the net was flattened from; nullptr for a net of another origin, which has the properties
-  /// safe and deadlock_free (every dead marking counts) only.
+  /// The pages the net was flattened from. nullptr: the net has another origin, and only has the properties
+  /// safe and deadlock_free (every dead marking counts).
   const net::HierarchicalNet* pages = nullptr;
   const std::vector<net::Invariant>& invariants;
-  /// Of the author, over places of the net; need pages.
+  /// Properties of the author, over places of the net. They need pages.
   std::span<const net::Property> properties{};
 };
 
@@ -117,8 +119,8 @@ struct Subject {
 [[nodiscard]] const std::vector<std::string>& default_properties();
 
 /// The identity of what prove is asked: net, pages, invariants, what is known of the conditions, names of the
-/// default properties, properties of the author, checker_version. Equal ones have equal verdicts, as far as
-/// time allows to find them.
+/// default properties, properties of the author, checker_version. Equal hashes have equal verdicts, as far as
+/// there is time to find them.
 ///
 /// Threads: pure. Linear in the net.
 [[nodiscard]] std::string verification_hash(
@@ -126,7 +128,7 @@ struct Subject {
 
 /// Decides the default properties and those of the author (docs/verification.md).
 ///
-/// Threads: pure, but for options.progress, called in the same thread.
+/// Threads: pure, except that options.progress is called, in the same thread.
 [[nodiscard]] Report prove(const Subject& subject, const ProveOptions& options = {});
 
 }  // namespace tessera::verify

@@ -18,8 +18,8 @@ class UpperLayers {
 
   /// Fires t_in of the system and of every agent. Then every subsystem may be entered.
   void enter(Time now);
-  /// Fires t_out of the agent if this was its last subsystem, and t_out of the system
-  /// if this was the last agent.
+  /// Fires t_out of the agent if this was its last subsystem, and t_out of the system if this was
+  /// the last agent.
   void subsystem_ended(std::uint32_t instance, Time now);
   [[nodiscard]] bool ended() const { return agents_left_ == 0; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }

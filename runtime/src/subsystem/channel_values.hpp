@@ -26,9 +26,9 @@ class ChannelValues {
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port);
 
-  /// From now on the devices need a valid value on every input that this behaviour receives.
+  /// From now on, commands to devices need a valid value on every input that this behaviour receives.
   void await_inputs(std::uint16_t behaviour);
-  /// Ages become those of `now`.
+  /// Sets the ages of the values to those at `now`.
   void refresh_ages(Time now);
   /// The transition function has seen every value.
   void mark_seen();
@@ -48,14 +48,14 @@ class ChannelValues {
     std::uint32_t source = UINT32_MAX;
     bool known = false;    // a valid value has come
     bool used = false;     // some behaviour receives it
-    bool awaited = false;  // one that has been called does
+    bool awaited = false;  // a behaviour that was called receives it
   };
   void find_received_inputs();
 
   const SubsystemParts& parts_;
   const RunControl& control_;
   std::vector<Input> inputs_;                         // as Bindings::inputs
-  std::vector<std::vector<std::uint32_t>> received_;  // per behaviour: inputs; of effectors only
+  std::vector<std::vector<std::uint32_t>> received_;  // per behaviour: inputs; only with effectors
 };
 
 }  // namespace tessera

@@ -20,16 +20,17 @@ namespace tessera {
 
 /// Gives the devices of one subsystem their commands and heartbeats.
 ///
-/// *Safe command.* Given instead of the outputs
+/// *Safe command.* It is given instead of the outputs
 /// - until a valid value has come to every input that the behaviours called so far receive;
 /// - while no valid value has arrived on some input for longer than `stale` (counted from the start of the
-///   run before the first; an invalid value is no news);
-/// - while an emergency stop stands;
-/// - for good once a subsystem that feeds an input has ended, and while one stalls.
-/// Given at once on failure, and by leave on every way out of the run. It comes first, and is reported then.
-/// What a device refuses is tried again; if it refuses for as long as Effectors::patience, the run fails.
+///   run before the first value; an invalid value does not count);
+/// - during an emergency stop;
+/// - while a subsystem that feeds an input stalls, and for good once one has ended.
+/// It is given at once on failure, and by `leave` whenever the run ends. It is given first and reported
+/// afterwards. If a device refuses it, it is given again; if the device refuses for longer than
+/// Effectors::patience, the run fails.
 ///
-/// Threads: the subsystem's, unless said otherwise.
+/// Threads: that of the subsystem, unless said otherwise.
 class DeviceCommands {
  public:
   /// All of these must outlive it. inputs: of the same subsystem.
@@ -39,7 +40,7 @@ class DeviceCommands {
   /// Opens the devices; an effector gets its safe command as soon as its device is open. false and `error`:
   /// one could not be opened or refuses; what is open must still be closed. Threads: before the run.
   [[nodiscard]] bool open(std::string& error);
-  /// Closes those that are open and returns what went wrong. Threads: after the run.
+  /// Closes the open devices and returns what went wrong. Threads: after the run.
   std::vector<std::string> close() { return life_.close(); }
 
   /// There is no real effector.
@@ -50,15 +51,15 @@ class DeviceCommands {
   [[nodiscard]] Effectors& effectors() { return effectors_; }
   [[nodiscard]] const Effectors& effectors() const { return effectors_; }
 
-  /// Why the outputs are no commands.
+  /// Why the outputs were not sent as commands.
   struct Failure {
     Fault fault;
-    std::string_view what;  ///< in the room that was given, or a constant
+    std::string_view what;  ///< text in the given room, or a constant
   };
   /// Sends the outputs, or gives the safe command where they must not go to the devices. place: where the
   /// token is. nullopt: done. Throws what a driver throws.
   [[nodiscard]] std::optional<Failure> send(Time now, std::string_view place, std::span<char> room);
-  /// The safe command because of a fault, which has not been reported yet.
+  /// Gives the safe command because of a fault, which has not been reported yet.
   void make_safe_after_fault() { give_safe_command({SafeReason::Kind::fault}); }
   /// The fault has been reported. Begins an emergency stop if only an operator may end what it has begun.
   void note_fault(std::string_view what);
@@ -67,13 +68,13 @@ class DeviceCommands {
   void beat(Time now, std::string_view place);
   /// When `beat` must be called next; Time::max(): no device wants heartbeats.
   [[nodiscard]] Time next_beat() const { return life_.next_beat(); }
-  /// The safe command because the subsystem or the run ends.
+  /// Gives the safe command because the subsystem or the run ends.
   void leave() { give_safe_command({SafeReason::Kind::leaves}); }
-  /// Tries again, for as long as Effectors::patience, where a device has not taken it.
+  /// Gives the safe command again to devices that have not accepted it, for as long as Effectors::patience.
   void insist();
-  /// Calls heartbeats that are due. Gives the safe command if an input is stale or its source has ended or
-  /// stalls, and it has not been given for that reason, and again where a device has refused it. place: where
-  /// the token is.
+  /// Calls heartbeats that are due. Gives the safe command if an input is stale, or its source has ended or
+  /// stalls, unless it was already given for that reason. Gives it again to a device that has refused it.
+  /// place: where the token is.
   void guard(Time now, std::string_view place);
   /// When `guard` must be called next if nothing else happens; Time::max(): never.
   [[nodiscard]] Time guard_deadline(Time now) const;
@@ -98,8 +99,8 @@ class DeviceCommands {
   Effectors effectors_;
   SafeReason last_safe_{};            // why it was given last
   SafeReason held_{};                 // the safe command stands because of an input
-  Time refused_since_ = Time::max();  // the safe command, by some device
-  bool heart_failed_ = false;         // of a device
+  Time refused_since_ = Time::max();  // since when some device refuses the safe command
+  bool heart_failed_ = false;         // the heartbeat of a device has failed
 };
 
 }  // namespace tessera

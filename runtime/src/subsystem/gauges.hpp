@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-/// The values that observers of a running subsystem see. Each value is recent, but they may
-/// be from different moments.
+/// The values that observers of a running subsystem see. Each value is recent, but they may be
+/// from different moments.
 ///
 /// Threads: written by the subsystem's, read by any.
 struct alignas(64) Gauges {

@@ -17,13 +17,13 @@
 
 namespace tessera {
 
-/// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code.
-/// Knows no net.
+/// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code. It
+/// does not know the net.
 ///
-/// *Failure.* When user code throws, a device fails, an output is not finite, or the transition function
-/// takes longer than the watchdog, the outputs become those of the iteration before, they are sent marked
-/// invalid until an iteration succeeds, an effector gets its safe command at once, and the outcome is error
-/// whatever the conditions say.
+/// *Failure.* An iteration fails when user code throws, a device fails, an output is not finite, or the
+/// transition function takes longer than the watchdog allows. The outputs then become those of the iteration
+/// before, and are sent marked as invalid until an iteration succeeds. An effector gets its safe command at
+/// once. The outcome is error, whatever the conditions say.
 ///
 /// Channels and devices have classes of their own (ChannelValues, DeviceCommands).
 ///
@@ -35,8 +35,8 @@ class Operations final : public ContextServices {
   Operations& operator=(const Operations&) = delete;
 
   // Operations of places.
-  /// missed: so many instants of the rate, which is a fault: the function is not called, and the iteration
-  /// fails.
+  /// missed: the number of missed instants of the rate. If it is not zero, this is a fault: the function is
+  /// not called, and the iteration fails.
   void start_call(std::uint16_t behaviour, Time now, std::uint64_t missed = 0);
   void finish_call(Time now);
   void count() { ++iteration_; }
@@ -47,16 +47,16 @@ class Operations final : public ContextServices {
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port) { channels_.note_answer(port); }
 
-  // Conditions. Ages are those of `now`; what throws is an error.
+  // Conditions. Ages are those at `now`; a condition that throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
-  /// As decide, of what is decided elsewhere: no condition is evaluated.
+  /// As decide, with an outcome that is decided elsewhere: no condition is evaluated.
   void accept_outcome(Outcome outcome);
-  /// no_entry: none holds; unknown_entry: a condition has thrown, which has been logged.
+  /// no_entry: no entry holds. unknown_entry: a condition has thrown; this has been logged.
   static constexpr int no_entry = -1, unknown_entry = -2;
   [[nodiscard]] int route(std::uint16_t behaviour, Time now);
 
   [[nodiscard]] bool has_failed() const { return failed_; }
-  /// The last transition function has failed for a reason that is not here, as in a recorded run.
+  /// Marks the last transition function as failed, for the reason that it had in a recorded run.
   void fail_as_recorded(Fault fault, std::string_view what) { fail(fault, behaviour_, what); }
 
   [[nodiscard]] DeviceCommands& devices() { return devices_; }
@@ -109,8 +109,8 @@ class Operations final : public ContextServices {
   Time called_at_{};
   std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
-  std::uint16_t behaviour_ = 0;  // the last called
-  bool failed_ = false;          // the last transition function
+  std::uint16_t behaviour_ = 0;  // the behaviour called last
+  bool failed_ = false;          // the last transition function has failed
   bool erroneous_ = false;       // the last outcome was error
 };
 

@@ -8,24 +8,25 @@
 
 namespace tessera {
 
-/// When the calls of a subsystem with a rate begin: at instants k * period, each of which is that of at most
-/// one call (SubsystemExecutor, *Release*).
+/// When the calls of a subsystem with a rate begin: at instants k * period, with at most one call for each
+/// instant (SubsystemExecutor, *Release*).
 ///
 /// Threads: the subsystem's.
 class Releases {
  public:
-  /// period: zero: there is no rate.
+  /// period: zero if there is no rate.
   Releases(Duration period, Overrun overrun) : period_(period), overrun_(overrun) {}
 
   [[nodiscard]] bool have_rate() const { return period_ > Duration::zero(); }
   struct Release {
     Time at{};
-    std::uint64_t overruns = 0;  ///< instants passed over that have not been counted before
+    std::uint64_t overruns = 0;  ///< instants passed over since they were last counted
   };
-  /// The instant of the next call, whose token has arrived. waited: for other subsystems, since the last call.
+  /// The instant of the next call, whose token has arrived. waited: the time spent waiting for other
+  /// subsystems since the last call.
   /// Precondition: there is a rate.
   [[nodiscard]] Release next(Time arrival, Duration waited);
-  /// How many instants the next call has to fail for; once.
+  /// The number of missed instants for which the next call has to fail. Resets it.
   [[nodiscard]] std::uint64_t take_missed() { return std::exchange(missed_, 0); }
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 
@@ -37,7 +38,7 @@ class Releases {
 
   Duration period_;
   Overrun overrun_;
-  std::int64_t next_ = -1;       // k of the grid; -1: before the first call
+  std::int64_t next_ = -1;       // k of the next instant; -1: before the first call
   std::int64_t counted_to_ = 0;  // k up to which overruns have been counted
   std::uint64_t missed_ = 0;     // instants that the next call has to fail for
   std::uint64_t overruns_ = 0;

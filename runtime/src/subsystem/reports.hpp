@@ -10,10 +10,10 @@
 
 namespace tessera {
 
-/// What one subsystem says of itself: log lines and faults, to the terminal and the recording, and the faults
-/// that end the run.
+/// The reports of one subsystem: log lines and faults, which go to the terminal and the recording, and the
+/// faults that end the run.
 ///
-/// Threads: the subsystem's, unless said otherwise. Allocates nothing.
+/// Threads: that of the subsystem, unless said otherwise. Allocates nothing.
 class Reports {
  public:
   /// lane: nullptr: nothing is recorded.
@@ -22,15 +22,15 @@ class Reports {
 
   /// Does not return while the process ends without waiting for the subsystem.
   void log(LogLevel level, std::string_view text) const;
-  /// Something has gone wrong in a place of this subsystem.
+  /// Reports a fault in a place of this subsystem.
   void report(Fault fault, std::string_view place, std::string_view what) const {
     report(fault, place, what, lane_);
   }
-  /// The same from another thread, into that one's lane.
+  /// The same from another thread, with the lane of that thread.
   void report(Fault fault, std::string_view place, std::string_view what, RecordingLane* lane) const;
   /// Stops the run, which has failed because of this subsystem.
   void fail_run(std::string_view what) const;
-  /// What has happened to the thread of the subsystem. Async-signal-safe.
+  /// Records what has happened to the thread of the subsystem. Async-signal-safe.
   void record_death(std::string_view text) const {
     if (lane_ != nullptr)
       lane_->text(Event::Kind::fault, clock_.now(), static_cast<std::uint32_t>(Fault::crash), text);

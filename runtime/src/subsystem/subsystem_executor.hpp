@@ -14,23 +14,23 @@
 
 namespace tessera {
 
-/// Executes the net of one subsystem: fires what may fire, starts the operations of the places that get
-/// tokens, and says what it waits for. Resumable, so that one thread can run all of a system in simulated
-/// time, or a thread each in real time.
+/// Executes the net of one subsystem: fires enabled transitions, starts the operations of the places that get
+/// tokens, and says what it waits for. It can be resumed, so that one thread runs all subsystems in simulated
+/// time, and each subsystem has its own thread in real time.
 ///
 /// The rule of firing: a transition fires if its places in the subsystem hold tokens whose operations have
 /// finished, its condition holds, and the channel it touches, if any, makes its part of the firing
-/// (SharedChannel::fire) - the only step that other threads can interfere with, and it comes last. Where a
+/// (SharedChannel::fire). This last step is the only one that other threads can interfere with. If a
 /// transition with a timeout has alternatives, these are tried first.
 ///
 /// *Release.* The operation `call` of a subsystem with a rate starts at the first instant k * period that is
-/// not before the token's arrival and later than that of the call before; the grid is one for all behaviours.
-/// The first call starts at once. Instants passed over are overruns, unless the time went by waiting for
-/// other subsystems; Overrun::catch_up makes up for them, one call after the other.
+/// not before the token's arrival and later than that of the call before. All behaviours share these
+/// instants. The first call starts at once. Instants passed over are overruns, unless the time was spent
+/// waiting for other subsystems. With Overrun::catch_up, the missed calls follow late, one after the other.
 ///
-/// *Ends.* The token in `out`: the subsystem has ended. It is a fault, which stops the system, when that
-/// happens after an error (nobody routed it to another behaviour), and when no condition of `next` holds or
-/// one throws.
+/// *Ends.* When the token is in `out`, the subsystem has ended. This is a fault, which stops the system, if
+/// it happens after an error (no entry of `next` leads to another behaviour). It is also a fault if no
+/// condition of `next` holds, or if one throws.
 ///
 /// Threads: the subsystem's. No allocation and no lock in `step`, apart from what user code does.
 class SubsystemExecutor {
@@ -39,7 +39,7 @@ class SubsystemExecutor {
     RunControl& control;
     const Clock& clock;
     Waker& waker;
-    bool watched = false;  ///< somebody may look at the gauges
+    bool watched = false;  ///< an observer may read the gauges
   };
   /// first_transition: how the recording numbers the net's transitions.
   SubsystemExecutor(std::uint32_t index, SubsystemParts parts, std::shared_ptr<const Plan> plan,
@@ -51,10 +51,10 @@ class SubsystemExecutor {
   enum class State : std::uint8_t { waiting, ended, stopped, ready };
   struct Progress {
     State state = State::waiting;
-    Time deadline = Time::max();  ///< of waiting: step again then, or when woken
-    Time beat = Time::max();      ///< of waiting: when a device wants a heartbeat; nothing else happens then
+    Time deadline = Time::max();  ///< waiting: step again then, or when woken
+    Time beat = Time::max();      ///< waiting: when a device wants a heartbeat; nothing else happens then
   };
-  /// Fires until nothing may fire now. Wakes subsystems that receive from this one when it ends.
+  /// Fires until no transition may fire now. Wakes subsystems that receive from this one when it ends.
   /// most: how many firings and operations at most; ready: it could have gone on.
   [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
@@ -67,23 +67,23 @@ class SubsystemExecutor {
   struct FollowProgress {
     Followed state = Followed::waiting;
     Time deadline = Time::max();
-    std::string_view forced{};  ///< what a condition was made to say
+    std::string_view forced{};  ///< the result that a condition was forced to have
   };
   [[nodiscard]] FollowProgress follow();
-  /// A line on the console and in the recording.
+  /// Writes a line to the console and the recording.
   void note(std::string_view text) { operations_.reports().log(LogLevel::info, text); }
 
   /// The transition function of call `since` has run longer than the watchdog allows: marks that, and those
   /// who receive from here look at their devices; false: it has returned meanwhile. Threads: any.
   [[nodiscard]] bool mark_alarm(std::int64_t since_ns);
-  /// Says so. Threads: any, with a lane of its own.
+  /// Reports this. Threads: any, with a lane of its own.
   void tell_alarm(RecordingLane* lane) const;
 
-  /// Gives the safe command if something asks for it by now. Threads: as `step`.
+  /// Gives the safe command if there is a reason for it now. Threads: as `step`.
   void guard() {
     if (!marked_.empty()) operations_.devices().guard(clock_.now(), name_of(marked_.front()));
   }
-  /// The safe command, on every way out of the run; insist tries again where a device has refused it.
+  /// Gives the safe command, whenever the run ends. `insist` gives it again to devices that have refused it.
   void leave() { operations_.devices().leave(); }
   void insist() { operations_.devices().insist(); }
   /// Threads: as its members say.
@@ -105,23 +105,23 @@ class SubsystemExecutor {
   /// Per port, the fused places that it may give tokens to from here on, whatever its conditions say.
   /// helped: per port, whether the other end may give tokens too. Threads: when it does not run.
   [[nodiscard]] std::vector<std::uint16_t> may_give(const std::vector<bool>& helped) const;
-  /// When it fired last before it began to wait; Time::max(): it has not waited yet.
+  /// The time of the last firing before it began to wait. Time::max(): it has not waited yet.
   [[nodiscard]] Time waits_since() const { return waits_since_; }
 
-  /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread does not
-  /// run.
+  /// "robot.control in follow.rcv.line.in (waits for robot.sensor)"; for reports, when the thread
+  /// does not run.
   [[nodiscard]] std::string whereabouts(const System& system) const;
 
   [[nodiscard]] const std::string& path() const { return operations_.parts().path; }
   [[nodiscard]] const Operations& operations() const { return operations_; }
   [[nodiscard]] Operations& operations() { return operations_; }
-  /// What has happened to the thread of the subsystem, for the recording. Threads: that one.
+  /// Records what has happened to the thread of the subsystem. Threads: the subsystem's.
   /// Async-signal-safe.
   void record_death(std::string_view text) { operations_.reports().record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return releases_.overruns(); }
-  /// A token is in that place of the table.
+  /// Is there a token in that place of the table?
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
   /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
@@ -132,8 +132,8 @@ class SubsystemExecutor {
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
-  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock and at
-  /// RunControl.
+  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock
+  /// and at RunControl.
   static constexpr std::uint32_t look_up = 64;
 
  private:

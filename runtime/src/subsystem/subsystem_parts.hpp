@@ -25,7 +25,7 @@ struct PortLink {
   std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none
 };
 
-/// What a subsystem is made of besides its net.
+/// The parts of a subsystem besides its net.
 struct SubsystemParts {
   std::string path;
   std::uint32_t index = 0;  ///< into System::instances

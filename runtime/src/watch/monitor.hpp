@@ -13,20 +13,21 @@
 
 namespace tessera {
 
-/// Serves what the subsystems show, and the recording (tessera/monitor.hpp), in a thread of its own, from
-/// construction to destruction, which is best after the recorder was closed: the last clients see all of it.
-/// Takes no part in the run: what goes wrong with it is in `warn_of_failure` and ends nothing.
+/// Serves snapshots of the subsystems, and the recording, to clients (tessera/monitor.hpp). It runs in a
+/// thread of its own, from construction to destruction. It is best destroyed after the recorder was closed:
+/// the last clients then receive the whole recording. The run does not depend on it: `warn_of_failure`
+/// reports its failures, which end nothing.
 ///
-/// Threads: made and destroyed by one; the assembly must outlive it.
+/// Threads: made and destroyed by one thread. The assembly must outlive it.
 class Monitor {
  public:
-  /// remote: takes commands; nullptr: there are none.
+  /// remote: receives the commands; nullptr: commands are not accepted.
   Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote = nullptr);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
-  /// A warning on the console unless it listens.
+  /// Prints a warning on the console if the monitor does not listen.
   void warn_of_failure(Time now) const;
 
  private:
@@ -42,7 +43,7 @@ class Monitor {
 
   void execute_commands(MonitorClient& client);
   void execute_request(MonitorClient& client, const Request& request);
-  // What is wrong with the command; empty: it is done.
+  // Returns what is wrong with the command; empty: it was carried out.
   [[nodiscard]] static std::string execute(const commands::Malformed& command);
   [[nodiscard]] std::string execute(const SimulationCommand& command);
   [[nodiscard]] std::string execute(const commands::SetParameter& command);
@@ -54,7 +55,7 @@ class Monitor {
   std::string recording_path_, failure_;
   MonitorSocket listening_;
   int ending_ = -1;
-  bool cannot_accept_ = false;  // no descriptor is left: it tries again after the next line
+  bool cannot_accept_ = false;  // no descriptor is left: try again after the next line
   RemoteControl* remote_;
   std::vector<std::unique_ptr<MonitorClient>> clients_;
   std::thread thread_;

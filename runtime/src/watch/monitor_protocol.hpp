@@ -9,13 +9,13 @@
 
 namespace tessera {
 
-// The lines that a monitor and its clients send each other, which tessera/monitor.hpp describes.
+// The lines that a monitor and its clients send each other. tessera/monitor.hpp describes them.
 
-/// What a client sees of a run at one moment.
+/// The state of a run at one moment, as a client sees it.
 struct Snapshot {
   struct Subsystem {
     std::string path;
-    std::optional<std::string> behaviour;  ///< the last that was called; nullopt: none yet
+    std::optional<std::string> behaviour;  ///< the behaviour called last; nullopt: none yet
     bool calling = false, ended = false;
     std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
     double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
@@ -24,10 +24,10 @@ struct Snapshot {
     std::string name;
     std::vector<std::string> marked;  ///< its places with a token
   };
-  /// What a run in simulated time has besides.
+  /// Additional state of a run in simulated time.
   struct Simulation {
     bool paused = false;
-    std::uint64_t pauses = 0;  ///< how often it has come to rest
+    std::uint64_t pauses = 0;  ///< how often it has been paused
     double speed = 0;          ///< simulated seconds a second; 0: as fast as possible
     std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
   };
@@ -37,21 +37,21 @@ struct Snapshot {
   double time_s = 0;
   std::vector<Subsystem> subsystems;
   std::vector<Channel> channels;
-  std::optional<std::string> emergency;  ///< why an emergency stop stands
+  std::optional<std::string> emergency;  ///< the reason of the current emergency stop
   std::optional<std::string> recording;  ///< its file
   std::optional<Simulation> simulation;
 };
 
-/// Lines, with their ends. What is no UTF-8 (a path may be anything) is replaced.
+/// One line, with its line end. Text that is not UTF-8 is replaced (a path may hold any bytes).
 [[nodiscard]] std::string to_line(const Snapshot& snapshot);
 [[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error);
-/// Before a piece of the recording.
+/// The line before a piece of the recording.
 [[nodiscard]] std::string piece_line(std::size_t bytes, bool begins, bool more);
 [[nodiscard]] std::string ended_line();
 
 namespace commands {
 
-/// It is no command, or a member has another type.
+/// Not a command, or a member has the wrong type.
 struct Malformed {};
 struct SetParameter {
   std::string path, value;
@@ -71,12 +71,12 @@ struct StepIteration {
   std::string subsystem;  ///< empty: any
 };
 struct SetSpeed {
-  std::optional<double> value;  ///< nullopt: it is no number
+  std::optional<double> value;  ///< nullopt: not a number
 };
 struct SetBreakpoints {
-  std::vector<std::string> places, transitions, conditions;  ///< names; empty: one that is no text
+  std::vector<std::string> places, transitions, conditions;  ///< names; an empty one was not a text
 };
-/// Its name is unknown.
+/// A command with an unknown name.
 struct Unknown {};
 
 }  // namespace commands
@@ -84,7 +84,7 @@ struct Unknown {};
 using SimulationCommand =
     std::variant<commands::Unknown, commands::Pause, commands::Resume, commands::StepFiring,
                  commands::StepIteration, commands::SetSpeed, commands::SetBreakpoints>;
-/// Each is answered by a line.
+/// Commands that are answered by a line each.
 using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::EmergencyStop,
                                      commands::Reset, SimulationCommand>;
 using Command = std::variant<AnsweredCommand, commands::SendRecording, commands::Own>;
@@ -93,7 +93,7 @@ struct Request {
   std::int64_t id = 0;  ///< for the answer
   Command command;
 };
-/// Never throws for what a client sends.
+/// Never throws, whatever a client sends.
 [[nodiscard]] Request parse_request(const std::string& line);
 
 }  // namespace tessera

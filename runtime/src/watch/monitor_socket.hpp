@@ -14,7 +14,7 @@ class MonitorSocket {
   MonitorSocket(const MonitorSocket&) = delete;
   MonitorSocket& operator=(const MonitorSocket&) = delete;
 
-  /// -1: it does not listen, because of `failure`.
+  /// -1: the socket does not listen; `failure` says why.
   [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
 

@@ -14,7 +14,7 @@ namespace {
 using Edge = EventGraph::Edge;
 constexpr std::uint32_t absent = UINT32_MAX;
 
-/// The numbers of the groups of subsystems that channels join at which somebody may have to wait.
+/// The numbers of the groups of subsystems that are joined by channels at which one of them may have to wait.
 std::vector<std::uint32_t> groups_of(const CommunicationStructure& structure) {
   std::vector<std::uint32_t> leader(structure.subsystems.size());
   std::iota(leader.begin(), leader.end(), 0U);
@@ -202,7 +202,7 @@ class Judgement {
              drawing_.graph.subsystem(step.from)});
   }
 
-  /// What waits for an event that may never come again may wait for ever, and so on.
+  /// A subsystem that waits for an event that may never come again may wait for ever, and so on.
   void spread() {
     stuck_.assign(structure_.subsystems.size(), false);
     const std::vector<bool> reached = drawing_.graph.reached(sources_);

@@ -8,7 +8,8 @@
 
 namespace tessera::verify {
 
-/// One subsystem waits at a channel for what another has to do there first. Indices into the structure.
+/// One subsystem waits at a channel for what another one has to do there first. All numbers are indices
+/// into the structure.
 struct Wait {
   std::uint32_t subsystem = 0;
   std::uint32_t channel = 0;
@@ -16,7 +17,7 @@ struct Wait {
   std::uint32_t waiting_for = 0;
 };
 
-/// Subsystems that are joined by channels at which somebody may have to wait.
+/// Subsystems that are joined by channels at which one of them may have to wait.
 struct CircuitGroup {
   enum class Cause : std::uint8_t {
     none,        ///< every subsystem goes on
@@ -27,10 +28,10 @@ struct CircuitGroup {
   };
 
   std::vector<std::uint32_t> subsystems;
-  std::string why_not;  ///< not empty: the criterion does not apply to the group, and this is why
+  std::string why_not;  ///< why the criterion does not apply to the group; empty: it applies
   Cause cause = Cause::none;
-  std::vector<Wait> circuit;  ///< who waits for whom, each for the next; the last for the first in a circuit
-  std::vector<std::uint32_t> stuck;  ///< those that can get stuck for ever, in one marking or another
+  std::vector<Wait> circuit;         ///< each waits for the next; in a circuit, the last waits for the first
+  std::vector<std::uint32_t> stuck;  ///< those that can get stuck for ever, in some reachable marking
 
   [[nodiscard]] bool applies() const { return why_not.empty(); }
 };
@@ -43,7 +44,7 @@ struct CircuitReport {
   Answer deadlock_free = Answer::unknown;
   Answer channels_flow = Answer::unknown;
   std::vector<std::uint32_t> dry;  ///< channels that can reach a state from which nothing is received again
-  std::vector<std::uint32_t> unclear;  ///< channels of which this analysis cannot tell
+  std::vector<std::uint32_t> unclear;  ///< channels that this analysis cannot decide
 };
 
 /// Decides goes_on, deadlock_free and channels_flow where every subsystem repeats one cyclic sequence of
@@ -51,8 +52,8 @@ struct CircuitReport {
 /// none passes an edge that may lose one. Definitions, statement and proof: docs/circuits.md.
 ///
 /// Threads: pure. Linear in the structure.
-/// Source: Commoner, Holt, Even, Pnueli, *Marked directed graphs*, JCSS 5, 1971, is the case in which all
-/// block.
+/// Source: Commoner, Holt, Even, Pnueli, *Marked directed graphs*, JCSS 5, 1971: the case in which
+/// every side blocks.
 [[nodiscard]] CircuitReport judge_circuits(const CommunicationStructure& structure);
 
 /// "robot.control waits to receive from a.y->b.x for robot.motor; ...": a circuit in words.

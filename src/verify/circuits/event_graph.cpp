@@ -6,8 +6,8 @@
 namespace tessera::verify {
 namespace {
 
-/// Tarjan's algorithm with its own stack, since the rings of a fleet are longer than a thread's stack is
-/// deep.
+/// Tarjan's algorithm with its own stack, since the rings of a fleet are longer than a thread's
+/// stack is deep.
 class Tarjan {
  public:
   Tarjan(const EventGraph& graph, const EventGraph::Filter& filter)

@@ -7,7 +7,7 @@
 
 namespace tessera::verify {
 
-/// A directed graph whose edges may hold tokens: a marked graph, some of whose edges lose tokens
+/// A marked graph, as a directed graph whose edges may hold tokens. Some of its edges may lose tokens
 /// (docs/circuits.md). Build it with node() and edge(), then close().
 class EventGraph {
  public:
@@ -15,7 +15,7 @@ class EventGraph {
     std::uint32_t from = 0, to = 0;
     bool token = false;  ///< initially
     bool lossy = false;
-    std::uint32_t channel = UINT32_MAX;  ///< UINT32_MAX: the two events are of one subsystem, in its order
+    std::uint32_t channel = UINT32_MAX;  ///< UINT32_MAX: two events of one subsystem, in its order
   };
 
   std::uint32_t node(std::uint32_t subsystem);
@@ -31,12 +31,12 @@ class EventGraph {
   }
 
   using Filter = std::function<bool(const Edge&)>;
-  /// Per node the number of its strongly connected component, over the edges that pass the filter. Linear.
+  /// The strongly connected component of each node, by number, over the edges that pass the filter. Linear.
   /// Source: Tarjan, SIAM J. Comput. 1(2), 1972.
   [[nodiscard]] std::vector<std::uint32_t> components(const Filter& filter) const;
   /// The nodes that the sources reach, themselves included, over all edges.
   [[nodiscard]] std::vector<bool> reached(const std::vector<std::uint32_t>& sources) const;
-  /// A shortest path of edges over those that pass the filter; empty if there is none, or from == to.
+  /// A shortest path over the edges that pass the filter. Empty if there is none, or from == to.
   [[nodiscard]] std::vector<Edge> path(std::uint32_t from, std::uint32_t to, const Filter& filter) const;
 
  private:

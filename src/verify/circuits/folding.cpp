@@ -27,7 +27,7 @@ Flags followers(const SubsystemFlow& subsystem, std::uint32_t start) {
   return reached;
 }
 
-/// What is left of a behaviour's stages without the channels that hold nobody up.
+/// The stages of a behaviour, without the channels at which no subsystem may have to wait (holds_up).
 std::vector<Stage> essence(const BehaviourFlow& behaviour, const std::vector<ChannelFlow>& channels) {
   std::vector<Stage> stages;
   for (const Stage& stage : behaviour.stages) {
@@ -57,7 +57,7 @@ class Folding {
     for (const BehaviourFlow& behaviour : subsystem_.behaviours)
       if (!behaviour.complete)
         return refuse("after '" + behaviour.name + "' none of the initial conditions may hold");
-    // A subsystem that holds nobody up and is held up by nobody may do what it likes.
+    // A subsystem that neither waits for others nor makes others wait may do anything.
     if (std::ranges::all_of(stages_, [](const auto& stages) { return stages.empty(); })) return folded_;
     if (const std::string name = own_model(); !name.empty())
       return refuse("'" + name + "' has a communication model of its own");
@@ -92,7 +92,7 @@ class Folding {
   }
 
   /// Takes the behaviour off the front as a start-up: one behaviour may follow, it never comes back, and it
-  /// waits for nobody.
+  /// does not wait.
   bool peel(std::uint32_t& at) {
     const BehaviourFlow& behaviour = subsystem_.behaviours[at];
     if (behaviour.next.empty()) return false;

@@ -11,21 +11,22 @@ namespace tessera::verify {
 /// Does this side wait for the other for as long as it takes?
 [[nodiscard]] bool waits_to_send(const ChannelFlow& channel);
 [[nodiscard]] bool waits_to_receive(const ChannelFlow& channel);
-/// May one side have to wait for the other? If not, the channel never holds anybody up for long.
+/// May one side have to wait for the other without a limit? If not, no subsystem can get stuck
+/// at the channel.
 [[nodiscard]] bool holds_up(const ChannelFlow& channel);
 
-/// A subsystem as one cyclic sequence of the communications that may hold somebody up.
+/// A subsystem as one cyclic sequence of communications, those on channels that holds_up() names.
 struct Folded {
-  std::string why_not;       ///< empty: it is such a sequence
+  std::string why_not;       ///< why it is no such sequence; empty: it is one
   std::vector<Stage> cycle;  ///< stages of parallel blocks are sorted by channel
   std::vector<std::uint32_t>
       primed;  ///< channels to which a start-up sends before the first round, without waiting
   bool can_end = false;
 };
 
-/// Folds the behaviours of a subsystem: those that use the same channels in the same order are one. A
-/// start-up, behaviours that are run once in a fixed order before the rest, may differ if it does not wait
-/// for anybody.
+/// Folds the behaviours of a subsystem: behaviours that use the same channels in the same order become one. A
+/// start-up consists of behaviours that run once, in a fixed order, before the rest; it may differ if it does
+/// not wait for another subsystem.
 ///
 /// Linear in the subsystem for a given number of behaviours.
 [[nodiscard]] Folded fold(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels);

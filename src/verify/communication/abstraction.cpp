@@ -78,8 +78,8 @@ net::Net copied(const net::Net& net, Assume assume) {
   return copy;
 }
 
-/// Transitions of a subsystem that take it to its end: into its page's output place, which none of its own
-/// transitions empties.
+/// Transitions of a subsystem that take it to its end: into its page's output place, which none of its
+/// own transitions empties.
 std::vector<bool> last_transitions(const net::Net& net) {
   std::vector<bool> left(net.places().size(), false);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)

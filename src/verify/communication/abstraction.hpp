@@ -8,26 +8,27 @@
 
 namespace tessera::verify {
 
-/// The net that is judged: conditions are free choices, what is known never to hold is marked so
-/// (Condition::Truth::never), and a behaviour after which no initial condition may hold has that as an
-/// outcome: a transition "... none" that puts its token into a place from which nothing leads on.
+/// The net that is judged. Its conditions are free choices; a condition that is known never to hold is
+/// marked so (Condition::Truth::never). If it can happen that no initial condition holds after a
+/// behaviour, a transition "... none" is added for that outcome: it puts the token into a place
+/// without output transitions.
 ///
-/// Places and transitions of `net` keep their ids; what is added follows them. Linear in the net.
+/// Places and transitions of `net` keep their ids; added ones follow them. Linear in the net.
 [[nodiscard]] net::Net abstract_net(const net::Net& net, Assume assume = Assume::conditions);
 
-/// Its condition is not known to be false always.
+/// The condition of the transition is not known to be always false.
 [[nodiscard]] bool possible(const net::Net& net, net::TransitionId transition);
 
-/// A net without the transitions that never fire. fires: if given, their ids in `net`, for those that are
-/// left.
+/// The net without the transitions that never fire. fires: if given, receives the id in `net` of each
+/// transition that is left.
 [[nodiscard]] net::Net possible_part(const net::Net& net, std::vector<net::TransitionId>* fires = nullptr);
 
-/// An abstract net with a probe for everything that has to be possible again and again.
+/// An abstract net with probes: transitions by which it is checked what can happen again and again.
 struct ProbedNet {
-  /// The abstract net; per subsystem that may end a place that is marked once it has, and a probe, a
-  /// transition without effect, that needs it. Added transitions follow those of the abstract net.
+  /// The abstract net. For each subsystem that may end, a place is added that is marked once it has ended,
+  /// and a probe: a transition without effect that needs this place. Added transitions come last.
   net::Net net;
-  std::size_t transitions = 0;  ///< of the abstract net; those after are probes
+  std::size_t transitions = 0;  ///< of the abstract net; the transitions after them are probes
   struct Set {
     std::uint32_t id = 0;  ///< subsystem or channel of the model
     std::vector<net::TransitionId> any_of;

@@ -9,30 +9,32 @@
 
 namespace tessera::verify {
 
-/// Behaviours of one subsystem; one of them is to run.
+/// Behaviours of one subsystem, of which one is to run.
 struct Running {
   std::uint32_t subsystem = 0;  ///< Page::subsystem
   std::vector<std::string> behaviours;
 };
 
-/// The behaviours of which the statement says that one of them runs; nullopt: it says something else.
+/// The behaviours, if the statement says that one of several behaviours runs; nullopt: it
+/// says something else.
 [[nodiscard]] std::optional<Running> running(const net::HierarchicalNet& pages,
                                              const net::Statement& statement);
 
-/// Which behaviour of a subsystem may follow which, with two more nodes: it has ended, and it is lost because
-/// no initial condition held. Every path is a run, if the subsystem always goes on.
+/// Which behaviour of a subsystem may follow which. Two more nodes stand for the end of the subsystem, and
+/// for a subsystem that is stuck because no initial condition held. If the subsystem always goes on, every
+/// path is a run.
 class BehaviourGraph {
  public:
   explicit BehaviourGraph(const SubsystemFlow& subsystem);
 
   using Nodes = std::vector<bool>;
-  /// Those of the names that the subsystem can reach.
+  /// The named behaviours that the subsystem can reach.
   [[nodiscard]] Nodes nodes(const std::vector<std::string>& names) const;
   [[nodiscard]] static bool any(const Nodes& nodes);
   /// The nodes from which one of `goal` can be reached, themselves included.
   [[nodiscard]] Nodes that_reach(const Nodes& goal) const;
-  /// The nodes that can be reached from `start` without passing one of `around`; those of `start` that are
-  /// not in `around` included.
+  /// The nodes that can be reached from `start` without passing one of `around`. Nodes of `start` that are
+  /// not in `around` are included.
   [[nodiscard]] Nodes reached(const Nodes& start, const Nodes& around) const;
   /// "'robot.control.stop'", "its end", ...
   [[nodiscard]] std::string name(std::size_t node) const;

@@ -12,7 +12,7 @@ namespace tessera::verify {
 /// The fused places of a channel, as bits.
 enum Memory : std::uint8_t { free_to_use = 1, empty = 2, full = 4, acknowledged = 8 };
 
-/// A transition as its subsystem sees it: places of its own, and of the memory of at most one channel.
+/// A transition of one subsystem. It uses places of this subsystem, and of the memory of at most one channel.
 struct Step {
   net::TransitionId id;
   net::PlaceId from, to;  ///< invalid if there are several: a fork or a join
@@ -21,7 +21,7 @@ struct Step {
   bool own_model = false;             ///< it uses fused places that no built-in block has
 };
 
-/// The steps of every subsystem, by the places that they take their tokens from.
+/// The steps of every subsystem, by their input places.
 class Steps {
  public:
   explicit Steps(const net::Net& net);
@@ -30,7 +30,7 @@ class Steps {
     return std::span(steps_).subspan(starts_[place.value], starts_[place.value + 1] - starts_[place.value]);
   }
   [[nodiscard]] const net::Net& net() const { return net_; }
-  /// A transition that is no step of one subsystem and no transition of the upper layers either.
+  /// A transition that is neither a step of one subsystem nor a transition of the upper layers.
   [[nodiscard]] std::optional<net::TransitionId> stray() const { return stray_; }
   /// Does the memory of the channel include acknowledgements?
   [[nodiscard]] bool acknowledges(std::uint32_t channel) const { return acknowledges_[channel]; }
@@ -48,9 +48,9 @@ class Steps {
   std::optional<net::TransitionId> stray_;
 };
 
-/// A block of the fifth layer.
+/// A block of the communication layer, the fifth.
 struct Block {
-  Communication communication;  ///< with Place::channel as its channel
+  Communication communication;  ///< its channel is Place::channel
   net::PlaceId out;
 };
 

@@ -50,7 +50,7 @@ class SubsystemReader {
     return entry->second;
   }
 
-  /// Where the only, unconditional transition from a place leads that touches no channel.
+  /// The place after `from`, if the only transition from there has no condition and touches no channel.
   [[nodiscard]] std::optional<PlaceId> silent_step(PlaceId from) const {
     const auto steps = steps_.from(from);
     if (steps.size() != 1 || !steps.front().from.valid() || !steps.front().to.valid()) return std::nullopt;

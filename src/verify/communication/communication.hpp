@@ -7,7 +7,7 @@
 
 #include "net/net.hpp"
 
-/// Who communicates with whom, read off the flat net that is executed.
+/// Which subsystems communicate with each other, as the flat net that is executed says it.
 namespace tessera::verify {
 
 enum class Side : std::uint8_t { send, receive };
@@ -18,7 +18,7 @@ struct Communication {
   Side side = Side::send;
   bool blocking = false;
   bool timeout = false;    ///< only of a blocking side
-  bool own_model = false;  ///< by a model of the author's: who waits for what is not known
+  bool own_model = false;  ///< by a model of the author: what it waits for is not known
   bool operator==(const Communication&) const = default;
 };
 
@@ -30,17 +30,17 @@ struct BehaviourFlow {
   std::vector<Stage> stages;  ///< those of snd, then those of rcv
   bool repeats = false;       ///< t4 may fire
   bool leaves = false;        ///< t5 or t6 may fire
-  /// Once left, one of its initial conditions holds for certain: there is one without a condition, or a last
-  /// one for all other cases.
+  /// Once the behaviour is left, an entry of `next` can certainly be taken: one has no condition, or the last
+  /// one covers all other cases.
   bool complete = true;
-  std::vector<std::uint32_t> next;  ///< behaviours that may follow once it was left; into SubsystemFlow
-  bool ends = false;                ///< the subsystem may end once it was left
+  std::vector<std::uint32_t> next;  ///< behaviours that may follow; indices into SubsystemFlow
+  bool ends = false;                ///< the subsystem may end after it
 };
 
 struct SubsystemFlow {
   std::uint32_t id = 0;  ///< Place::subsystem
   std::string name;      ///< "robot.control"
-  /// Those that conditions known to be constant let it reach; the first is the start.
+  /// Those that can be reached, given the conditions that are known to be constant. The first is the start.
   std::vector<BehaviourFlow> behaviours;
 };
 
@@ -52,7 +52,7 @@ struct ChannelFlow {
   std::optional<std::uint32_t> sender, receiver;
   bool send_blocks = false, send_timeout = false;
   bool receive_blocks = false, receive_timeout = false;
-  bool own_model = false;  ///< of the author's, at one end at least
+  bool own_model = false;  ///< a model of the author, at one end at least
   bool always_readable =
       false;  ///< both sides non-blocking: reading never depends on a value having been sent
 };
@@ -71,12 +71,12 @@ enum class Assume : std::uint8_t {
 
 struct CommunicationResult {
   std::optional<CommunicationStructure> structure;
-  std::string why_not;  ///< if there is none: the first thing that is not of the shape of the five layers
+  std::string why_not;  ///< without a structure: the first thing that the five layers do not have
 };
 
-/// Reads off the net what each subsystem communicates, in which order. The net itself is read, not the
-/// specification, so that what is judged is what is executed: every transition of a subsystem must be
-/// accounted for by the blocks and pages of the five layers, or there is no result.
+/// Finds out from the net what each subsystem communicates, and in which order. It reads the net, not the
+/// specification, so that the net that is judged is the net that is executed. Every transition of a subsystem
+/// must belong to a block or a page of the five layers; otherwise there is no structure.
 ///
 /// Threads: pure. Linear in the net.
 /// Source: Figat & Zielinski, ICRA 2019, sec. IV.

@@ -83,7 +83,7 @@ class ModelJudgement {
     std::vector<explore::Obligation> obligations;
     for (const auto& [transitions, problem] : wanted) obligations.push_back({transitions});
     const std::vector<explore::Answer> answers = explore::can_always_fire(explored_, obligations, limits_);
-    // Who is stuck says more than what follows from it.
+    // A side that is stuck says more than the consequences of this.
     for (std::size_t index = 0; index < wanted.size(); ++index) {
       if (answers[index].kind == explore::Answer::Kind::yes) continue;
       if (answers[index].kind == explore::Answer::Kind::unknown) give_up(answers[index]);

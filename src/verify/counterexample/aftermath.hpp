@@ -13,12 +13,12 @@
 
 namespace tessera::verify {
 
-/// All that can happen after a run to some subsystems and those that they exchange with, directly or through
-/// others: every marking that they can reach, and how. Of the other subsystems nothing happens.
+/// All that some subsystems can do after a run, together with the subsystems that they communicate with,
+/// directly or through others: every marking that they can reach, and how. The other subsystems stand still.
 class Aftermath {
  public:
   using Run = std::vector<net::TransitionId>;
-  /// A marking, by its number. The run leads to `start`.
+  /// The number of a marking. The run leads to `start`.
   using Number = std::uint32_t;
   static constexpr Number start = 0;
   using Markings = std::vector<bool>;  ///< per marking
@@ -31,7 +31,7 @@ class Aftermath {
 
   /// The markings from which one of the transitions can be fired, at once or later.
   [[nodiscard]] Markings can_fire(const std::vector<net::TransitionId>& any_of) const;
-  /// The markings from which one of the goal can be reached, itself included.
+  /// The markings from which a marking of the goal can be reached, the goal included.
   [[nodiscard]] Markings can_reach(Markings goal) const;
   [[nodiscard]] Markings reachable_from(Number from) const;
 
@@ -59,7 +59,7 @@ class Aftermath {
   Number number(const std::string& marking);
 
   const net::Net* net_;
-  std::vector<net::TransitionId> transitions_;  // that can happen
+  std::vector<net::TransitionId> transitions_;  // that can fire
   net::Net part_;                               // these transitions and their places, without names
   std::vector<net::PlaceId> local_;             // per place: the same in the part, if it is there
   net::Marking at_start_;                       // of the net

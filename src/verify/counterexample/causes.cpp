@@ -20,7 +20,7 @@ using Run = std::vector<TransitionId>;
 constexpr std::uint32_t from_the_start = UINT32_MAX;
 constexpr std::uint32_t unknown = UINT32_MAX;
 
-/// What each firing of a run needed to have happened.
+/// The earlier firings that each firing of a run needed.
 class History {
  public:
   History(const net::Net& net, const Run& run) : causes_(run.size()), tokens_(net.places().size()) {
@@ -60,7 +60,7 @@ class History {
   bool is_run_ = false;
 };
 
-/// What might fire after a run if tokens were never used up: at least all that can.
+/// The transitions that could fire after a run if firing consumed no tokens: at least all that can fire.
 class Prospect {
  public:
   Prospect(const net::Net& net, const Run& run)

@@ -6,22 +6,23 @@
 
 namespace tessera::verify {
 
-/// Of a run after which none of some transitions can ever fire again, the firings that are to blame: without
-/// the others it is still a run, and still none of them can fire after it. That is tested on the way; a run
-/// of which it cannot be shown is given back as it is.
+/// After the run, none of the stuck transitions can ever fire again. Returns the firings that cause this:
+/// they are a run by themselves, and after it still none of the transitions can fire. Both are checked; if
+/// they cannot be shown, the run is returned unchanged.
 ///
-/// What other subsystems did meanwhile goes, unless the transitions wait for them.
+/// Firings of other subsystems are removed, unless the transitions wait for these subsystems.
 /// Linear in the net and the run, times the subsystems that have to do with it. Threads: pure.
 [[nodiscard]] std::vector<net::TransitionId> causes_of_standstill(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 
-/// Can it be shown that none of the transitions can ever be fired after the run? It is, if they could not
-/// even if tokens were never used up.
+/// Can it be shown that none of the transitions can ever be fired after the run? It is shown if they could
+/// not fire even if firing consumed no tokens.
 [[nodiscard]] bool never_again(const net::Net& net, const std::vector<net::TransitionId>& run,
                                const std::vector<net::TransitionId>& transitions);
 
-/// The run, gone on with until those that the stuck transitions wait for wait too, and so on: then it shows
-/// the cycle, or who has ended. As it is if some of them would run for ever.
+/// Extends the run until the subsystems that the stuck transitions wait for wait too, and so on. Its end then
+/// shows the cycle of waits, or a subsystem that has ended. Returns the run unchanged if some of them would
+/// run for ever.
 [[nodiscard]] std::vector<net::TransitionId> until_all_concerned_wait(
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck);
 

@@ -42,7 +42,7 @@ class Explainer {
   /// false: the transitions do not get stuck.
   bool find_end() {
     const std::uint32_t owner = net_[stuck_.front()].subsystem;
-    // Who can still end is not stuck, and a channel whose reader can still end is not dry.
+    // A subsystem that can still end is not stuck. A channel whose reader can still end is not dry.
     std::vector<TransitionId> any_of = stuck_;
     std::ranges::copy(last_of(owner), std::back_inserter(any_of));
     if (!go_to(opposite(after_.can_fire(any_of)))) return false;
@@ -100,7 +100,7 @@ class Explainer {
   }
 
   void follow_all() {
-    // Where one has been brought to its end, another may have stopped too.
+    // When one subsystem has been brought to its end, another one may have stopped too.
     for (Number before = at_ + 1; before != at_;) {
       before = at_;
       for (std::size_t next = 0; next < concerned_.size(); ++next) follow(concerned_[next]);
@@ -120,8 +120,8 @@ class Explainer {
       for (const std::uint32_t giver : waits.givers(place, subsystem)) concern(giver);
   }
 
-  /// The places of channels that it lacks, stuck as a whole or, though it goes on, with the transitions asked
-  /// for.
+  /// The places of channels that it lacks, stuck as a whole or, though it goes on, with the
+  /// transitions asked for.
   [[nodiscard]] std::set<std::uint32_t> waits_at(const Waits& waits, std::uint32_t subsystem) const {
     if (waits.has_ended(subsystem)) return {};
     if (stuck_for_ever(waits, subsystem)) return waits.lacking(subsystem);
@@ -147,8 +147,8 @@ class Explainer {
     return texts;
   }
 
-  /// Of who goes on though nobody is to blame: nobody can give what it lacks, or what is given is taken
-  /// elsewhere.
+  /// Lines about a subsystem that goes on: no other subsystem can give what it lacks, or what is given
+  /// is taken elsewhere.
   [[nodiscard]] std::vector<std::string> taken_no_more(const Waits& waits) const {
     std::vector<std::string> texts;
     const std::uint32_t subsystem = concerned_.front();
@@ -200,7 +200,7 @@ Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& st
   return run;
 }
 
-/// Who can be shown to be stuck, and follows from the first by waiting.
+/// The waits of subsystems that can be shown to be stuck, found by following the waits from the first one.
 std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
                                       std::vector<std::uint32_t> concerned) {
   const Waits waits(net, net::marking_after(net, run));

@@ -6,7 +6,7 @@
 
 #include "net/net.hpp"
 
-/// How a run to a violation ends, and who waits for whom there: only what is so for ever is told.
+/// The end of a run to a violation, and who waits for whom there. Only waits that last for ever are named.
 namespace tessera::verify {
 
 struct Explanation {
@@ -14,20 +14,21 @@ struct Explanation {
   std::vector<std::string> waits;
 };
 
-/// A run after which the property "one of these transitions can always be fired again" cannot be true any
-/// more, gone on with to where
+/// Extends a run after which the property "one of these transitions can always be fired again" can no longer
+/// be true. The extended run ends where
 ///
 /// * none of the transitions can ever be fired again, and
-/// * each that is waited for is stuck for ever too, has ended, or can go on without giving what is lacking.
+/// * each subsystem that is waited for is stuck for ever too, has ended, or can go on without giving the
+///   missing token.
 ///
-/// stuck: transitions of one subsystem. Where there are too many markings to see all that may follow, the run
-/// is gone on with as far as it goes, and only those are named of whom it can be shown that they are stuck.
+/// stuck: transitions of one subsystem. If there are too many markings to see all that may follow, the run is
+/// extended as far as possible, and only subsystems that can be shown to be stuck are named.
 [[nodiscard]] Explanation explained(const net::Net& net, std::vector<net::TransitionId> run,
                                     const std::vector<net::TransitionId>& stuck);
 
-/// A run that shows a violation for good: nothing that follows it can mend that. It goes on to where each
-/// that is waited for, by those who are stuck for ever, is stuck too, has ended, or can go on without giving
-/// it. Where there are too many markings to see all that may follow, the run stays as it is.
+/// Extends a run after which a violation is final: nothing that follows can undo it. The extended run ends
+/// where each subsystem that a stuck one waits for is stuck for ever too, has ended, or can go on without
+/// giving the missing token. If there are too many markings to see all that may follow, the run is unchanged.
 [[nodiscard]] Explanation explained(const net::Net& net, std::vector<net::TransitionId> run);
 
 }  // namespace tessera::verify

@@ -6,11 +6,11 @@
 
 namespace tessera::verify {
 
-/// The run with the endings that fit what follows them.
+/// The run, with the ending (t5 or t6) of each behaviour that fits the entry of `next` after it.
 ///
 /// t5 and t6 of a behaviour lead to the same place, so a run of the abstract net may end a behaviour by t5
 /// and go on with an entry of `next` that is taken only after an error, or the other way round. No controller
-/// does that; with the other of the two it is the same run in all else.
+/// does that. With the other ending, the run is the same in everything else.
 ///
 /// Precondition: the run is one of the net, an abstract net. Linear. Threads: pure.
 [[nodiscard]] std::vector<net::TransitionId> with_fitting_endings(const net::Net& net,

@@ -15,7 +15,7 @@ using net::TransitionId;
 /// The last part of a path.
 std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
-/// What one firing is told as.
+/// The description of one firing.
 struct Deed {
   std::string behaviour;  ///< in which it happens; empty: between behaviours
   std::string text;       ///< empty: belongs to the deed before

@@ -10,15 +10,16 @@ namespace tessera::verify {
 
 /// A stretch of a run in which one subsystem acts on its own.
 struct Act {
-  std::size_t first = 0, last = 0;  ///< firings of the run, from 1
-  std::string who;                  ///< "robot.control"; "" of the layers above
-  /// What it does, in the words of the specification, with the local names of transitions:
+  std::size_t first = 0, last = 0;  ///< numbers of firings of the run, counted from 1
+  std::string who;                  ///< "robot.control"; "" for the layers above
+  /// What the subsystem does, in the words of the specification, with the local names of transitions:
   /// "in follow: computes (t1), sends motion (t1, t2), waits for the acknowledgement".
   std::string text;
   std::uint32_t line = 0;  ///< of the specification, where the stretch begins; 0: none
 };
 
-/// Tells a run of a net made of the five layers, or of its abstract net (verify/abstraction.hpp).
+/// Describes in words a run of a net made of the five layers, or of its abstract net
+/// (verify/communication/abstraction.hpp).
 ///
 /// Threads: pure. Linear in the net and the run.
 [[nodiscard]] std::vector<Act> narrate(const net::Net& net, const std::vector<net::TransitionId>& run);

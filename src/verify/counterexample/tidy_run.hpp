@@ -6,11 +6,11 @@
 
 namespace tessera::verify {
 
-/// A run with the same end that is easier to follow: as short as a search of limited cost finds, and with the
-/// firings of a subsystem side by side, as far as what depends on what allows. Of a run that shows something
-/// by where it ends.
+/// A run with the same end that is easier to follow. It is as short as a search of limited cost finds, and
+/// the firings of a subsystem follow each other as far as their causal order allows. For runs that show
+/// something by the marking they end in.
 ///
-/// net: in which every place holds at most one token; a run that leads to two is given back as it is.
+/// net: every place holds at most one token. A run that puts two into one place is returned unchanged.
 /// Threads: pure. Deterministic.
 [[nodiscard]] std::vector<net::TransitionId> tidy(const net::Net& net, std::vector<net::TransitionId> run);
 

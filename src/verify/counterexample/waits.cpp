@@ -10,7 +10,7 @@ namespace {
 
 using net::TransitionId;
 
-/// What of a channel somebody waits for, or gives.
+/// What a subsystem waits for at a channel, or gives there.
 enum class Good : std::uint8_t { memory, value, acknowledgement };
 
 Good good_of(const net::Place& place) {
@@ -60,7 +60,7 @@ std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
   const bool all_own =
       std::ranges::all_of(lacks, [&](std::uint32_t place) { return is_own_memory(subsystem, place); });
   for (const std::uint32_t place : lacks) {
-    // What it would have to give itself belongs to another branch than the one that waits for others.
+    // A token that only it can give belongs to another branch than the one that waits for other subsystems.
     if (!all_own && is_own_memory(subsystem, place)) continue;
     if (std::string text = line(subsystem, place); std::ranges::count(texts, text) == 0)
       texts.push_back(std::move(text));
@@ -122,7 +122,7 @@ std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint
   const auto has = [&](const net::Arc& arc) { return net::suffices(tokens, arc); };
   std::set<std::uint32_t> places;
   for (const TransitionId id : transitions) {
-    // Who waits with a timeout is told of by what it waits for, not by what the timeout takes back.
+    // A wait with a timeout is described by what it waits for, not by what the timeout takes back.
     if (net[id].condition.kind == net::Condition::Kind::elapsed) continue;
     const auto inputs = net.preset(id);
     const auto of_channel = [&](const net::Arc& arc) { return has(arc) || net[arc.place].fused(); };

@@ -9,7 +9,7 @@
 
 namespace tessera::verify {
 
-/// Who waits for whom in one marking of a net, in words.
+/// Describes in words which subsystems wait for each other in one marking of a net.
 class Waits {
  public:
   /// tokens: of every place. Precondition: the net outlives this.
@@ -17,34 +17,36 @@ class Waits {
 
   /// Can the subsystem fire something at once?
   [[nodiscard]] bool moves(std::uint32_t subsystem) const;
-  /// Has it started and come to its end?
+  /// Has the subsystem started and ended?
   [[nodiscard]] bool has_ended(std::uint32_t subsystem) const;
-  /// What a subsystem that can fire nothing waits for: "a.control waits for a value of
+  /// What a subsystem without an enabled transition waits for: "a.control waits for a value of
   /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
   [[nodiscard]] std::vector<std::string> lines(std::uint32_t subsystem) const;
 
-  /// The places of channels that its transitions lack, where they lack nothing else.
+  /// The channel places without a token that keep its transitions from firing, if nothing else does.
   [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const;
-  /// Those who can put a token there, without the one who waits unless it is the only one.
+  /// The subsystems that can put a token into the place. The waiting one is left out unless it is
+  /// the only one.
   [[nodiscard]] std::set<std::uint32_t> givers(std::uint32_t place, std::uint32_t waiting) const;
   /// The transitions of a subsystem that put a token there and take none from there.
   [[nodiscard]] std::vector<net::TransitionId> giving(std::uint32_t subsystem, std::uint32_t place) const;
-  /// "a.control goes on and receives ... no more", of a reader and a place that its reads need.
+  /// "a.control goes on and receives ... no more", for a reader and a place that its reads need.
   [[nodiscard]] std::string takes_no_more(std::uint32_t reader, std::uint32_t place) const;
-  /// What a giver does no more if it never gives the place: "a.control goes on and sends ... no more".
+  /// What a subsystem no longer does if it never puts a token into the place: "a.control goes on and sends
+  /// ... no more".
   [[nodiscard]] std::string gives_no_more(std::uint32_t giver, std::uint32_t place) const;
 
   [[nodiscard]] const std::string& name(std::uint32_t subsystem) const {
     return net_.parts().subsystems[subsystem].path;
   }
-  /// The transitions of a subsystem that are possible.
+  /// The possible transitions of a subsystem (verify/communication/abstraction.hpp).
   [[nodiscard]] const std::vector<net::TransitionId>& transitions(std::uint32_t subsystem) const {
     return transitions_[subsystem];
   }
   [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
-  /// Is it a place of the memory of a channel into which nobody else can put a token?
+  /// Is it a place of a channel's memory into which no other subsystem can put a token?
   [[nodiscard]] bool is_own_memory(std::uint32_t subsystem, std::uint32_t place) const;
   [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
   [[nodiscard]] const std::string& channel(const net::Place& place) const {
@@ -56,7 +58,8 @@ class Waits {
   std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
 };
 
-/// The places of channels that the transitions lack, where they lack nothing else. tokens: of every place.
+/// The channel places without a token that keep the transitions from firing, if nothing else does. tokens:
+/// of every place.
 [[nodiscard]] std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,
                                               const std::vector<net::TransitionId>& transitions);
 

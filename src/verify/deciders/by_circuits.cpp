@@ -73,7 +73,7 @@ Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t
   return subjects.empty() ? holds() : open(given, std::move(subjects));
 }
 
-/// Of places that start a behaviour, those of behaviours that follow none that can run.
+/// From places that start a behaviour, selects those of behaviours that follow none that can run.
 std::vector<std::uint32_t> never_following(const NetUnderAssumption& given,
                                            const std::vector<std::uint32_t>& places) {
   std::set<std::string> reached;
@@ -131,7 +131,7 @@ std::optional<Finding> claims(const NetUnderAssumption& given, const net::Hierar
     if (verdict.answer == Answer::unknown) finding.subjects.push_back(number);
   }
   if (finding.subjects.empty()) return holds();
-  // Of other properties than those of running behaviours it has nothing to say.
+  // It does not handle properties that are not about running behaviours.
   if (finding.subjects.size() == question.subjects.size() && given.circuits->goes_on == Answer::yes)
     return std::nullopt;
   return finding;

@@ -60,7 +60,7 @@ Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
   return finding;
 }
 
-/// Who waits for whom at the end of the run, which shows for good what is violated.
+/// Extends the run, whose violation is final, and adds who waits for whom at its end.
 void explain(Finding& finding, const net::Net& net) {
   Explanation explanation = explained(net, std::move(finding.trace));
   finding.trace = std::move(explanation.run);
@@ -129,7 +129,7 @@ Finding channels_flow(const NetUnderAssumption& given, const Question& question,
   return finding;
 }
 
-/// What has been found out about several goals: bad is the answer that settles it.
+/// The finding about several goals. bad: the answer about one of them that is a violation.
 Finding judged_together(const std::vector<Found>& all, Found::Kind bad) {
   Finding finding;
   finding.kind = Finding::Kind::holds;

@@ -33,8 +33,8 @@ Finding claims(const Question& question, Facts& facts) {
   return finding;
 }
 
-/// Sums of tokens that no firing changes: those that the layers emit, or those that are found in a net of
-/// another origin.
+/// Sums of tokens that no firing changes: those that the layers emit, or those that are found in a net
+/// of another origin.
 class ByInvariants final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "invariants"; }

@@ -11,7 +11,7 @@ Finding open(const WaitingReport& report, std::vector<std::uint32_t> subjects) {
   return {.why = report.why_not, .subjects = std::move(subjects)};
 }
 
-/// Whoever goes on for ever keeps the system free of deadlocks.
+/// A subsystem that goes on for ever keeps the system free of deadlocks.
 bool deadlock_free(const CommunicationStructure& structure, const std::vector<bool>& goes_on) {
   for (std::uint32_t index = 0; index < goes_on.size(); ++index)
     if (goes_on[index] && std::ranges::none_of(structure.subsystems[index].behaviours, &BehaviourFlow::ends))

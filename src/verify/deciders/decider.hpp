@@ -12,7 +12,8 @@ namespace tessera::verify {
 
 /// One method that decides questions.
 ///
-/// A method is one class in a file of its own, made by a function declared here, and one line in portfolio().
+/// Each method is one class in a file of its own, a function declared here that makes it, and one
+/// line in portfolio().
 class Decider {
  public:
   Decider() = default;
@@ -22,16 +23,16 @@ class Decider {
   Decider(Decider&&) = delete;
   Decider& operator=(Decider&&) = delete;
 
-  /// What --method calls it: "circuits".
+  /// Its name for --method: "circuits".
   [[nodiscard]] virtual const char* name() const = 0;
-  /// What verdicts and explanations call it: "place invariants".
+  /// Its name in verdicts and explanations: "place invariants".
   [[nodiscard]] virtual const char* title() const = 0;
 
-  /// nullopt: the method has nothing to do with such questions. A verdict is final. `unknown` says why, and
-  /// may name fewer subjects than the question: the others are settled, in favour of the property.
+  /// nullopt: the method does not handle such questions. `holds` and `violated` are final. `unknown` says
+  /// why, and may name fewer subjects than the question: for the others the property is proved.
   [[nodiscard]] virtual std::optional<Finding> decide(const Question& question, Facts& facts,
                                                       const explore::Limits& limits) const = 0;
-  /// Does it come with runs? When a method that does not has found a violation, those that do are asked too.
+  /// Does the method give runs? When one that does not has found a violation, those that do are asked too.
   [[nodiscard]] virtual bool finds_runs() const { return false; }
 };
 

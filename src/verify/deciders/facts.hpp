@@ -18,7 +18,7 @@
 
 namespace tessera::verify {
 
-/// What is known about a net under one assumption.
+/// Facts about a net under one assumption.
 struct NetUnderAssumption {
   net::Net abstract;
   ProbedNet probed;
@@ -27,11 +27,11 @@ struct NetUnderAssumption {
 
   NetUnderAssumption(const Subject& subject, Assume assume);
 
-  /// Why the circuit criterion says nothing.
+  /// Why the circuit criterion gives no answer.
   [[nodiscard]] std::string why_no_circuits() const;
 };
 
-/// What the deciders know of a net, each fact found out once, when it is first asked for.
+/// Facts about a net that the deciders use. Each fact is computed once, when it is first asked for.
 ///
 /// Threads: one.
 class Facts {
@@ -41,14 +41,14 @@ class Facts {
   [[nodiscard]] const Subject& subject() const { return subject_; }
   /// Mistakes in the invariants; empty: they are invariants of the net.
   [[nodiscard]] const std::vector<std::string>& wrong_invariants() const { return wrong_; }
-  /// Place invariants bound every place by one token: those that the layers emit, or those that are found in
-  /// a net of another origin.
+  /// Do place invariants bound every place by one token? They are emitted by the layers, or computed for a
+  /// net of another origin.
   [[nodiscard]] bool safe();
   [[nodiscard]] Reducing reducing() { return {safe(), rules_}; }
   /// Precondition: wrong_invariants() is empty.
   [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const NetUnderAssumption& under(Assume assume);
-  /// Who goes on for ever, by circuits (docs/circuits.md) or else by circles of waiting (docs/waiting.md).
+  /// The subsystems that go on for ever, by circuits (docs/circuits.md) or else by waiting (docs/waiting.md).
   /// Precondition: there is a communication structure.
   [[nodiscard]] const WaitingReport& waiting(Assume assume, const explore::Limits& limits);
   /// All subjects of a kind of question.

@@ -20,31 +20,31 @@ struct Question {
     channels_flow,    ///< subjects: channels, by Place::channel
     sound_pages,      ///< subjects: pages
     live_behaviours,  ///< subjects: places that start a transition function
-    claims            ///< of `property`; subjects: their numbers
+    claims            ///< claims of `property`; subjects: their numbers
   } kind = Kind::safe;
   Assume assume = Assume::conditions;
-  /// What the question is about, one by one, as far as it is still open: the answer is yes if it is for each.
+  /// The subjects of the question that are still open. The answer is yes if it is yes for each.
   /// Empty for a question about the net as a whole.
   std::vector<std::uint32_t> subjects{};
   const net::Property* property = nullptr;
 };
 
-/// Can a run show that the answer is no? Not if it says that something cannot be reached.
+/// Can a run show that the answer is no? No run can show that something cannot be reached.
 [[nodiscard]] inline bool has_runs(const Question& question) {
   return question.kind != Question::Kind::live_behaviours &&
          (question.property == nullptr || question.property->kind != net::Property::Kind::reachable);
 }
 
-/// What a method found out about a question.
+/// The result of a method for a question.
 struct Finding {
   enum class Kind : std::uint8_t { holds, violated, unknown } kind = Kind::unknown;
-  std::string method{};       ///< in words; empty: the title of the decider
-  std::string why{};          ///< for violated and unknown: in one line
+  std::string method{};       ///< name of the method; empty: the title of the decider
+  std::string why{};          ///< violated, unknown: the reason, in one line
   std::string explanation{};  ///< what the method did
-  /// unknown: the subjects that are still open. violated: those of which some are to blame, for those that
-  /// look for a run.
+  /// unknown: the subjects that are still open. violated: subjects, some of which violate the property, for
+  /// methods that look for a run.
   std::vector<std::uint32_t> subjects{};
-  /// violated: a run that shows it, of transitions of the abstract net.
+  /// violated: a run that shows it, as transitions of the abstract net.
   std::vector<net::TransitionId> trace{};
   bool has_trace = false;
   std::vector<std::string> waits{};

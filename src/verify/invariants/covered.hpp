@@ -7,7 +7,7 @@
 #include "net/net.hpp"
 #include "verify/invariants/unit_invariants.hpp"
 
-/// What place invariants say about pages and channels.
+/// The pages and channels that place invariants do not settle.
 namespace tessera::verify {
 
 /// Something that the invariants do not settle.
@@ -16,12 +16,13 @@ struct Gap {
   std::string why;
 };
 
-/// The pages that hold a place which no unit invariant keeps apart from their input and output; empty: every
-/// page is entered once at a time and left empty. Linear in the net times the depth of its pages.
+/// The pages with a place that no unit invariant excludes from being marked together with the input or output
+/// of the page. Empty: every page is entered once at a time and left empty. Linear in the net times the depth
+/// of its pages.
 [[nodiscard]] std::vector<Gap> uncovered_pages(const net::HierarchicalNet& pages, const net::Net& net,
                                                const UnitInvariants& units);
 
-/// The memories (verify/forbidden.hpp) whose writes and reads no unit invariant keeps apart. Linear.
+/// The memories (forbidden.hpp) whose writes and reads no unit invariant excludes from each other. Linear.
 [[nodiscard]] std::vector<Gap> uncovered_memories(const net::Net& net, const UnitInvariants& units);
 
 }  // namespace tessera::verify

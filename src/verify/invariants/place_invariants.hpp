@@ -7,9 +7,8 @@
 
 namespace tessera::verify {
 
-/// Everything that keeps `invariants` from being place invariants of the net: firings that change the
-/// weighted sum, and initial markings with another sum. Empty: all are, y^T C = 0 and y m0 = total. One line
-/// each.
+/// The mistakes in `invariants`, one line each: firings that change the weighted sum, and initial markings
+/// with another sum. Empty: all are place invariants of the net (y^T C = 0 and y m0 = total).
 ///
 /// Linear in the net and the invariants.
 /// Source: Lautenbach, place invariants.
@@ -19,10 +18,10 @@ namespace tessera::verify {
 /// The places that the invariants do not bound by one token.
 ///
 /// A *unit* invariant has no negative weight and a total of at most one, so it bounds the sum of any of its
-/// places. A *signed* one of total zero says that its positive places together hold as many tokens as its
-/// negative ones; it bounds the former if the latter lie in one unit invariant. A place that is positive in a
-/// bounded signed invariant may stand for the negative places of that one (a branch of a fork for the first
-/// branch).
+/// places. A *signed* invariant of total zero says that its positive places together hold as many tokens as
+/// its negative ones. It bounds the positive places if the negative ones lie in one unit invariant. A place
+/// that is positive in a bounded signed invariant may stand for the negative places of that invariant (a
+/// branch of a fork for the first branch).
 ///
 /// Precondition: wrong_invariants() is empty. Linear in the net and the invariants, unless signed invariants
 /// are listed long before those they rest on.

@@ -8,18 +8,19 @@
 
 namespace tessera::verify {
 
-/// Invariants with no negative weight and a total of at most one: no two places of one are marked at once.
+/// The unit invariants: no negative weight, and a total of at most one. No two places of one of them are
+/// marked at once.
 class UnitInvariants {
  public:
   /// Precondition: every invariant is one of the net (wrong_invariants is empty).
   UnitInvariants(const net::Net& net, const std::vector<net::Invariant>& invariants);
 
-  /// The units that count a place, in ascending order.
+  /// The unit invariants that count a place, in ascending order.
   [[nodiscard]] const std::vector<std::uint32_t>& of(net::PlaceId place) const { return of_[place.value]; }
 
-  /// Do the invariants exclude every marking of which the formula is true? false: they do not tell.
+  /// Do the invariants exclude every marking in which the formula is true? false: it remains open.
   ///
-  /// Precondition: the formula asks for places only. Goes through the ways in which it can be true, as long
+  /// Precondition: the formula asks for places only. Tries the ways in which the formula can be true, as long
   /// as they are not too many.
   [[nodiscard]] bool exclude(const explore::Formula& formula) const;
 

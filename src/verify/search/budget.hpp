@@ -7,7 +7,7 @@
 
 namespace tessera::verify {
 
-/// What is left of the limits, for a question that is made of several explorations.
+/// Computes how much of its limits a question that takes several explorations has left.
 class Budget {
  public:
   explicit Budget(const explore::Limits& limits) : limits_(limits), start_(Clock::now()) {}
@@ -19,7 +19,7 @@ class Budget {
     return left;
   }
 
-  /// Nothing is left, or it is to give up.
+  /// No time is left, or the search was told to stop.
   [[nodiscard]] bool spent() const {
     return left().time.count() <= 0 || (limits_.stop != nullptr && limits_.stop->load());
   }

@@ -5,12 +5,13 @@
 #include "explore/formula.hpp"
 #include "net/property.hpp"
 
-/// What the properties of the author ask, in terms of places.
+/// The properties of the author as formulas over places.
 namespace tessera::verify {
 
 [[nodiscard]] explore::Formula formula_of(const net::Statement& statement);
 
-/// The markings that the claim speaks of: those of `what`, or for `always` those of which it is not true.
+/// The markings that the claim speaks of: those in which `what` is true, or for `always` those in which
+/// it is not.
 [[nodiscard]] explore::Formula what_of(net::Property::Kind kind, const net::Claim& claim);
 
 /// "robot[3]: no run reaches it"

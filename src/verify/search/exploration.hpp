@@ -10,13 +10,13 @@
 #include "reduce/components.hpp"
 #include "reduce/reduce.hpp"
 
-/// Questions answered by reducing a net, taking it apart, and visiting the markings of one part of each kind.
+/// Answers questions by reducing a net, dividing it into parts, and exploring one part of each kind.
 namespace tessera::verify {
 
 struct Found {
   enum class Kind : std::uint8_t { yes, no, unknown } kind = Kind::unknown;
-  std::string why;                       ///< of unknown
-  std::vector<net::TransitionId> trace;  ///< of the answer that a run can show; of the net that was given
+  std::string why;                       ///< for unknown
+  std::vector<net::TransitionId> trace;  ///< for the answer that a run can show; in the given net
   std::uint64_t states = 0;
   std::string explanation;  ///< sizes before and after
 };
@@ -31,8 +31,8 @@ struct Reducing {
 [[nodiscard]] Found find_dead(const net::Net& net, net::PlaceId final_place, const Reducing& how,
                               const explore::Limits& limits);
 
-/// Per set: from every reachable marking, can one of its transitions be fired at some time? no: with a run to
-/// a marking from which none can.
+/// For each set: can one of its transitions be fired, at once or later, from every reachable marking? no:
+/// with a run to a marking from which none can.
 [[nodiscard]] std::vector<Found> find_stuck(const net::Net& net,
                                             const std::vector<std::vector<net::TransitionId>>& sets,
                                             const Reducing& how, const explore::Limits& limits);

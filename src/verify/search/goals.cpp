@@ -59,8 +59,8 @@ Formula with_negations_inside(Formula formula, bool negated = false) {
   return formula;
 }
 
-/// An answer about a part of a goal, with a run of the reduced net that shows it, if it is of the kind that
-/// runs show.
+/// An answer about a part of a goal, with a run of the reduced net that shows it, if it is of the kind
+/// that runs show.
 struct Outcome {
   Found::Kind kind = Found::Kind::unknown;
   std::string why{};

@@ -9,9 +9,9 @@
 
 namespace tessera::verify {
 
-/// What is asked of a goal, a formula over places.
+/// The question about a goal, a formula over places.
 enum class Ask : std::uint8_t {
-  reachable,         ///< Is a marking reachable of which `what` is true? yes: with a run.
+  reachable,         ///< Is a marking reachable in which `what` is true? yes: with a run.
   always_reachable,  ///< Can one be reached from every reachable marking? no: with a run to where none can.
   leads_to           ///< explore::leads_to. no: with a run to where `then` is out of reach.
 };
@@ -21,9 +21,9 @@ struct Goal {
   explore::Formula then = explore::Formula::never();  ///< leads_to only
 };
 
-/// One answer for each goal, up to the first that is `stop_at` (nullopt: all); those after it are `unknown`
-/// without a reason. Looks only at the parts of the reduced net that have to do with a goal, and once at
-/// parts and goals that are equal but for the agents.
+/// One answer for each goal, up to the first answer that is `stop_at` (nullopt: all). Later answers are
+/// `unknown` without a reason. Only the parts of the reduced net that a goal concerns are explored. Of parts
+/// and goals that are equal except for the agents, only one is explored.
 [[nodiscard]] std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
                                      std::optional<Found::Kind> stop_at, const Reducing& how,
                                      const explore::Limits& limits);

@@ -16,7 +16,7 @@ class Part {
   Part(const net::Net& net, std::span<const reduce::Component* const> components);
 
   [[nodiscard]] const net::Net& net() const { return part_; }
-  /// A formula over places of the whole net. Precondition: they are in the part.
+  /// A formula over places of the whole net, in terms of the part. Precondition: its places are in the part.
   [[nodiscard]] explore::Formula inside(explore::Formula formula) const;
   /// Transitions of the part, as transitions of the whole net.
   [[nodiscard]] std::vector<net::TransitionId> outside(const std::vector<net::TransitionId>& trace) const;

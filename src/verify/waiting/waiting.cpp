@@ -85,8 +85,8 @@ std::vector<bool> flowing_channels(const CommunicationStructure& structure,
   std::vector<bool> flows;
   for (std::uint32_t index = 0; index < structure.channels.size(); ++index) {
     const ChannelFlow& channel = structure.channels[index];
-    // Where the sender may take its value back and the reader may pass by, the two can keep missing each
-    // other.
+    // Where the sender may take its value back and the reader may pass by, the two can keep
+    // missing each other.
     const bool meet = waits_to_receive(channel) || !channel.send_timeout;
     flows.push_back(uses_for_ever(channel.receiver, index, Side::receive) &&
                     (channel.always_readable || (meet && uses_for_ever(channel.sender, index, Side::send))));

@@ -45,7 +45,8 @@ void WaitingCycleSearch::find_partners() {
   }
 }
 
-/// Who is stuck is at a stop; whoever it waits for is stuck too, unless that one need not come back anyway.
+/// A stuck subsystem is at a stop. The subsystem that it waits for is stuck too, unless that one need not
+/// come back anyway.
 void WaitingCycleSearch::state_waits(std::span<const std::uint32_t> subsystems) {
   std::vector<int> somebody;
   for (const std::uint32_t subsystem : subsystems) {
@@ -189,7 +190,7 @@ int WaitingCycleSearch::leaving_empty(const PlaceSet& trap, std::uint32_t stop) 
   return entry->second;
 }
 
-/// Of several suspicions the one of fewest waits is kept.
+/// Keeps the suspicion with the fewest waits.
 void WaitingCycleSearch::suspect(const Stops& stops) {
   if (!suspected_.empty() && suspected_.size() <= stops.size()) return;
   suspected_.clear();

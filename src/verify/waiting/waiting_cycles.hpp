@@ -13,8 +13,8 @@
 
 namespace tessera::verify {
 
-/// Looks for a set of subsystems each of which waits, at some stop, for another one of the set or for one
-/// that need not come back (docs/waiting.md).
+/// Searches for a set of subsystems that are stuck: each waits, at some stop, for another one of the set or
+/// for one that need not come back (docs/waiting.md).
 ///
 /// Threads: one.
 class WaitingCycleSearch {
@@ -26,14 +26,15 @@ class WaitingCycleSearch {
 
   enum class End : std::uint8_t {
     excluded,   ///< there is no such set
-    suspected,  ///< suspected()
-    gave_up     ///< the watch did
+    suspected,  ///< suspected() names one
+    gave_up     ///< the watch ended the search
   };
   /// May be called again after give_up_on.
   [[nodiscard]] End run();
-  /// Waits that neither a channel nor a trap excludes: a cycle, or one wait for a deserter, or a mesh.
+  /// Waits that neither a channel nor a trap excludes: a cycle, or one wait for a subsystem that need not
+  /// come back, or a mesh.
   [[nodiscard]] const std::vector<Wait>& suspected() const { return suspected_; }
-  /// The first of the suspected waits is for somebody who need not come back.
+  /// The first of the suspected waits is for a subsystem that need not come back.
   [[nodiscard]] bool deserted() const { return deserted_; }
   /// Leaves these subsystems out of further searches.
   void give_up_on(std::span<const std::uint32_t> subsystems);
@@ -63,7 +64,7 @@ class WaitingCycleSearch {
   explore::PtNet net_;
   siphons::Clauses clauses_;
   std::vector<Stops> stops_of_;         // per subsystem
-  std::vector<int> at_;                 // per stop: somebody is stuck there
+  std::vector<int> at_;                 // per stop: a subsystem is stuck there
   std::vector<int> stuck_;              // per subsystem
   std::vector<std::uint32_t> partner_;  // per stop
   std::vector<bool> deserts_;           // per stop: the partner need not come back

@@ -5,8 +5,8 @@
 
 namespace tessera {
 
-/// What a transition of a subsystem is, as far as its name tells. Recordings know transitions by name only;
-/// who has the net asks net::Transition instead.
+/// What a transition of a subsystem is, as far as its name tells. Recordings know transitions by name only.
+/// Code that has the net reads the role of net::Transition instead.
 struct NamedTransition {
   enum class Kind : std::uint8_t {
     other,
@@ -29,8 +29,8 @@ struct NamedTransition {
   }
 };
 
-/// name: "robot.control.follow.t1"; subsystem: "robot.control". Another subsystem's name is `other`. The views
-/// last as long as `name`.
+/// name: "robot.control.follow.t1", of the subsystem "robot.control"; a name without that path is taken as
+/// local. The views last as long as `name`.
 [[nodiscard]] NamedTransition named_transition(std::string_view name, std::string_view subsystem);
 
 /// The name without the path of its subsystem: "follow.t1"; as it is if it has another path.

@@ -50,7 +50,12 @@ void RunFollower::add_firings(News& news) {
   news.time_ns = time_ns_;
   if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return;
   news.marking = recording_.marking();
-  news.firings = {{"t", batch.time_ns}, {"dropped", batch.dropped}, {"firings", batch.firings}};
+  total_firings_ += batch.firings.size() + batch.dropped;
+  news.total_firings = total_firings_;
+  news.firings = {{"t", batch.time_ns},
+                  {"dropped", batch.dropped},
+                  {"total", total_firings_},
+                  {"firings", batch.firings}};
   // A page that plays the firings knows the marking. It is sent from time to time,
   // in case a firing was lost.
   const bool plays_on = batch.dropped == 0 && !batch.jumped;

@@ -28,6 +28,7 @@ class RunFollower {
     std::vector<PathPoint> path;                       ///< new points of the path
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
+    std::uint64_t total_firings = 0;  ///< that were read so far; 0: no new ones
     bool has_state = false, paused = false;
     bool rested = false;  ///< the run has come to rest, perhaps again
     std::string broke_at;
@@ -52,7 +53,7 @@ class RunFollower {
   std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, subsystems_told_{};
   std::optional<PathPoint> pose_waiting_;
   std::optional<project::Snapshot> snapshot_;
-  std::uint64_t pauses_ = 0;
+  std::uint64_t pauses_ = 0, total_firings_ = 0;
   std::int64_t time_ns_ = 0;
 };
 

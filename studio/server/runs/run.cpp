@@ -268,6 +268,7 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
   {
     const std::lock_guard lock(mutex_);
     time_ns_ = std::max(time_ns_, news.time_ns);
+    firings_ = std::max(firings_, news.total_firings);
     if (news.marking) marking_ = *news.marking;
     if (!news.values.is_null()) values_.update(news.values.at("values"));
     if (!news.pose.is_null()) pose_ = news.pose;
@@ -336,6 +337,7 @@ json Run::info(bool all) const {
             {"why", why_}, {"net_hash", analysis_->net_hash}, {"t", time_ns_}};
   if (!all) return info;
   info["marking"] = marking_;
+  info["firings"] = firings_;
   info["values"] = values_;
   info["pose"] = pose_;
   info["path"] = path_.rows();

@@ -93,6 +93,7 @@ class Run {
   ThinnedPath path_{5000};
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
+  std::uint64_t firings_ = 0;
 };
 
 }  // namespace tessera::server

@@ -320,6 +320,8 @@ export interface RunInfo {
   t: number;
   /** Places that hold a token. */
   marking: number[];
+  /** The number of all firings so far. */
+  firings: number;
   values: Values;
   pose: Pose | null;
   /** At most 5000 rows. */
@@ -496,6 +498,8 @@ export interface FiringsEvent {
   t: number;
   /** So many fired before those that are told. */
   dropped: number;
+  /** All firings of the run so far, those of this event included. */
+  total: number;
   firings: FiringRow[];
   /** Places that hold a token after the batch. */
   marking?: number[];

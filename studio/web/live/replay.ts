@@ -122,7 +122,8 @@ export class Replay {
     const track = new Track(this.net, true);
     if (recording.marking) track.timeline.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
     for (const [time, transition] of recording.firings) track.timeline.add(time, transition);
-    track.firings = recording.total;
+    // Those of other parts are loaded when they are shown.
+    track.firings = track.listed = recording.total;
     track.known = this.end;
     for (const [path, samples] of Object.entries(recording.values))
       for (const [time, value] of samples) track.series.add(time, path, value);

@@ -125,7 +125,9 @@ export class Runner {
   private async attach(): Promise<void> {
     const { net } = this.draft.store.get();
     try {
-      const going = (await this.api.runs()).find((run) => ["building", "running", "paused"].includes(run.state));
+      const runs = await this.api.runs();
+      const own = this.active ? runs.find(({ run }) => run === this.store.get().run) : undefined;
+      const going = own ?? runs.find((run) => ["building", "running", "paused"].includes(run.state));
       if (!going) {
         if (this.active) this.store.set({ state: "ended", why: "the server was restarted" });
         return;
@@ -164,6 +166,7 @@ export class Runner {
     this.store.set({ state, why, outcome });
     if (this.track) this.stage.setMarked(marking);
     if ("values" in info) {
+      this.counted(info.firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);
     } else if (state === "ended" || state === "paused") void this.seePath();
@@ -187,14 +190,21 @@ export class Runner {
     }
   }
 
-  private fired({ t, firings, dropped, marking }: FiringsEvent): void {
+  /** total: firings of the run so far. Events may have been lost since the last total. */
+  private counted(total: number): void {
+    const { track, stage } = this;
+    if (!track) return;
+    track.firings = Math.max(track.firings, total);
+    stage.sampled = track.dropped > 0;
+  }
+
+  private fired({ t, firings, total, marking }: FiringsEvent): void {
     const { track, stage } = this;
     if (!track) return;
     track.reached(t);
     track.known = Math.max(track.known, t);
-    track.firings += firings.length + dropped;
-    track.dropped += dropped;
-    stage.sampled ||= dropped > 0;
+    track.listed += firings.length;
+    this.counted(total);
     for (const [time, transition] of firings) {
       track.timeline.add(time, transition);
       stage.fired(transition, marking === undefined);

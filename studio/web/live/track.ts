@@ -24,9 +24,10 @@ export class Track {
   readonly timeline: Timeline;
   readonly series: Series;
   path: Pose[] = [];
+  /** All firings so far. */
   firings = 0;
-  /** The number of firings that were only counted, because there were too many to send. */
-  dropped = 0;
+  /** The firings that arrived one by one. */
+  listed = 0;
   /** The time that is shown. */
   now = 0;
   /** The time up to which the firings are known. */
@@ -40,6 +41,11 @@ export class Track {
   ) {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
+  }
+
+  /** The number of firings that are only counted: there were too many to send, or nobody listened. */
+  get dropped(): number {
+    return Math.max(0, this.firings - this.listed);
   }
 
   get end(): number {

@@ -70,7 +70,7 @@ export function changes(before, after) {
 
 /** Waits, for a minute at most, until `look` gives something that is not undefined, null or false. */
 export async function until(page, look, what) {
-  for (const end = Date.now() + 60_000; Date.now() < end; ) {
+  for (const end = Date.now() + 60_000; Date.now() < end;) {
     const found = await look();
     if (found !== undefined && found !== null && found !== false) return found;
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 30))));

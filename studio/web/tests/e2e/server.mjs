@@ -12,8 +12,7 @@ process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 
 const removeAll = (parent, kept) => {
   if (!existsSync(parent)) return;
-  for (const name of readdirSync(parent))
-    if (!kept.includes(name)) rmSync(join(parent, name), { recursive: true, force: true });
+  for (const name of readdirSync(parent)) if (!kept.includes(name)) rmSync(join(parent, name), { recursive: true, force: true });
 };
 
 const buildFolders = ["build", "generated"];

@@ -26,6 +26,7 @@ async function watching() {
     net_hash: "",
     t: 5,
     marking: [],
+    firings: 3,
     values: { "robot.control.motion": { linear: 1, angular: 2 } },
     pose: null,
     path: [
@@ -37,11 +38,16 @@ async function watching() {
     outcome: null,
     track: null,
   };
-  const api = { start: async () => ({ run: "1" }), run: async () => info, floor: async () => null };
+  const api = {
+    start: async () => ({ run: "1" }),
+    run: async () => info,
+    runs: async () => [info],
+    floor: async () => null,
+  };
   const draft = { store: { get: () => ({ net }) } };
   const runner = new Runner(api as unknown as Api, draft as unknown as Draft, connection as unknown as Connection);
   await runner.start({ kind: "simulate" });
-  return { runner, tell: (name: string, data: object) => heard.get(name)!({ run: "1", ...data }) };
+  return { runner, info, tell: (name: string, data: object) => heard.get(name)!({ run: "1", ...data }) };
 }
 
 describe("Runner", () => {
@@ -68,9 +74,28 @@ describe("Runner", () => {
   it("counts what was dropped, and takes what runs from the marking that comes with it", async () => {
     const { runner, tell } = await watching();
     const marking = [net.placeByName.get("robot.control.follow.in")!];
-    tell("firings", { t: 9, dropped: 7000, firings: [[8, named("robot.control.t_in")]], marking });
+    tell("firings", { t: 9, dropped: 7000, total: 7001, firings: [[8, named("robot.control.t_in")]], marking });
     const { firings, dropped, timeline } = runner.track!;
     expect([firings, dropped]).toEqual([7001, 7000]);
     expect(timeline.lanes[0]!.segments.map(({ behaviour }) => behaviour)).toEqual(["init", "follow"]);
+  });
+  it("counts firings although it was not told of them, or heard of them before the run had a name", async () => {
+    const { runner, tell } = await watching();
+    expect([runner.track!.firings, runner.track!.dropped]).toEqual([3, 3]);
+    expect(runner.stage.sampled).toBe(true);
+    const fired = [[8, named("robot.control.t_in")]];
+    tell("firings", { t: 9, dropped: 0, total: 90, firings: fired });
+    expect([runner.track!.firings, runner.track!.dropped]).toEqual([90, 89]);
+    // The answer to an older question arrives late.
+    tell("firings", { t: 9, dropped: 0, total: 91, firings: fired });
+    expect([runner.track!.firings, runner.track!.dropped]).toEqual([91, 89]);
+  });
+  it("hears of the end of its run although the stream was broken then", async () => {
+    const { runner, tell, info } = await watching();
+    Object.assign(info, { state: "ended", why: "time is up", firings: 40 });
+    tell("hello", {});
+    await vi.waitFor(() => expect(runner.store.get().state).toBe("ended"));
+    expect(runner.store.get().why).toBe("time is up");
+    expect(runner.track!.firings).toBe(40);
   });
 });

@@ -114,7 +114,7 @@ describe("Scene", () => {
     live.reached(20 * second);
     frame();
     expect(scene.store.get().comparison).toMatchObject({ missing: null, differences: [{ behaviours: ["init", "follow"] }] });
-    live.dropped = 1;
+    live.firings = live.listed + 1;
     frame();
     expect(scene.store.get().comparison?.missing).toBe("sampled");
     scene.lock(true);

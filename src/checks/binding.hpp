@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checks/expression.hpp"
+#include "checks/scene.hpp"
+
+/// Formulas and numbers whose elements were looked up, with nothing left of [*] and [i].
+namespace tessera::checks {
+
+/// Two elements of a scene.
+struct Pair {
+  std::size_t first = 0, second = 0;
+  std::string names;  ///< "robot[0], robot[3]", for people
+};
+
+struct BoundNumber {
+  Number::Kind kind = Number::Kind::literal;
+  double value = 0;
+  std::vector<Pair> pairs;    ///< of a distance: the nearest one counts
+  std::size_t element = 0;    ///< of height, speed and sensor
+  std::size_t component = 0;  ///< of a sensor
+  std::vector<BoundNumber> parts;
+  std::string text;  ///< for people
+};
+
+struct BoundFormula {
+  Formula::Kind kind = Formula::Kind::less;
+  std::vector<BoundNumber> numbers;
+  std::vector<Pair> pairs;  ///< of contact: one of them suffices
+  bool with_anything = false;
+  std::vector<BoundFormula> parts;  ///< of every and some: one for each that [*] stands for
+};
+
+/// One formula for each i that names elements which are there; a single one if the text has no [i].
+struct BoundFormulas {
+  std::vector<std::pair<std::int64_t, BoundFormula>> by_index;
+  bool has_index = false;
+};
+
+/// Problem: an element is not there, or [*] stands where it has no meaning.
+[[nodiscard]] Result<BoundFormulas> bind(const Formula& formula, Scene& scene);
+/// A measure has no [i], and a [*] only in a distance.
+[[nodiscard]] Result<BoundNumber> bind(const Number& number, Scene& scene);
+
+[[nodiscard]] double value_of(const BoundNumber& number, Scene& scene);
+[[nodiscard]] bool holds(const BoundFormula& formula, Scene& scene);
+/// The facts that a formula speaks of: "distance(a, b) = 0.183", "robot[0], robot[3] touch". At most three.
+[[nodiscard]] std::string facts_of(const BoundFormula& formula, Scene& scene);
+
+}  // namespace tessera::checks

@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/unknown_name.hpp"
-
 namespace tessera::sim {
 namespace {
 
@@ -49,9 +47,9 @@ void Simulation::sample() {
                    .y_m = robot.at.y_m,
                    .heading_rad = robot.heading_rad};
   std::vector<Point> positions;
-  for (const Eye& eye : eyes_) {
-    positions.push_back(physics_->site_position(eye.site));
-    point.on_line = point.on_line || light_under(eye) < line_threshold;
+  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) {
+    positions.push_back(physics_->site_position(eyes_[eye].site));
+    point.on_line = point.on_line || light_under(*physics_, eye) < line_threshold;
   }
   const Point middle = positions.empty() ? robot.at : middle_of(positions);
   point.eye_x_m = middle.x_m;
@@ -73,38 +71,26 @@ std::optional<Problem> Simulation::finish() {
   return problem;
 }
 
-Result<int> Simulation::add_eye(const std::string& site, double footprint_m) {
+std::size_t Simulation::add_eye(int site, double footprint_m) {
   const std::scoped_lock lock(mutex_);
-  const auto id = physics_->site(site);
-  if (!id) return Problem{unknown_name("site", site, physics_->sites())};
-  eyes_.push_back({*id, footprint_m});
-  robots_.insert(physics_->root_of_site(*id));
-  return static_cast<int>(eyes_.size()) - 1;
+  eyes_.push_back({site, footprint_m});
+  robots_.insert(physics_->root_of_site(site));
+  return eyes_.size() - 1;
 }
 
-Result<int> Simulation::add_actuator(const std::string& name) {
+void Simulation::add_robot_of_site(int site) {
   const std::scoped_lock lock(mutex_);
-  const auto id = physics_->actuator(name);
-  if (!id) return Problem{unknown_name("actuator", name, physics_->actuators())};
-  if (const auto root = physics_->root_of_actuator(*id)) robots_.insert(*root);
-  return *id;
+  robots_.insert(physics_->root_of_site(site));
 }
 
-double Simulation::light_at(int eye) {
+void Simulation::add_robot_of_actuator(int actuator) {
   const std::scoped_lock lock(mutex_);
-  const double light = light_under(eyes_[static_cast<std::size_t>(eye)]);
-  throw_failure();
-  return light;
+  if (const auto root = physics_->root_of_actuator(actuator)) robots_.insert(*root);
 }
 
-double Simulation::light_under(const Eye& eye) const {
-  return floor_ ? floor_->reflectance(physics_->site_position(eye.site), eye.footprint_m) : 1;
-}
-
-void Simulation::command(int actuator, double value) {
-  const std::scoped_lock lock(mutex_);
-  throw_failure();
-  physics_->command(actuator, value);
+double Simulation::light_under(const Physics& physics, std::size_t eye) const {
+  const Eye& one = eyes_[eye];
+  return floor_ ? floor_->reflectance(physics.site_position(one.site), one.footprint_m) : 1;
 }
 
 void Simulation::throw_failure() const {

@@ -5,9 +5,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "sim/physics.hpp"
+#include "sim/engine/physics.hpp"
 #include "sim/trace_writer.hpp"
 #include "sim/track.hpp"
 #include "tessera/result.hpp"
@@ -28,22 +29,29 @@ class Simulation {
   /// Problem: the physics has failed, or the trace could not be written.
   [[nodiscard]] std::optional<Problem> finish();
 
-  /// The site as a light sensor, which from now on counts for the trace.
-  [[nodiscard]] Result<int> add_eye(const std::string& site, double footprint_m);
-  /// The body that it moves counts for the trace too.
-  [[nodiscard]] Result<int> add_actuator(const std::string& name);
+  /// Calls `use(physics)` while nobody else uses the physics. Throws std::runtime_error once the physics has
+  /// failed; what `use` has read then means nothing.
+  template <class Use>
+  void use(Use&& use) {
+    const std::scoped_lock lock(mutex_);
+    std::forward<Use>(use)(*physics_);
+    throw_failure();
+  }
 
-  /// 0 dark .. 1 bright, without noise. Throws std::runtime_error once the physics has failed.
-  [[nodiscard]] double light_at(int eye);
-  /// Throws std::runtime_error once the physics has failed.
-  void command(int actuator, double value);
+  /// A site as a light sensor, which from now on counts for the trace. Returns its number.
+  [[nodiscard]] std::size_t add_eye(int site, double footprint_m);
+  /// The robot that has such a device counts for the trace.
+  void add_robot_of_site(int site);
+  void add_robot_of_actuator(int actuator);
+
+  /// 0 dark .. 1 bright, without noise. Called from within `use`.
+  [[nodiscard]] double light_under(const Physics& physics, std::size_t eye) const;
 
  private:
   struct Eye {
     int site;
     double footprint_m;
   };
-  [[nodiscard]] double light_under(const Eye& eye) const;
   void sample();
   [[nodiscard]] std::vector<std::string> robot_names() const;
   void throw_failure() const;

@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "sim/devices.hpp"
+#include "sim/contents.hpp"
+#include "sim/devices/kinds.hpp"
 #include "sim/simulation.hpp"
-#include "sim/unknown_name.hpp"
+#include "sim/view_of_world.hpp"
 #include "tessera/device.hpp"
 #include "tessera/result.hpp"
 
@@ -32,50 +33,67 @@ std::unique_ptr<T> value_or_null(Result<std::unique_ptr<T>> made, std::string& e
   return nullptr;
 }
 
-/// The device that `make` returns; nullptr, and in `error` the path and the reason.
+std::string sentence(const DriverProblem& problem) {
+  return problem.text + (problem.hint.empty() ? "" : "; " + problem.hint);
+}
+
+/// What `make` returns. nullptr and the problem if it throws.
 template <class Make>
-auto device_or_null(const DriverRequest& request, Make&& make, std::string& error) {
-  auto made = value_or_null(without_exceptions(std::forward<Make>(make)), error);
-  if (!made) error.insert(0, request.path + ": ");
+auto device_or_problem(Make&& make, DriverProblem& problem) -> decltype(make()) try {
+  return make();
+} catch (const DeviceError& error) {
+  problem = error.problem();
+  return nullptr;
+} catch (const std::exception& error) {
+  problem.text = error.what();
+  return nullptr;
+} catch (...) {
+  problem.text = "the simulated world failed without saying why";
+  return nullptr;
+}
+
+/// As the interface of worlds has it: nullptr, and in `error` the path and the reason.
+template <class Make>
+auto device_or_error(Make&& make, const DriverRequest& request, std::string& error) {
+  DriverProblem problem;
+  auto made = device_or_problem(std::forward<Make>(make), problem);
+  if (!made) error = request.path + ": " + sentence(problem);
   return made;
 }
 
 class MujocoWorld final : public World {
  public:
-  MujocoWorld(std::shared_ptr<Simulation> simulation, double footprint_m, std::uint64_t seed)
-      : simulation_(std::move(simulation)), footprint_m_(footprint_m), seed_(seed) {}
+  explicit MujocoWorld(DeviceContext context) : context_(std::move(context)) {}
 
   [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
                                                        std::string& error) override {
-    return device_or_null(
-        request, [&] { return make_receptor(request); }, error);
+    return device_or_error([&] { return make_receptor(context_, request); }, request, error);
   }
-
   [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                        std::string& error) override {
-    return device_or_null(
-        request, [&] { return make_effector(request); }, error);
+    return device_or_error([&] { return make_effector(context_, request); }, request, error);
+  }
+  [[nodiscard]] std::optional<DriverProblem> problem_with(const DriverRequest& request,
+                                                          bool effector) override {
+    DriverProblem problem;
+    const bool made =
+        effector ? device_or_problem([&] { return make_effector(context_, request); }, problem) != nullptr
+                 : device_or_problem([&] { return make_receptor(context_, request); }, problem) != nullptr;
+    return made ? std::nullopt : std::optional(std::move(problem));
+  }
+  [[nodiscard]] std::shared_ptr<WorldState> state(const std::string& agent) override {
+    return view_of_world(context_.simulation, agent);
   }
 
-  void advance_to(Time time) override { simulation_->advance_to(time); }
+  void advance_to(Time time) override { context_.simulation->advance_to(time); }
   [[nodiscard]] bool finish(std::string& error) override {
-    const std::optional<Problem> problem = simulation_->finish();
+    const std::optional<Problem> problem = context_.simulation->finish();
     if (problem) error = problem->text;
     return !problem;
   }
 
  private:
-  [[nodiscard]] Result<std::unique_ptr<RealReceptor>> make_receptor(const DriverRequest& request) {
-    if (request.kind == "reflectance") return light_sensor(simulation_, request, footprint_m_, seed_);
-    return Problem{unknown_name("receptor", request.kind, {"reflectance"})};
-  }
-  [[nodiscard]] Result<std::unique_ptr<RealEffector>> make_effector(const DriverRequest& request) {
-    if (request.kind == "velocity") return wheel(simulation_, request);
-    return Problem{unknown_name("effector", request.kind, {"velocity"})};
-  }
-  std::shared_ptr<Simulation> simulation_;  // devices may outlive the world
-  double footprint_m_;
-  std::uint64_t seed_;
+  DeviceContext context_;  // devices may outlive the world
 };
 
 std::optional<Problem> put_robot_at_start(Physics& physics, const WorldOptions& options) {
@@ -90,10 +108,16 @@ std::optional<Problem> put_robot_at_start(Physics& physics, const WorldOptions& 
   return std::nullopt;
 }
 
+/// The physics of the world file, with the placed models in it. The seam for sim/compose.
+Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
+  if (!options.models.empty()) return Problem{"this version cannot place models in a world yet"};
+  return Physics::load(options.world);
+}
+
 Result<std::unique_ptr<World>> open(const WorldOptions& options) {
   if (!std::isfinite(options.footprint_m) || options.footprint_m < 0)
     return Problem{"the footprint must be a number from 0 up"};
-  auto physics = Physics::load(options.world);
+  auto physics = physics_of(options);
   if (!physics) return Problem{physics.problem()};
   if (auto problem = put_robot_at_start(**physics, options)) return std::move(*problem);
   std::optional<Track> floor;
@@ -104,7 +128,13 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
   }
   auto simulation = std::make_shared<Simulation>(std::move(*physics), std::move(floor), options.trace);
   return std::unique_ptr<World>(
-      std::make_unique<MujocoWorld>(std::move(simulation), options.footprint_m, options.seed));
+      std::make_unique<MujocoWorld>(DeviceContext{std::move(simulation), options.footprint_m, options.seed}));
+}
+
+Result<std::string> list(const WorldOptions& options) {
+  const auto physics = physics_of(options);
+  if (!physics) return Problem{physics.problem()};
+  return contents_as_json((*physics)->model());
 }
 
 }  // namespace
@@ -114,10 +144,20 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 
-/// Opens a MuJoCo world; throws nothing. See tessera::OpenWorld. Kinds: receptor `reflectance` (target: a
-/// site), effector `velocity` (target: an actuator).
-extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world(
+/// Opens a MuJoCo world; throws nothing. See tessera::OpenWorld.
+extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world_2(
     const tessera::WorldOptions& options, std::string& error) {
   return tessera::sim::value_or_null(
       tessera::sim::without_exceptions([&] { return tessera::sim::open(options); }), error);
+}
+
+/// Lists what a MuJoCo world has; throws nothing. See tessera::ListWorld.
+extern "C" __attribute__((visibility("default"))) bool tessera_list_world_2(
+    const tessera::WorldOptions& options, std::string& json, std::string& error) {
+  auto listed = tessera::sim::without_exceptions([&] { return tessera::sim::list(options); });
+  if (listed)
+    json = std::move(*listed);
+  else
+    error = listed.problem();
+  return static_cast<bool>(listed);
 }

@@ -314,6 +314,45 @@ std::vector<std::string> ValueLayout::paths() const {
   return paths;
 }
 
+namespace {
+
+void collect_types(const auto& node, std::vector<std::string>& types) {
+  using Kind = std::remove_cvref_t<decltype(node.kind)>;
+  switch (node.kind) {
+    case Kind::boolean:
+      types.emplace_back("bool");
+      return;
+    case Kind::integer:
+      types.push_back(fmt::format("int{}", 8 * node.size));
+      return;
+    case Kind::natural:
+      types.push_back(fmt::format("uint{}", 8 * node.size));
+      return;
+    case Kind::real:
+      types.push_back(fmt::format("float{}", 8 * node.size));
+      return;
+    case Kind::text:
+      types.push_back(fmt::format("string({})", node.size));
+      return;
+    case Kind::bytes:
+      types.push_back(fmt::format("bytes({})", node.size));
+      return;
+    case Kind::sequence:
+      for (std::size_t index = 0; index < node.size; ++index) collect_types(*node.element, types);
+      return;
+    case Kind::structure:
+      for (const auto& field : node.fields) collect_types(*field.type, types);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> ValueLayout::types() const {
+  std::vector<std::string> types;
+  collect_types(*root_, types);
+  return types;
+}
+
 std::string ValueLayout::shown(std::string_view bytes, std::size_t most) const {
   std::string text;
   bool one = false;

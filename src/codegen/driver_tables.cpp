@@ -52,11 +52,11 @@ class Writer {
  private:
   std::string row(const std::string& path, const spec::Driver& driver) {
     const bool reads = model_.subsystem(driver.instance).kind == spec::SubsystemKind::receptor;
-    const std::string device = alias(driver.target);
+    const std::string device = alias(driver.target());
     const std::string make = fmt::format("tessera::make_driver<tessera::{}, {}, {}>",
                                          reads ? "RealReceptor" : "RealEffector", value(driver), device);
     return fmt::format(
-        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target, quoted(project_.at(driver.span)),
+        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(), quoted(project_.at(driver.span)),
         options(driver),
         reads ? make + ", nullptr" : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, device));
   }

@@ -1,4 +1,5 @@
 #include "run/command_line.hpp"
+#include "run/driver_requests.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -119,8 +120,10 @@ TEST(CommandLine, DriversHaveAKindATargetAndOptions) {
   ASSERT_TRUE(request) << error;
   EXPECT_EQ(request->path, "robot.sensor.left");
   EXPECT_EQ(request->kind, "reflectance");
-  EXPECT_EQ(request->target, "eye_left");
-  EXPECT_EQ(request->options, (std::map<std::string, double>{{"noise", 0.01}, {"footprint", 0.02}}));
+  EXPECT_EQ(request->targets, std::vector<std::string>{"eye_left"});
+  ASSERT_EQ(request->options.size(), 2U);
+  EXPECT_EQ(std::get<double>(request->options.at("noise").values.at(0).value), 0.01);
+  EXPECT_EQ(std::get<double>(request->options.at("footprint").values.at(0).value), 0.02);
   for (const char* wrong : {"robot.sensor.left", "=a:b", "x=a", "x=:b", "x=a:b,noise", "x=a:b,noise=much"})
     EXPECT_FALSE(parse_driver(wrong, error)) << wrong;
 }

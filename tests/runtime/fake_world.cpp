@@ -47,8 +47,8 @@ class FakeWorld final : public tessera::World {
   explicit FakeWorld(const tessera::WorldOptions& options) : options_(options) {}
   std::unique_ptr<tessera::RealReceptor> receptor(const tessera::DriverRequest& request,
                                                   std::string& error) override {
-    if (request.target == options_.track) {
-      error = "there is no " + request.target;
+    if (request.targets.front() == options_.track) {
+      error = "there is no " + request.targets.front();
       return nullptr;
     }
     return std::make_unique<Position>(state_);
@@ -83,7 +83,7 @@ class FakeWorld final : public tessera::World {
 #if defined(__clang__)
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
-extern "C" std::unique_ptr<tessera::World> tessera_open_world(const tessera::WorldOptions& options,
+extern "C" std::unique_ptr<tessera::World> tessera_open_world_2(const tessera::WorldOptions& options,
                                                               std::string& error) {
   if (options.world == "missing.xml") {
     error = "no such world: missing.xml";

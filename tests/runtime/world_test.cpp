@@ -27,8 +27,8 @@ struct InAWorld : ::testing::Test {
     options.world.emplace();
     options.world->world = "flat.xml";
     options.world_library = FAKE_WORLD;
-    options.drivers = {{"robot.body.sensed", "position", "wheel", {}},
-                       {"robot.body.command", "velocity", "wheel", {}}};
+    options.drivers = {{"robot.body.sensed", "position", {"wheel"}, {}},
+                       {"robot.body.command", "velocity", {"wheel"}, {}}};
   }
   std::string complaint() {
     std::string error;
@@ -87,7 +87,7 @@ TEST_F(InAWorld, ThatCannotBeOpenedIsSaid) {
 
 TEST_F(InAWorld, DevicesItLacksAndBuffersThatAreNoneAreSaid) {
   options.world->track = "wheel";
-  options.drivers.push_back({"robot.body.nose", "position", "wheel", {}});
+  options.drivers.push_back({"robot.body.nose", "position", {"wheel"}, {}});
   EXPECT_EQ(complaint(),
             "robot.body.sensed (position 'wheel'): there is no wheel\n"
             "a driver is given for 'robot.body.nose', which is no real buffer");

@@ -67,12 +67,15 @@ class Robot {
   Robot(tessera::World& world) {
     std::string error;
     for (const std::string name : {"left", "middle", "right"}) {
-      auto eye = world.receptor({"robot.sensor." + name, "reflectance", "eye_" + name, {}}, error);
+      auto eye = world.receptor(
+          tessera::request_for<double>({"robot.sensor." + name, "reflectance", {"eye_" + name}, {}}), error);
       if (!eye) throw std::runtime_error(error);
       eyes_.at(count_++) = std::move(eye);
     }
-    left_ = world.effector({"robot.motor.left", "velocity", "wheel_left", {}}, error);
-    right_ = world.effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
+    left_ = world.effector(tessera::request_for<double>({"robot.motor.left", "velocity", {"wheel_left"}, {}}),
+                           error);
+    right_ = world.effector(
+        tessera::request_for<double>({"robot.motor.right", "velocity", {"wheel_right"}, {}}), error);
     if (!left_ || !right_) throw std::runtime_error(error);
   }
 

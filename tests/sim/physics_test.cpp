@@ -1,9 +1,10 @@
-#include "sim/physics.hpp"
+#include "sim/engine/physics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 
+#include "sim/engine/elements.hpp"
 #include "world_library.hpp"
 
 namespace tessera::sim {
@@ -20,8 +21,9 @@ struct Bits {
   if (!loaded) throw std::runtime_error(loaded.problem());
   const auto physics = std::move(*loaded);
   physics->place_robot({{1, 2}, 0.5});
-  const int left = *physics->actuator("wheel_left"), right = *physics->actuator("wheel_right");
-  const int eye = *physics->site("eye_left");
+  const int left = *find_element(physics->model(), mjOBJ_ACTUATOR, "", "wheel_left"),
+            right = *find_element(physics->model(), mjOBJ_ACTUATOR, "", "wheel_right");
+  const int eye = *find_element(physics->model(), mjOBJ_SITE, "", "eye_left");
   for (int step = 0; step < 2500; ++step) {
     physics->command(left, 5 + step % 700 * 0.01);
     physics->command(right, 8 - step % 900 * 0.01);
@@ -42,9 +44,11 @@ TEST(Physics, DevicesAreOnTheBodyThatIsAttachedToTheWorld) {
   auto loaded = Physics::load(line_world());
   ASSERT_TRUE(loaded) << loaded.problem();
   const auto physics = std::move(*loaded);
-  const Physics::RootBody root = physics->root_of_site(*physics->site("eye_right"));
+  const Physics::RootBody root =
+      physics->root_of_site(*find_element(physics->model(), mjOBJ_SITE, "", "eye_right"));
   EXPECT_EQ(physics->name(root), "robot");
-  EXPECT_EQ(physics->root_of_actuator(*physics->actuator("wheel_left")), root);
+  EXPECT_EQ(physics->root_of_actuator(*find_element(physics->model(), mjOBJ_ACTUATOR, "", "wheel_left")),
+            root);
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 namespace tessera::testing {
 
 /// Devices of `line_world()`.
-inline const DriverRequest eye_request{"robot.sensor.left", "reflectance", "eye_left", {}};
-inline const DriverRequest wheel_request{"robot.motor.left", "velocity", "wheel_left", {}};
+inline const DriverRequest eye_request =
+    request_for<double>({"robot.sensor.left", "reflectance", {"eye_left"}, {}});
+inline const DriverRequest wheel_request =
+    request_for<double>({"robot.motor.left", "velocity", {"wheel_left"}, {}});
 
 /// A world that opens. Throws std::runtime_error.
 std::unique_ptr<World> open(const WorldOptions& options);

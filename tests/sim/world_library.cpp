@@ -7,7 +7,7 @@
 std::unique_ptr<tessera::World> open_world(const tessera::WorldOptions& options, std::string& error) {
   static void* const library = dlopen(TESSERA_WORLD_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error(dlerror());
-  static const auto open = reinterpret_cast<tessera::OpenWorld>(dlsym(library, "tessera_open_world"));
+  static const auto open = reinterpret_cast<tessera::OpenWorld>(dlsym(library, tessera::open_world_function));
   if (open == nullptr) throw std::runtime_error(dlerror());
   return open(options, error);
 }

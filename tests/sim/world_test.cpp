@@ -40,7 +40,8 @@ std::string driven(double left, double right, std::chrono::milliseconds time, co
   const auto world = open(options);
   std::string error;
   const auto left_wheel = world->effector(wheel_request, error);
-  const auto right_wheel = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
+  const auto right_wheel =
+      world->effector(request_for<double>({"robot.motor.right", "velocity", {"wheel_right"}, {}}), error);
   EXPECT_TRUE(write(*left_wheel, left));
   EXPECT_TRUE(write(*right_wheel, right));
   world->advance_to(Time(time));
@@ -80,7 +81,8 @@ TEST(World, ATraceDoesNotDisturbWhatSensorsSee) {
     std::string error;
     const auto sensor = world->receptor(eye_request, error);
     const auto left = world->effector(wheel_request, error);
-    const auto right = world->effector({"robot.motor.right", "velocity", "wheel_right", {}}, error);
+    const auto right =
+        world->effector(request_for<double>({"robot.motor.right", "velocity", {"wheel_right"}, {}}), error);
     std::vector<double> values;
     for (auto t = 0ms; t < 5s; t += 50ms) {
       EXPECT_TRUE(write(*left, 8));
@@ -119,7 +121,8 @@ TEST(World, OfSeveralRobotsNoPathIsShownAsThatOfTheRobot) {
     const auto world = open(options);
     std::string error;
     // The second one alone is the robot, though its joint is not the first.
-    const auto mine = world->effector({"b.motor.left", "velocity", "wheel_left_2", {}}, error);
+    const auto mine =
+        world->effector(request_for<double>({"b.motor.left", "velocity", {"wheel_left_2"}, {}}), error);
     ASSERT_TRUE(mine) << error;
     const auto other = both ? world->receptor(eye_request, error) : nullptr;
     world->advance_to(Time(100ms));
@@ -174,7 +177,8 @@ TEST(World, NoiseComesFromTheSeedAndTheDevice) {
     });
     std::filesystem::remove(grey);
     std::string error;
-    const auto receptor = world->receptor({path, "reflectance", "eye_middle", {}}, error);
+    const auto receptor =
+        world->receptor(request_for<double>({path, "reflectance", {"eye_middle"}, {}}), error);
     std::vector<double> values;
     for (int i = 0; i < 1000; ++i) values.push_back(read(*receptor));
     return values;
@@ -193,7 +197,8 @@ TEST(World, NoiseComesFromTheSeedAndTheDevice) {
 TEST(World, NoiseIsAnOption) {
   const auto world = open({.world = line_world()});
   std::string error;
-  const auto quiet = world->receptor({"a", "reflectance", "eye_left", {{"noise", 0}}}, error);
+  const auto quiet =
+      world->receptor(request_for<double>({"a", "reflectance", {"eye_left"}, {{"noise", 0}}}), error);
   EXPECT_EQ(read(*quiet), 1);
 }
 
@@ -206,11 +211,12 @@ TEST(World, DevicesConvertToAndFromFloat32) {
   std::string error;
   const WorldOptions options{.world = line_world()};
   const auto wide = open(options), narrow = open(options);
-  EXPECT_EQ(read_single(*narrow->receptor(eye_request, error)),
+  EXPECT_EQ(read_single(*narrow->receptor(request_for<float>(eye_request), error)),
             static_cast<float>(read(*wide->receptor(eye_request, error))));
   const auto path = [&](const std::string& name, auto speed) {
     const auto world = open({.world = line_world(), .track = {}, .trace = temporary(name)});
-    EXPECT_TRUE(world->effector(wheel_request, error)->write(std::as_bytes(std::span(&speed, 1))));
+    EXPECT_TRUE(world->effector(request_for<decltype(speed)>(wheel_request), error)
+                    ->write(std::as_bytes(std::span(&speed, 1))));
     world->advance_to(Time(1s));
     EXPECT_TRUE(world->finish(error)) << error;
     return bytes_of(temporary(name));

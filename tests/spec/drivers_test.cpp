@@ -71,7 +71,7 @@ TEST(Drivers, OfTheWorldHaveNumbersInMetres) {
   ASSERT_TRUE(reading.model) << reading.report();
   const auto& options = reading.model->simulation->drivers[0].options;
   EXPECT_EQ(options.at("noise"), (DriverOption{0.02, ""}));
-  EXPECT_EQ(options.at("footprint"), (DriverOption{0.012, ""}));
+  EXPECT_EQ(options.at("footprint"), (DriverOption{0.012, "m"}));
 }
 
 TEST(Limits, AreClampedUnlessAFaultIsAskedFor) {

@@ -66,7 +66,7 @@ TEST_F(Convoy, TimeoutOfOneSideBeatsTheCommonOne) {
 TEST_F(Convoy, DriversOfAFleetCountItsAgents) {
   ASSERT_TRUE(model().simulation);
   ASSERT_EQ(model().simulation->drivers.size(), 4U);
-  EXPECT_EQ(model().simulation->drivers[2].target, "eye_2");
+  EXPECT_EQ(model().simulation->drivers[2].target(), "eye_2");
   EXPECT_EQ(model().simulation->drivers[2].options.at("noise"), (DriverOption{0.01, ""}));
   EXPECT_EQ(model().instance_path(model().simulation->drivers[2].instance), "robot[2].eye");
   EXPECT_EQ(model().drivers.size(), 3U);

@@ -81,7 +81,7 @@ TEST_F(LineFollower, SimulationHasTrackAndDrivers) {
   ASSERT_EQ(model().simulation->drivers.size(), 2U);
   const Driver& wheel = model().simulation->drivers[1];
   EXPECT_EQ(wheel.kind, "velocity");
-  EXPECT_EQ(wheel.target, "wheel_left");
+  EXPECT_EQ(wheel.target(), "wheel_left");
   EXPECT_EQ(wheel.instance, 2U);
 }
 

@@ -37,6 +37,8 @@ class ValueLayout {
   [[nodiscard]] std::size_t scalars() const;
   /// Their paths.
   [[nodiscard]] std::vector<std::string> paths() const;
+  /// Their types, such as "float32", "bool" or "string(8)".
+  [[nodiscard]] std::vector<std::string> types() const;
   /// "{linear: 0.3, angular: -1}", cut after `most` bytes.
   [[nodiscard]] std::string shown(std::string_view bytes, std::size_t most = 200) const;
 

@@ -10,9 +10,14 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "tessera/driver_setup.hpp"
 #include "tessera/time.hpp"
+#include "tessera/value_encoding.hpp"
+#include "tessera/world_state.hpp"
 
 namespace tessera {
 
@@ -84,12 +89,54 @@ class Guarded {
 template <class Class>
 inline constexpr bool is_guarded = std::is_base_of_v<Guarded, Class>;
 
+/// One value of an option: a number in SI units, true or false, or a name.
+struct WorldValue {
+  std::variant<double, bool, std::string> value = 0.0;
+  /// Of a number with a unit: "m", "rad", "s" or "Hz". Empty: it has none.
+  std::string unit{};
+
+  WorldValue() = default;
+  WorldValue(double number, std::string its_unit = {}) : value(number), unit(std::move(its_unit)) {}
+  WorldValue(int number) : value(static_cast<double>(number)) {}
+  WorldValue(bool flag) : value(flag) {}
+  WorldValue(std::string name) : value(std::move(name)) {}
+  WorldValue(const char* name) : value(std::string(name)) {}
+};
+/// An option of a device of the world: one value, or a list.
+struct WorldOption {
+  std::vector<WorldValue> values;
+  bool is_list = false;
+
+  WorldOption() = default;
+  template <class Value>
+  requires std::is_constructible_v<WorldValue, Value> WorldOption(Value value)
+      : values{WorldValue(std::move(value))} {}
+  WorldOption(std::vector<WorldValue> list) : values(std::move(list)), is_list(true) {}
+};
+
 /// A device of the simulated world behind a real buffer, as specifications and command lines name it.
 struct DriverRequest {
-  std::string path;                       ///< "robot.sensor.left"
-  std::string kind;                       ///< "reflectance"
-  std::string target;                     ///< "eye_left"
-  std::map<std::string, double> options;  ///< e.g. {"noise", 0.01}
+  std::string path;                            ///< "robot.sensor.left"
+  std::string kind;                            ///< "sensor"
+  std::vector<std::string> targets;            ///< {"yaw", "shoulder"}
+  std::map<std::string, WorldOption> options;  ///< e.g. {"noise", 0.01}
+  /// The type of the real buffer, as tessera/value_encoding.hpp writes it: "float64[4]".
+  std::string type{};
+  /// How values of that type are read and stored. nullptr: the device is only to be judged.
+  const ValueEncoding* encoding = nullptr;
+};
+template <class T>
+[[nodiscard]] DriverRequest request_for(DriverRequest request) {
+  request.encoding = value_encoding_of<T>();
+  request.type = request.encoding->type();
+  return request;
+}
+
+/// What is wrong with a request.
+struct DriverProblem {
+  std::string text;     ///< "the world has no sensor 'gyr'"
+  std::string hint;     ///< "did you mean 'gyro'?"; empty: none
+  std::string subject;  ///< the target or the name of the option that is wrong; empty: all of it
 };
 
 struct WorldOptions {
@@ -99,7 +146,8 @@ struct WorldOptions {
   std::optional<double> start_x_m, start_y_m, start_heading_rad;  ///< unset: as the world file says
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
-  std::string trace;  ///< file that gets the path of the robot; empty: none
+  std::string trace;   ///< file that gets the path of the robot; empty: none
+  std::string models;  ///< JSON: the placed models (docs/simulation_file.md); empty: none
 };
 
 /// A simulated world. It makes devices and moves in lock-step with the clock.
@@ -108,19 +156,32 @@ struct WorldOptions {
 class World {
  public:
   virtual ~World() = default;
-  /// nullptr and `error` if the world has no such thing.
+  /// nullptr and `error` if the world has no such thing, or it does not fit the buffer.
   [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
                                                                std::string& error) = 0;
   [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                                std::string& error) = 0;
+  /// What would be wrong with such a device; nullopt: nothing, or the world does not tell.
+  [[nodiscard]] virtual std::optional<DriverProblem> problem_with(const DriverRequest& /*request*/,
+                                                                  bool /*effector*/) {
+    return std::nullopt;
+  }
+  /// The world's state for drivers that are C++ classes; names are those that `agent` uses.
+  /// nullptr: this world does not give it.
+  [[nodiscard]] virtual std::shared_ptr<WorldState> state(const std::string& /*agent*/) { return nullptr; }
   /// Computes the physics up to `time`, deterministically. Never goes back.
   virtual void advance_to(Time time) = 0;
   /// Writes the trace to its file. false and `error` if that failed.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 };
 
-/// The type of `tessera_open_world`, which the world's shared library exports.
+/// The types of the functions that the world's shared library exports. Their names have the version of this
+/// interface, so that a controller and a library of different versions do not come together.
 using OpenWorld = std::unique_ptr<World> (*)(const WorldOptions& options, std::string& error);
+inline constexpr const char* open_world_function = "tessera_open_world_2";
+/// Lists the contents of a world as JSON. false and `error`: it does not open.
+using ListWorld = bool (*)(const WorldOptions& options, std::string& json, std::string& error);
+inline constexpr const char* list_world_function = "tessera_list_world_2";
 
 /// A driver written by the user in C++ (`cpp: Class`) derives from Receptor<T> or Effector<T>.
 /// T is the type of the real buffer, or the structure `Real` of the subsystem's header if the driver

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "tessera/time.hpp"
+#include "tessera/world_state.hpp"
 
 namespace tessera {
 
@@ -40,7 +42,8 @@ class DriverSetup {
  public:
   /// path: "robot[3].motor.left", or "arm.joints" for a driver of all real buffers of a subsystem. The data
   /// that the options refer to must outlive the setup. Unit tests of drivers may use this constructor, too.
-  explicit DriverSetup(std::string path, std::vector<DriverOption> options = {});
+  explicit DriverSetup(std::string path, std::vector<DriverOption> options = {},
+                       std::shared_ptr<WorldState> world = nullptr);
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const std::string& agent() const { return agent_; }            ///< "robot[3]"
@@ -48,6 +51,9 @@ class DriverSetup {
   [[nodiscard]] const std::string& subsystem() const { return subsystem_; }    ///< "motor"
   /// "left"; empty: the driver serves all real buffers of the subsystem.
   [[nodiscard]] const std::string& buffer() const { return buffer_; }
+
+  /// The simulated world, for simulated drivers. Throws DriverError if there is none.
+  [[nodiscard]] std::shared_ptr<WorldState> world() const;
 
   [[nodiscard]] bool has(std::string_view option) const;
   /// A number in `unit`: metres (m, km, cm, mm, um), radians (rad, deg), seconds (s, ms, us, ns, min, h) and
@@ -76,6 +82,7 @@ class DriverSetup {
   std::string path_, agent_, subsystem_, buffer_;
   std::optional<std::uint32_t> index_;
   std::vector<DriverOption> options_;
+  std::shared_ptr<WorldState> world_;
   mutable std::vector<std::string> asked_;
 };
 

@@ -1,7 +1,7 @@
 #include "drivers/devices.hpp"
 
 #include <dlfcn.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <exception>
@@ -48,10 +48,10 @@ std::unique_ptr<World> open_world(const RunOptions& options, std::string& error)
     error = fmt::format("cannot load the world's library: {}", dlerror());
     return nullptr;
   }
-  const auto open = reinterpret_cast<OpenWorld>(dlsym(library, "tessera_open_world"));
+  const auto open = reinterpret_cast<OpenWorld>(dlsym(library, open_world_function));
   if (open == nullptr) {
-    error = fmt::format("'{}' is no library of worlds: it has no function tessera_open_world",
-                        options.world_library);
+    error = fmt::format("'{}' is no library of worlds of this version: it has no function {}",
+                        options.world_library, open_world_function);
     return nullptr;
   }
   try {
@@ -94,7 +94,8 @@ template <class Kind>
 std::unique_ptr<typename Kind::Base> DeviceFinder::make(const CppDriver& driver) {
   std::string why = "it was made for another kind of buffer";
   try {
-    const DriverSetup setup(std::string(driver.path), {driver.options.begin(), driver.options.end()});
+    const DriverSetup setup(std::string(driver.path), {driver.options.begin(), driver.options.end()},
+                            world_for(driver));
     if (driver.*Kind::maker != nullptr)
       if (auto device = (driver.*Kind::maker)(setup); device != nullptr) return device;
   } catch (const std::exception& exception) {
@@ -107,17 +108,29 @@ std::unique_ptr<typename Kind::Base> DeviceFinder::make(const CppDriver& driver)
   return nullptr;
 }
 
+/// Only simulated drivers see the simulated world.
+std::shared_ptr<WorldState> DeviceFinder::world_for(const CppDriver& driver) const {
+  const auto& simulated = system_.simulated_drivers;
+  const bool is_simulated = !simulated.empty() && &driver >= simulated.data() && &driver <= &simulated.back();
+  if (world_ == nullptr || !is_simulated) return nullptr;
+  return world_->state(std::string(driver.path.substr(0, driver.path.find('.'))));
+}
+
 template <class Kind>
-std::unique_ptr<typename Kind::Base> DeviceFinder::find_one(const std::string& path) {
+std::unique_ptr<typename Kind::Base> DeviceFinder::find_one(const std::string& path,
+                                                            const ValueEncoding* encoding) {
   const bool hardware = is_hardware(path);
   if (!hardware || !simulates_devices(options_))
-    for (const DriverRequest& request : options_.drivers) {
+    for (DriverRequest request : options_.drivers) {
       if (request.path != path) continue;
+      request.encoding = encoding;
+      if (encoding != nullptr) request.type = encoding->type();
       std::string error = "there is no world to find it in (--world)";
       std::unique_ptr<typename Kind::Base> device;
       if (world_ != nullptr) device = (world_->*Kind::of_world)(request, error);
       if (device == nullptr)
-        complaints_.push_back(fmt::format("{} ({} '{}'): {}", path, request.kind, request.target, error));
+        complaints_.push_back(
+            fmt::format("{} ({} '{}'): {}", path, request.kind, fmt::join(request.targets, "', '"), error));
       return device;
     }
   if (const CppDriver* const driver = cpp_driver(path, hardware)) return make<Kind>(*driver);
@@ -153,7 +166,7 @@ void DeviceFinder::find_all(const std::string& subsystem, const Bindings& bindin
   if (find_whole<Kind>(subsystem, bindings, devices)) return;
   for (std::size_t index = 0; index < buffers.size(); ++index) {
     const std::string path = fmt::format("{}.{}", subsystem, buffers[index].name);
-    std::unique_ptr<typename Kind::Base> device = find_one<Kind>(path);
+    std::unique_ptr<typename Kind::Base> device = find_one<Kind>(path, buffers[index].encoding);
     if (device != nullptr) devices.drivers.push_back({path, device.get(), index, 1, Kind::effector});
     Kind::devices(devices).push_back(std::move(device));
   }

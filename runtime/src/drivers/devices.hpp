@@ -53,10 +53,12 @@ class DeviceFinder {
  private:
   [[nodiscard]] bool is_hardware(const std::string& path);
   [[nodiscard]] const CppDriver* cpp_driver(const std::string& path, bool hardware) const;
+  [[nodiscard]] std::shared_ptr<WorldState> world_for(const CppDriver& driver) const;
   template <class Kind>
   [[nodiscard]] std::unique_ptr<typename Kind::Base> make(const CppDriver& driver);
   template <class Kind>
-  [[nodiscard]] std::unique_ptr<typename Kind::Base> find_one(const std::string& path);
+  [[nodiscard]] std::unique_ptr<typename Kind::Base> find_one(const std::string& path,
+                                                              const ValueEncoding* encoding);
   template <class Kind>
   [[nodiscard]] bool find_whole(const std::string& subsystem, const Bindings& bindings,
                                 SubsystemDevices& devices);

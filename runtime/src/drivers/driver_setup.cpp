@@ -93,8 +93,9 @@ const Unit* find_unit(std::string_view name) {
 
 }  // namespace
 
-DriverSetup::DriverSetup(std::string path, std::vector<DriverOption> options)
-    : path_(std::move(path)), options_(std::move(options)) {
+DriverSetup::DriverSetup(std::string path, std::vector<DriverOption> options,
+                         std::shared_ptr<WorldState> world)
+    : path_(std::move(path)), options_(std::move(options)), world_(std::move(world)) {
   const std::size_t first = path_.find('.');
   agent_ = path_.substr(0, first);
   if (first != std::string::npos) {
@@ -108,6 +109,11 @@ DriverSetup::DriverSetup(std::string path, std::vector<DriverOption> options)
   const auto [end, problem] =
       std::from_chars(agent_.data() + bracket + 1, agent_.data() + agent_.size(), index);
   if (problem == std::errc{}) index_ = index;
+}
+
+std::shared_ptr<WorldState> DriverSetup::world() const {
+  if (world_ != nullptr) return world_;
+  throw DriverError("the driver needs a simulated world, and there is none: name `world:` in `simulation:`");
 }
 
 const DriverOption* DriverSetup::find(std::string_view name) const {

@@ -9,26 +9,18 @@
 #include <cstdio>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "run/driver_requests.hpp"
 #include "subsystem/parameters.hpp"
 
 namespace tessera {
 namespace {
 
-[[nodiscard]] std::optional<double> parse_number(std::string_view text) {
-  double value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
 /// The options as the user wrote them, before they are interpreted.
 struct Words {
-  std::string duration, parameter_file, record_limit;
+  std::string duration, parameter_file, record_limit, simulation;
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   WorldOptions world;
@@ -75,6 +67,8 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       .add_option("--driver", words.drivers,
                   "BUFFER=KIND:TARGET[,OPTION=NUMBER...]: robot.sensor.left=reflectance:eye_left,noise=0.01")
       ->allow_extra_args(false);
+  command.add_option("--simulation", words.simulation,
+                     "Devices of the world and models placed in it (JSON, docs/worlds.md)");
   command
       .add_option("--inject", options.inject,
                   "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
@@ -126,8 +120,14 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
     if (!request) return fmt::format("--driver {}: {}", driver, error);
     options.drivers.push_back(*request);
   }
+  std::string models;
+  if (!words.simulation.empty()) {
+    std::string error;
+    if (!read_simulation_file(words.simulation, options.drivers, models, error)) return error;
+  }
   if (words.world.world.empty()) return "";
   options.world = words.world;
+  options.world->models = models;
   options.world->seed = options.seed;
   if (words.start.size() == 3) {
     options.world->start_x_m = words.start[0];
@@ -196,32 +196,6 @@ std::optional<RunOptions::Limit> parse_record_limit(std::string text) {
     return limit;
   }
   return std::nullopt;
-}
-
-std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error) {
-  const std::size_t equals = text.find('=');
-  const std::size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
-  if (equals == std::string::npos || equals == 0 || colon == std::string::npos || colon == equals + 1) {
-    error = "expected BUFFER=KIND:TARGET";
-    return std::nullopt;
-  }
-  DriverRequest request{.path = text.substr(0, equals),
-                        .kind = text.substr(equals + 1, colon - equals - 1),
-                        .target = {},
-                        .options = {}};
-  std::istringstream rest(text.substr(colon + 1));
-  std::getline(rest, request.target, ',');
-  for (std::string option; std::getline(rest, option, ',');) {
-    const std::size_t sign = option.find('=');
-    const std::optional<double> value =
-        sign == std::string::npos ? std::nullopt : parse_number(std::string_view(option).substr(sign + 1));
-    if (!value) {
-      error = fmt::format("'{}' is no OPTION=NUMBER", option);
-      return std::nullopt;
-    }
-    request.options[option.substr(0, sign)] = *value;
-  }
-  return request;
 }
 
 std::variant<CommandLine, int> parse_command_line(const System& system, int argc, char** argv) {

@@ -21,7 +21,4 @@ struct CommandLine {
 /// 1). Prints help and errors.
 [[nodiscard]] std::variant<CommandLine, int> parse_command_line(const System& system, int argc, char** argv);
 
-/// Reads "robot.sensor.left=reflectance:eye_left,noise=0.01". Another form: nullopt and `error`.
-[[nodiscard]] std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error);
-
 }  // namespace tessera

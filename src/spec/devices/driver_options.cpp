@@ -40,6 +40,21 @@ bool is_unit(const Quantity& quantity) {
   return apart && begins_well && unit.find(' ') == std::string_view::npos;
 }
 
+std::optional<DriverOption> world_value(const Node& node, const Entry& entry, Diagnostics& out) {
+  if (!node.is_scalar() || node.text.empty()) {
+    out.error("E104", entry.span,
+              "option " + quoted(entry.key) + " must be a number, a name, true or false, or a list of them",
+              "for example { scan: laser, from: -135 deg, to: 135 deg, reach: 4 m }");
+    return std::nullopt;
+  }
+  if (node.quoted) return DriverOption{node.text, ""};
+  if (is_true(node) || is_false(node)) return DriverOption{is_true(node), ""};
+  if (!split_quantity(node.text)) return DriverOption{node.text, ""};
+  const auto quantity = read_any_quantity(node, entry.span, "option " + quoted(entry.key), out);
+  if (!quantity) return std::nullopt;
+  return DriverOption{quantity->number, std::string(quantity->unit)};
+}
+
 }  // namespace
 
 std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& out) {
@@ -60,16 +75,16 @@ std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& o
 
 std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out) {
   check_name(entry.key, entry.span, "option", out);
-  const auto quantity =
-      entry.value->is_scalar() && !entry.value->quoted ? split_quantity(entry.value->text) : std::nullopt;
-  if (!quantity) {
-    out.error("E104", entry.span, "option " + quoted(entry.key) + " must be a number",
-              "for example { reflectance: eye_left, noise: 0.01 }");
-    return std::nullopt;
+  const Node& node = *entry.value;
+  if (!node.is_sequence()) return world_value(node, entry, out);
+  DriverOption option;
+  option.is_list = true;
+  for (const Node* item : node.items) {
+    const auto value = world_value(*item, entry, out);
+    if (!value) return std::nullopt;
+    option.list.push_back(*value);
   }
-  const auto value = read_length(*entry.value, entry.span, "option " + quoted(entry.key), out);
-  if (!value) return std::nullopt;
-  return DriverOption{*value, ""};
+  return option;
 }
 
 std::string with_agent_number(std::string text, Index number) {

@@ -14,9 +14,10 @@ namespace tessera::spec {
 /// Errors: E104 no scalar.
 [[nodiscard]] std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& out);
 
-/// Reads an option of a device of the simulated world: a number, or a length in metres.
+/// Reads an option of a device of the simulated world: `true` or `false`; a number, also with a unit, in m,
+/// rad, s or Hz; a name; or a list of them. The world knows which of them an option needs.
 ///
-/// Errors: E104 another form; E205 a unit that is not one of length.
+/// Errors: E104 another form; E205 an unknown unit.
 [[nodiscard]] std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out);
 
 /// `text` with every {i} replaced by the number.

@@ -1,12 +1,12 @@
 #include "spec/devices/drivers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/paths.hpp"
 #include "spec/agents/subsystems.hpp"
+#include "spec/devices/driver_kinds.hpp"
 #include "spec/devices/driver_options.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -18,30 +18,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// A kind of driver of real buffers.
-struct DriverKind {
-  std::string_view name;
-  bool receptors, effectors;
-  bool simulated_only;  ///< a part of the simulated world, which reads or takes one floating-point number
-  std::string_view target;
-};
-
-constexpr std::array driver_kinds = {DriverKind{"cpp", true, true, false, "a C++ class"},
-                                     DriverKind{"reflectance", true, false, true, "a site of the world"},
-                                     DriverKind{"velocity", false, true, true, "an actuator of the world"}};
-
 constexpr const char* driver_hint = "for example { reflectance: eye_left, noise: 0.01 }";
-
-const DriverKind* find_kind(std::string_view name) {
-  const auto* const found = std::find_if(driver_kinds.begin(), driver_kinds.end(),
-                                         [name](const DriverKind& one) { return one.name == name; });
-  return found == driver_kinds.end() ? nullptr : found;
-}
-
-bool is_plain_float(const Type& type) {
-  return type.kind == Type::Kind::scalar && type.extent == 0 &&
-         (type.scalar == Scalar::float32 || type.scalar == Scalar::float64);
-}
 
 /// A::B::C
 bool is_class_name(std::string_view text) {
@@ -100,26 +77,38 @@ class DriverReader {
       out_.error("E104", entry.span, "a driver must be a map", driver_hint);
       return nullptr;
     }
-    const DriverKind* kind = nullptr;
-    for (const Entry& key : entry.value->entries) {
-      const DriverKind* const found = find_kind(key.key);
-      if (found == nullptr) continue;
-      if (kind != nullptr)
-        out_.error("E107", key.span, "a driver has one kind", "keep one of " + driver.kind + ", " + key.key);
-      kind = found;
-      read_target(key, *found, driver);
-    }
-    if (kind == nullptr) {
+    const Entry* const chosen = choose_kind(entry, driver);
+    if (chosen == nullptr) {
       complain_of_kind(entry);
       return nullptr;
     }
+    const DriverKind* const kind = find_kind(chosen->key);
+    read_target(*chosen, *kind, driver);
     for (const Entry& key : entry.value->entries) {
-      if (find_kind(key.key) != nullptr) continue;
+      if (&key == chosen || (kind->simulated_only && find_kind(key.key) != nullptr)) continue;
+      driver.option_spans.emplace(key.key, key.value->is_scalar() ? key.value->span : key.span);
       if (const auto option =
               kind->simulated_only ? read_world_option(key, out_) : read_class_option(key, out_))
         driver.options.emplace(key.key, *option);
     }
     return kind;
+  }
+
+  /// A class may have options with the names of other kinds.
+  const Entry* choose_kind(const Entry& entry, Driver& driver) {
+    const Entry* chosen = nullptr;
+    for (const Entry& key : entry.value->entries) {
+      if (find_kind(key.key) == nullptr) continue;
+      if (key.key == "cpp") chosen = &key;
+      if (chosen == nullptr) chosen = &key;
+    }
+    if (chosen == nullptr) return nullptr;
+    driver.kind = chosen->key;
+    if (chosen->key == "cpp") return chosen;
+    for (const Entry& key : entry.value->entries)
+      if (&key != chosen && find_kind(key.key) != nullptr)
+        out_.error("E107", key.span, "a driver has one kind", "keep one of " + chosen->key + ", " + key.key);
+    return chosen;
   }
 
   /// A value that is no number was probably meant to be the kind.
@@ -132,23 +121,31 @@ class DriverReader {
       out_.error("E103", entry.span, "a driver needs a kind", driver_hint);
       return;
     }
-    std::vector<std::string> names;
-    for (const DriverKind& kind : driver_kinds) names.emplace_back(kind.name);
+    const std::vector<std::string> names = kind_names();
     const std::string guess = did_you_mean(stranger->key, names);
+    std::string list = "there are ";
+    for (const std::string& name : names) list += (&name == &names.front() ? "" : ", ") + name;
     out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
-               guess.empty() ? "there are cpp, reflectance and velocity" : guess);
+               guess.empty() ? list : guess);
   }
 
   void read_target(const Entry& key, const DriverKind& kind, Driver& driver) {
-    driver.kind = kind.name;
-    const Node* text =
-        text_of(*key.value, key.span, quoted(key.key), out_, "name " + std::string(kind.target));
-    if (text == nullptr) return;
-    driver.target = text->text;
-    if (kind.name == "cpp" && !is_class_name(text->text)) {
-      out_.error("E105", text->span, quoted(text->text) + " does not name a C++ class",
+    if (kind.lists && key.value->is_sequence()) {
+      for (const Node* item : key.value->items) add_target(*item, key, kind, driver);
+      if (key.value->items.empty())
+        out_.error("E104", key.span, quoted(key.key) + " needs a name", "name " + std::string(kind.target));
+      return;
+    }
+    add_target(*key.value, key, kind, driver);
+    if (kind.name == "cpp" && !driver.targets.empty() && !is_class_name(driver.target())) {
+      out_.error("E105", driver.targets[0].span, quoted(driver.target()) + " does not name a C++ class",
                  "for example LightSensor or robot::LightSensor");
     }
+  }
+
+  void add_target(const Node& node, const Entry& key, const DriverKind& kind, Driver& driver) {
+    if (const Node* text = text_of(node, key.span, quoted(key.key), out_, "name " + std::string(kind.target)))
+      driver.targets.push_back({text->text, text->span});
   }
 
   bool fits(const DriverKind& kind, const PathTarget& target, const Driver& driver) {
@@ -162,8 +159,9 @@ class DriverReader {
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
     } else if (kind.simulated_only && driver.real == none) {
       problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
-    } else if (kind.simulated_only && !is_plain_float(subsystem.real[driver.real].type)) {
-      problem = "driver " + quoted(kind.name) + " needs a real buffer of type float64 or float32";
+    } else if (driver.real != none &&
+               !has_values_of(kind, subsystem.real[driver.real].type, lookup_.model())) {
+      problem = "driver " + quoted(kind.name) + " needs " + std::string(description_of(kind.values));
     } else {
       return true;
     }
@@ -193,10 +191,15 @@ class DriverReader {
   }
 
   static void put_number(Driver& driver, Index number) {
-    driver.target = with_agent_number(driver.target, number);
-    for (auto& [name, option] : driver.options)
+    for (Driver::Target& target : driver.targets) target.name = with_agent_number(target.name, number);
+    const auto put = [&](DriverOption& option) {
       if (auto* const text = std::get_if<std::string>(&option.value))
         *text = with_agent_number(*text, number);
+    };
+    for (auto& [name, option] : driver.options) {
+      put(option);
+      for (DriverOption& value : option.list) put(value);
+    }
   }
 
   /// Each real buffer has one driver: one of its own, or that of the whole subsystem.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spec/devices/drivers.hpp"
+#include "spec/devices/placements.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
 
@@ -62,7 +63,7 @@ Track read_track(const Entry& entry, Diagnostics& out) {
 void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
                                     [](const Driver& driver) { return driver.kind != "cpp"; });
-  if (of_world || simulation.track || simulation.drivers.empty())
+  if (of_world || simulation.track || !simulation.models.empty() || simulation.drivers.empty())
     section.require("world", "for example world: line_world.xml");
 }
 
@@ -71,11 +72,13 @@ void require_world(const Section& section, const Simulation& simulation) {
 std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const AgentGroups& groups,
                                           Diagnostics& out) {
   if (entry == nullptr) return std::nullopt;
-  const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "drivers"}, out);
+  const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "models", "drivers"},
+                        out);
   Simulation simulation;
   simulation.span = entry->span;
   simulation.world = read_file_name(section.find("world"), "the world", simulation.world_span, out);
   if (const Entry* track = section.find("track")) simulation.track = read_track(*track, out);
+  simulation.models = read_placements(section.find("models"), model, groups, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
   if (section.find("world") == nullptr) require_world(section, simulation);
   return simulation;

@@ -17,6 +17,25 @@ std::uint64_t bytes_of(Scalar scalar) {
   return bytes.at(static_cast<std::size_t>(scalar));
 }
 
+std::string Model::layout_of(const Type& type) const {
+  constexpr std::array<std::string_view, 11> scalars{
+      "bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"};
+  std::string text;
+  switch (type.kind) {
+    case Type::Kind::scalar:
+      text = scalars.at(static_cast<std::size_t>(type.scalar));
+      break;
+    case Type::Kind::string:
+      text = "string(" + std::to_string(type.capacity) + ")";
+      break;
+    case Type::Kind::structure:
+      for (const Field& field : structures[type.structure].fields)
+        text += (text.empty() ? "" : ", ") + field.name + ": " + layout_of(field.type);
+      text = "{" + text + "}";
+  }
+  return type.extent == 0 ? text : text + "[" + std::to_string(type.extent) + "]";
+}
+
 const Subsystem& Model::subsystem(Index instance) const {
   const Instance& one = instances[instance];
   return definition_of(agents[one.agent]).subsystems[one.subsystem];

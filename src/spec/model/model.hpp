@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -271,7 +273,10 @@ struct Property {
 /// An option of a driver: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
 struct DriverOption {
   std::variant<bool, double, std::string> value;
-  std::string unit;  ///< of a number, as written; empty: none
+  /// Of a number; empty: none. For a C++ class as written; for the world the base unit of the number.
+  std::string unit;
+  bool is_list = false;  ///< of a device of the world; then `value` means nothing
+  std::vector<DriverOption> list{};
 
   bool operator==(const DriverOption&) const = default;
 };
@@ -279,10 +284,35 @@ struct DriverOption {
 /// The driver of a real buffer, or of all real buffers of a subsystem.
 struct Driver {
   Index instance = 0;
-  Index real = 0;      ///< into Subsystem::real; none: all of them
-  std::string kind;    ///< "cpp", or a kind of the simulated world: "reflectance", "velocity", ...
-  std::string target;  ///< C++ class, or the name of an element of the world
-  std::map<std::string, DriverOption> options;  ///< of the simulated world: numbers, in SI units
+  Index real = 0;    ///< into Subsystem::real; none: all of them
+  std::string kind;  ///< "cpp", or a kind of the simulated world: "sensor", "actuator", ...
+  /// The C++ class, or the names of elements of the world.
+  struct Target {
+    std::string name;
+    Span span;
+  };
+  std::vector<Target> targets;
+  std::map<std::string, DriverOption> options;
+  std::map<std::string, Span> option_spans;
+  Span span;
+
+  /// Precondition: the driver could be read.
+  [[nodiscard]] const std::string& target() const { return targets.front().name; }
+};
+
+/// One model that is placed in the simulated world: a robot of an agent, or a thing.
+struct ModelPlacement {
+  std::string instance;  ///< "robot[3]", "arm", "box[0]"; the elements get the names `robot[3]/...`
+  bool is_agent = false;
+  std::string model;  ///< MJCF file
+  Span model_span;
+  std::optional<std::array<double, 3>> at_m;  ///< unset: as the model has it, or drawn by `scatter`
+  double heading_rad = 0;
+  std::string pose;     ///< keyframe of the model; empty: none
+  std::string scatter;  ///< site of the world in which the place is drawn from the seed; empty: none
+  double apart_m = 0;   ///< least distance of scattered models
+  /// What is drawn from the seed: "box.mass" between the two numbers.
+  std::map<std::string, std::pair<double, double>> vary;
   Span span;
 };
 
@@ -298,6 +328,7 @@ struct Simulation {
   std::string world;  ///< empty: no world; the drivers are C++ classes
   Span world_span;
   std::optional<Track> track;
+  std::vector<ModelPlacement> models;  ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;
   Span span;
 };
@@ -316,6 +347,8 @@ struct Model {
   std::vector<Property> properties;
   std::optional<Simulation> simulation;
 
+  /// The type of a value as recordings describe it: "float64[3]", "{x: float64, y: float64}".
+  [[nodiscard]] std::string layout_of(const Type& type) const;
   [[nodiscard]] const Definition& definition_of(const Agent& agent) const {
     return definitions[agent.definition];
   }

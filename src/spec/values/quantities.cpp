@@ -125,6 +125,36 @@ std::optional<double> read_angle(const Node& node, Span at, std::string_view wha
   return read(node, at, what, angle_units, "90 deg", out);
 }
 
+std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
+                                              Diagnostics& out) {
+  const Node* text = text_of(node, at, what, out, "write a number");
+  const auto quantity = text == nullptr ? std::nullopt : split_quantity(text->text);
+  if (!quantity) {
+    if (text != nullptr)
+      out.error("E205", text->span, std::string(what) + " must be a number, not " + quoted(text->text));
+    return std::nullopt;
+  }
+  struct Quantities {
+    std::string_view base;
+    double in_base;  ///< of the units' own factors
+    std::span<const Unit> units;
+  };
+  const std::array all = {Quantities{"m", 1, length_units}, Quantities{"rad", 1, angle_units},
+                          Quantities{"s", 1e-9, time_units}, Quantities{"Hz", 1, rate_units}};
+  if (quantity->unit.empty()) return BaseQuantity{quantity->number, ""};
+  std::string known;
+  for (const Quantities& one : all)
+    for (const Unit& unit : one.units) {
+      if (unit.name == quantity->unit)
+        return BaseQuantity{quantity->number * unit.factor * one.in_base, one.base};
+      if (!unit.name.empty() && static_cast<unsigned char>(unit.name[0]) < 0x80)
+        known += (known.empty() ? "" : ", ") + std::string(unit.name);
+    }
+  out.error("E205", text->span, "unknown unit " + quoted(quantity->unit) + " of " + std::string(what),
+            "write one of " + known);
+  return std::nullopt;
+}
+
 std::optional<double> read_number(const Node& node, Span at, std::string_view what, Diagnostics& out) {
   const Node* text = text_of(node, at, what, out, "write a number");
   if (text == nullptr) return std::nullopt;

@@ -31,6 +31,14 @@ struct Quantity {
 /// Radians; only 0 may have no unit.
 [[nodiscard]] std::optional<double> read_angle(const Node& node, Span at, std::string_view what,
                                                Diagnostics& out);
+/// A number in the base unit of its quantity: m, rad, s or Hz; empty: the number has no unit.
+struct BaseQuantity {
+  double number = 0;
+  std::string_view unit;
+};
+/// A number of any quantity, with or without a unit. Errors: E205 an unknown unit.
+[[nodiscard]] std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
+                                                            Diagnostics& out);
 /// A number without a unit.
 [[nodiscard]] std::optional<double> read_number(const Node& node, Span at, std::string_view what,
                                                 Diagnostics& out);

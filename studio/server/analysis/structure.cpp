@@ -152,6 +152,14 @@ Known instance(const spec::Model& model, spec::Index index) {
   return found == nullptr ? Known{} : Known{agent->path + "." + found->name, found};
 }
 
+/// "sensor: yaw, shoulder"
+std::string text_of(const spec::Driver& driver) {
+  std::string text = driver.kind;
+  for (const spec::Driver::Target& target : driver.targets)
+    text += (&target == &driver.targets.front() ? ": " : ", ") + target.name;
+  return text;
+}
+
 std::map<std::string, std::string> drivers_of(const spec::Model& model) {
   std::map<std::string, std::string> drivers;
   const auto add = [&](const std::vector<spec::Driver>& list) {
@@ -159,8 +167,7 @@ std::map<std::string, std::string> drivers_of(const spec::Model& model) {
       if (const Known known = instance(model, driver.instance); known.subsystem != nullptr)
         for (spec::Index buffer = 0; buffer < known.subsystem->real.size(); ++buffer)
           if (driver.real == spec::none || driver.real == buffer)
-            drivers.emplace(known.path + "." + name_at(known.subsystem->real, buffer),
-                            driver.kind + ": " + driver.target);
+            drivers.emplace(known.path + "." + name_at(known.subsystem->real, buffer), text_of(driver));
   };
   if (model.simulation) add(model.simulation->drivers);
   add(model.drivers);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/devices/device_error.hpp"
+#include "sim/simulation.hpp"
+#include "tessera/device.hpp"
+
+/// The devices of simulated worlds (docs/worlds.md describes the kinds).
+///
+/// A new kind is one function that makes it, and a row in kinds.cpp. The specification knows its name, too
+/// (src/spec/devices/world_kinds.cpp).
+namespace tessera::sim {
+
+/// What devices share.
+struct DeviceContext {
+  std::shared_ptr<Simulation> simulation;
+  double footprint_m = 0.008;
+  std::uint64_t seed = 1;
+};
+
+/// Make the device that the request asks for. Throw DeviceError if the world has no such thing or it does
+/// not fit the buffer.
+[[nodiscard]] std::unique_ptr<RealReceptor> make_receptor(const DeviceContext& context,
+                                                          const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealEffector> make_effector(const DeviceContext& context,
+                                                          const DriverRequest& request);
+
+// The makers of the kinds, by file. Errors: DeviceError.
+
+// reflectance.cpp
+/// 0 dark .. 1 bright, of the floor under a site.
+[[nodiscard]] std::unique_ptr<RealReceptor> reflectance(const DeviceContext& context,
+                                                        const DriverRequest& request);
+// readings.cpp
+[[nodiscard]] std::unique_ptr<RealReceptor> joint_position(const DeviceContext& context,
+                                                           const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealReceptor> joint_velocity(const DeviceContext& context,
+                                                           const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverRequest& request);
+// sensors.cpp
+[[nodiscard]] std::unique_ptr<RealReceptor> sensor(const DeviceContext& context,
+                                                   const DriverRequest& request);
+// contact.cpp
+[[nodiscard]] std::unique_ptr<RealReceptor> contact(const DeviceContext& context,
+                                                    const DriverRequest& request);
+// scan.cpp
+[[nodiscard]] std::unique_ptr<RealReceptor> scan(const DeviceContext& context, const DriverRequest& request);
+// commands.cpp
+[[nodiscard]] std::unique_ptr<RealEffector> actuator(const DeviceContext& context,
+                                                     const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealEffector> colour(const DeviceContext& context,
+                                                   const DriverRequest& request);
+// movements.cpp
+[[nodiscard]] std::unique_ptr<RealEffector> weld(const DeviceContext& context, const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealEffector> mocap(const DeviceContext& context, const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealEffector> place(const DeviceContext& context, const DriverRequest& request);
+
+}  // namespace tessera::sim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/devices/buffer.hpp"
+#include "sim/devices/kinds.hpp"
+#include "sim/devices/options.hpp"
+#include "sim/engine/elements.hpp"
+#include "sim/engine/physics.hpp"
+#include "tessera/device.hpp"
+
+namespace tessera::sim {
+
+/// The agent that a path begins with: "robot[3]".
+[[nodiscard]] std::string agent_of(const DriverRequest& request);
+
+/// The element that a target names. Throws DeviceError.
+[[nodiscard]] int element_of(const Physics& physics, mjtObj type, const DriverRequest& request,
+                             const std::string& name);
+/// The one target. Throws DeviceError if there are several.
+[[nodiscard]] const std::string& only_target(const DriverRequest& request);
+/// A target that is a body or a site, in this order.
+struct Frame {
+  mjtObj type = mjOBJ_BODY;
+  int id = 0;
+};
+[[nodiscard]] Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name);
+
+/// Normally distributed numbers that come from the seed and the path of the device alone.
+class Noise {
+ public:
+  Noise(std::uint64_t seed, const std::string& path);
+  [[nodiscard]] double draw(double deviation) { return deviation * normal_(random_); }
+
+ private:
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+/// A receptor that reads a row of numbers. `look` sees the physics while nobody else does; `distort` adds
+/// noise. Reading throws std::runtime_error once the physics has failed.
+using Look = std::function<void(const Physics& physics, std::span<double> numbers)>;
+using Distort = std::function<void(std::span<double> numbers)>;
+[[nodiscard]] std::unique_ptr<RealReceptor> reading(std::shared_ptr<Simulation> simulation, Buffer buffer,
+                                                    Look look, Distort distort = {});
+
+/// An effector that takes a row of numbers. `act` returns false to refuse them. Writing throws
+/// std::runtime_error once the physics has failed. Numbers that are not finite are refused before.
+using Act = std::function<bool(Physics& physics, std::span<const double> numbers)>;
+[[nodiscard]] std::unique_ptr<RealEffector> commanding(std::shared_ptr<Simulation> simulation, Buffer buffer,
+                                                       Act act);
+
+}  // namespace tessera::sim

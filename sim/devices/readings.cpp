@@ -1,0 +1,109 @@
+#include <array>
+#include <cmath>
+
+#include "sim/devices/reading.hpp"
+
+namespace tessera::sim {
+namespace {
+
+/// A run of numbers in qpos or qvel.
+struct Run {
+  int at = 0, count = 0;
+};
+
+/// velocity: of the joints, not their position.
+std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverRequest& request,
+                                     bool velocity) {
+  Buffer buffer(request);
+  Options options(request);
+  const double deviation = options.number_from_zero("noise", 0);
+  options.refuse_others();
+  std::vector<Run> runs;
+  int total = 0;
+  context.simulation->use([&](const Physics& physics) {
+    const mjModel& model = physics.model();
+    for (const std::string& name : request.targets) {
+      const int joint = element_of(physics, mjOBJ_JOINT, request, name);
+      runs.push_back(velocity ? Run{model.jnt_dofadr[joint], velocity_size(model, joint)}
+                              : Run{model.jnt_qposadr[joint], position_size(model, joint)});
+      total += runs.back().count;
+    }
+  });
+  buffer.require_reals(static_cast<std::size_t>(total), request.targets.size() == 1
+                                                            ? "joint '" + request.targets[0] + "' gives"
+                                                            : "these joints give");
+  Distort distort;
+  if (deviation > 0)
+    distort = [deviation, random = Noise(context.seed, request.path)](std::span<double> numbers) mutable {
+      for (double& number : numbers) number += random.draw(deviation);
+    };
+  return reading(
+      context.simulation, std::move(buffer),
+      [runs = std::move(runs), velocity](const Physics& physics, std::span<double> numbers) {
+        const mjData& now = physics.positions();
+        auto to = numbers.begin();
+        for (const Run& run : runs)
+          to = std::copy_n((velocity ? now.qvel : now.qpos) + run.at, run.count, to);
+      },
+      std::move(distort));
+}
+
+std::array<double, 7> pose_now(const Physics& physics, const Frame& frame) {
+  const mjData& now = physics.positions();
+  std::array<double, 7> pose{};
+  if (frame.type == mjOBJ_BODY) {
+    std::copy_n(now.xpos + 3 * frame.id, 3, pose.begin());
+    std::copy_n(now.xquat + 4 * frame.id, 4, pose.begin() + 3);
+  } else {
+    std::copy_n(now.site_xpos + 3 * frame.id, 3, pose.begin());
+    mju_mat2Quat(pose.data() + 3, now.site_xmat + 9 * frame.id);
+  }
+  return pose;
+}
+
+/// The direction of the x axis, seen from above.
+double heading_now(const Physics& physics, const Frame& frame) {
+  const mjData& now = physics.positions();
+  const mjtNum* const axes =
+      frame.type == mjOBJ_BODY ? now.xmat + 9 * frame.id : now.site_xmat + 9 * frame.id;
+  return std::atan2(axes[3], axes[0]);
+}
+
+}  // namespace
+
+std::unique_ptr<RealReceptor> joint_position(const DeviceContext& context, const DriverRequest& request) {
+  return joints(context, request, false);
+}
+
+std::unique_ptr<RealReceptor> joint_velocity(const DeviceContext& context, const DriverRequest& request) {
+  return joints(context, request, true);
+}
+
+std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverRequest& request) {
+  Buffer buffer(request);
+  Options(request).refuse_others();
+  Frame frame;
+  context.simulation->use(
+      [&](const Physics& physics) { frame = frame_of(physics, request, only_target(request)); });
+  if (buffer.is_real() && buffer.size() == 7)
+    return reading(context.simulation, std::move(buffer),
+                   [frame](const Physics& physics, std::span<double> numbers) {
+                     std::ranges::copy(pose_now(physics, frame), numbers.begin());
+                   });
+  const std::vector<std::string> planar{"x", "y", "heading"};
+  if (!buffer.is_real() || !std::ranges::is_permutation(buffer.fields(), planar))
+    throw DeviceError("a pose is 7 numbers (x y z, quaternion w x y z), and the buffer is " + buffer.type(),
+                      "make the buffer float64[7], or a structure with the fields x, y and heading");
+  std::vector<std::size_t> order;  // of the fields in the buffer
+  for (const std::string& field : buffer.fields())
+    order.push_back(static_cast<std::size_t>(std::ranges::find(planar, field) - planar.begin()));
+  return reading(context.simulation, std::move(buffer),
+                 [frame, order](const Physics& physics, std::span<double> numbers) {
+                   const std::array<double, 7> all = pose_now(physics, frame);
+                   const std::array<double, 3> flat{all[0], all[1], heading_now(physics, frame)};
+                   for (std::size_t index = 0; index < order.size(); ++index)
+                     numbers[index] = flat[order[index]];
+                 });
+}
+
+}  // namespace tessera::sim

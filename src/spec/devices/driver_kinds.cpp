@@ -1,0 +1,79 @@
+#include "spec/devices/driver_kinds.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tessera::spec {
+namespace {
+
+using Values = DriverKind::Values;
+
+constexpr std::string_view site = "a site of the world", body = "a body of the world";
+
+/// name, receptors, effectors, simulated only, lists, target, values
+constexpr std::array kinds = std::to_array<DriverKind>(
+    {{"cpp", true, true, false, false, "a C++ class", Values::any},
+     {"sensor", true, false, true, true, "a sensor of the world", Values::numbers},
+     {"joint_position", true, false, true, true, "a joint of the world", Values::numbers},
+     {"joint_velocity", true, false, true, true, "a joint of the world", Values::numbers},
+     {"scan", true, false, true, false, site, Values::numbers},
+     {"pose", true, false, true, false, "a body or site of the world", Values::numbers},
+     {"contact", true, false, true, false, "a body or site of the world", Values::flag},
+     {"reflectance", true, false, true, false, site, Values::number},
+     {"actuator", false, true, true, true, "an actuator of the world", Values::numbers},
+     {"velocity", false, true, true, true, "an actuator of the world", Values::numbers},
+     {"weld", false, true, true, false, "an equality of the world", Values::flag},
+     {"mocap", false, true, true, false, body, Values::numbers},
+     {"place", false, true, true, false, body, Values::numbers},
+     {"colour", false, true, true, false, "a geom of the world", Values::numbers}});
+
+/// Whether all numbers of a value are float32 or float64.
+bool is_real(const Type& type, const Model& model) {
+  if (type.kind == Type::Kind::scalar)
+    return type.scalar == Scalar::float32 || type.scalar == Scalar::float64;
+  if (type.kind != Type::Kind::structure) return false;
+  if (type.structure >= model.structures.size()) return true;  // unknown, which is said elsewhere
+  return std::ranges::all_of(model.structures[type.structure].fields,
+                             [&](const Field& field) { return is_real(field.type, model); });
+}
+
+}  // namespace
+
+const DriverKind* find_kind(std::string_view name) {
+  const auto* const found = std::ranges::find(kinds, name, &DriverKind::name);
+  return found == kinds.end() ? nullptr : found;
+}
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const DriverKind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+bool has_values_of(const DriverKind& kind, const Type& type, const Model& model) {
+  const bool one = type.kind == Type::Kind::scalar && type.extent == 0;
+  switch (kind.values) {
+    case Values::any:
+      return true;
+    case Values::number:
+      return one && is_real(type, model);
+    case Values::numbers:
+      return is_real(type, model);
+    case Values::flag:
+      return one && type.scalar == Scalar::boolean;
+  }
+  return false;
+}
+
+std::string_view description_of(DriverKind::Values values) {
+  switch (values) {
+    case Values::number:
+      return "a real buffer of type float64 or float32";
+    case Values::flag:
+      return "a real buffer of type bool";
+    default:
+      return "a real buffer of float64 or float32 numbers";
+  }
+}
+
+}  // namespace tessera::spec

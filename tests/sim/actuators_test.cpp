@@ -1,0 +1,91 @@
+// Effectors of general worlds.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "small_worlds.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+using Seven = std::array<double, 7>;
+
+Seven pose_of(World& world, const std::string& name) {
+  return read_as<Seven>(*receptor<Seven>(world, {"a.look." + name, "pose", {name}, {}}));
+}
+
+TEST(Actuators, RefuseWhatIsBeyondTheirRangeOrClampIt) {
+  const auto world = open_text("range", workshop);
+  const auto strict = effector<double>(*world, {"a.m.c", "actuator", {"shoulder"}, {}});
+  EXPECT_TRUE(write_as(*strict, 1.5));
+  EXPECT_FALSE(write_as(*strict, 1.6));
+  EXPECT_FALSE(write_as(*strict, std::nan("")));
+  const auto single = effector<float>(*world, {"a.m.d", "velocity", {"wrist"}, {}});
+  EXPECT_TRUE(write_as(*single, 0.1F)) << "the limit, rounded to float32, is a little more";
+  EXPECT_FALSE(write_as(*single, 0.11F));
+  const auto lenient = effector<double>(*world, {"a.m.e", "actuator", {"shoulder"}, {{"outside", "clamp"}}});
+  EXPECT_TRUE(write_as(*lenient, 99.0));
+  world->advance_to(Time(3s));
+  const auto angle = receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}});
+  EXPECT_NEAR(read_as<double>(*angle), 1.5, 0.02);
+}
+
+TEST(Actuators, AListIsTakenAsAWholeOrNotAtAll) {
+  const auto world = open_text("whole", workshop);
+  const auto both = effector<std::array<double, 2>>(*world, {"a.m.c", "actuator", {"shoulder", "wrist"}, {}});
+  EXPECT_FALSE(write_as(*both, std::array{1.0, 5.0}));
+  world->advance_to(Time(1s));
+  const auto angle = receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}});
+  EXPECT_NEAR(read_as<double>(*angle), 0, 1e-9);
+}
+
+TEST(Actuators, AWeldTakesThePoseOfTheMoment) {
+  const auto world = open_text("weld", workshop);
+  const auto put = effector<Seven>(*world, {"a.m.p", "place", {"box"}, {}});
+  const auto grip = effector<bool>(*world, {"a.m.g", "weld", {"grip"}, {}});
+  const auto drive = effector<double>(*world, {"a.m.c", "actuator", {"shoulder"}, {}});
+  EXPECT_TRUE(write_as(*put, Seven{0.5, 0.05, 0.5, std::cos(0.4), 0, 0, std::sin(0.4)}));
+  world->advance_to(Time(2ms));
+  EXPECT_TRUE(write_as(*grip, true));
+  EXPECT_TRUE(write_as(*drive, 0.5));
+  world->advance_to(Time(3s));
+  const Seven box = pose_of(*world, "box");
+  EXPECT_NEAR(box[2], 0.5, 0.02) << "it did not fall";
+  const double angle =
+      read_as<double>(*receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}}));
+  EXPECT_GT(angle, 0.3);
+  EXPECT_NEAR(box[0], 0.5 * std::cos(angle) - 0.05 * std::sin(angle), 0.02);
+  EXPECT_NEAR(box[1], 0.5 * std::sin(angle) + 0.05 * std::cos(angle), 0.02);
+  EXPECT_NEAR(2 * std::atan2(box[6], box[3]), 0.8 + angle, 0.05);
+  EXPECT_TRUE(write_as(*grip, false));
+  world->advance_to(Time(5s));
+  EXPECT_NEAR(pose_of(*world, "box")[2], 0.1, 0.01);
+}
+
+TEST(Actuators, ObstaclesMoveAndThingsAreBroughtBack) {
+  const auto world = open_text("mocap", workshop);
+  const auto gate = effector<Seven>(*world, {"a.m.g", "mocap", {"gate"}, {}});
+  EXPECT_TRUE(write_as(*gate, Seven{0, 3, 1, 2, 0, 0, 0})) << "the quaternion is normalised";
+  EXPECT_TRUE(write_as(*gate, Seven{})) << "seven zeros leave it where it is";
+  EXPECT_FALSE(write_as(*gate, Seven{1, 1, 1, 0, 0, 0, 0})) << "no direction";
+  EXPECT_EQ(pose_of(*world, "gate")[1], 2) << "a reading is that of the instant";
+  world->advance_to(Time(2ms));
+  EXPECT_EQ(pose_of(*world, "gate")[1], 3);
+  const auto box = effector<Seven>(*world, {"a.m.b", "place", {"box"}, {}});
+  EXPECT_TRUE(write_as(*box, Seven{-1, -1, 0.1, 1, 0, 0, 0}));
+  world->advance_to(Time(500ms));
+  EXPECT_NEAR(pose_of(*world, "box")[0], -1, 0.01);
+}
+
+TEST(Actuators, ColoursAreFromZeroToOne) {
+  const auto world = open_text("colour", workshop);
+  const auto lamp = effector<std::array<float, 4>>(*world, {"a.m.l", "colour", {"bulb"}, {}});
+  EXPECT_TRUE(write_as(*lamp, std::array{1.0F, 0.5F, 0.0F, 1.0F}));
+  EXPECT_FALSE(write_as(*lamp, std::array{1.0F, 1.5F, 0.0F, 1.0F}));
+}
+
+}  // namespace
+}  // namespace tessera::testing

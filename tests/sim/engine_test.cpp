@@ -1,0 +1,77 @@
+// Buffers that grow, and simulations that go wrong.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/contents.hpp"
+#include "sim/engine/physics.hpp"
+#include "small_worlds.hpp"
+
+using namespace std::chrono_literals;
+
+namespace tessera::testing {
+namespace {
+
+/// A pile of boxes that needs far more contacts than `size` allows for.
+std::string pile(const std::string& size) {
+  std::string boxes;
+  for (int index = 0; index < 27; ++index)
+    boxes += "<body pos='" + std::to_string(0.21 * (index % 3)) + " " +
+             std::to_string(0.21 * (index / 3 % 3)) + " " + std::to_string(0.12 + 0.22 * (index / 9)) +
+             "'><freejoint/><geom type='box' size='0.1 0.1 0.1'/></body>";
+  return "<mujoco>" + size + "<worldbody><geom type='plane' size='3 3 1'/>" + boxes + "</worldbody></mujoco>";
+}
+
+std::vector<double> end_of(const std::string& size, bool reading) {
+  auto loaded = sim::Physics::load(file_with("pile.xml", pile(size)));
+  if (!loaded) throw std::runtime_error(loaded.problem());
+  sim::Physics& physics = **loaded;
+  for (int step = 0; step < 150; ++step) {
+    if (reading) static_cast<void>(physics.state());
+    physics.step();
+  }
+  EXPECT_EQ(physics.failure(), "");
+  const mjData& now = physics.positions();
+  return {now.qvel, now.qvel + physics.model().nv};
+}
+
+TEST(Engine, BuffersGrowWithTheResultOfLargeOnes) {
+  const auto small = end_of("<size nconmax='20' njmax='60'/>", false);
+  EXPECT_EQ(small, end_of("<size nconmax='2000' njmax='3000'/>", false));
+  EXPECT_EQ(small, end_of("<size nconmax='20' njmax='60'/>", true))
+      << "a reading may be the first to need more";
+}
+
+TEST(Engine, AWorldThatExplodesSaysWhen) {
+  auto loaded = sim::Physics::load(file_with("explode.xml",
+                                             "<mujoco><option timestep='0.05' gravity='0 0 "
+                                             "0'/><worldbody><body><joint type='slide' stiffness='1e9'/>"
+                                             "<geom size='0.1' mass='0.001'/></body></worldbody></mujoco>"));
+  ASSERT_TRUE(loaded) << loaded.problem();
+  sim::Physics& physics = **loaded;
+  for (int step = 0; step < 100; ++step) physics.step();
+  EXPECT_EQ(physics.failure(), "") << "it rests at zero";
+  physics.before_next_step([](mjModel&, mjData& state, const mjData&) { state.qpos[0] = 1; });
+  for (int step = 0; step < 100; ++step) physics.step();
+  EXPECT_THAT(physics.failure(), ::testing::MatchesRegex("the physics failed at 5\\.[0-9]* s: .*"));
+}
+
+TEST(Engine, ListsWhatAWorldOffers) {
+  auto loaded = sim::Physics::load(file_with("listed.xml", workshop));
+  ASSERT_TRUE(loaded) << loaded.problem();
+  const auto json = nlohmann::json::parse(sim::contents_as_json((*loaded)->model()));
+  EXPECT_EQ(json["sensors"].size(), 5U);
+  EXPECT_EQ(json["sensors"][2]["name"], "gyro");
+  EXPECT_EQ(json["sensors"][2]["type"], "float64[3]");
+  EXPECT_EQ(json["sensors"][4]["kind"], "") << "`user` sensors give nothing";
+  EXPECT_EQ(json["joints"][3]["joint"], "ball");
+  EXPECT_EQ(json["joints"][3]["velocity_type"], "float64[3]");
+  EXPECT_EQ(json["actuators"][0]["range"], (std::vector<double>{-1.5, 1.5}));
+  EXPECT_EQ(json["bodies"][2]["moved_by"], "place");
+  EXPECT_EQ(json["equalities"][0]["name"], "grip");
+}
+
+}  // namespace
+}  // namespace tessera::testing

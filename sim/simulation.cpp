@@ -33,7 +33,29 @@ void Simulation::advance_to(Time time) {
     if (physics_->time() >= next_sample_) sample();
     if (physics_->next_time() > time.time_since_epoch()) break;
     physics_->step();
+    if (judging_) judging_->after_step();
   }
+}
+
+std::optional<Problem> Simulation::judge_by(const std::string& checks_json) {
+  const std::scoped_lock lock(mutex_);
+  if (checks_json.empty()) return std::nullopt;
+  Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_);
+  if (!judging) return Problem{judging.problem()};
+  judging_ = std::move(*judging);
+  return std::nullopt;
+}
+
+std::vector<WorldFailure> Simulation::take_failures() {
+  const std::scoped_lock lock(mutex_);
+  return judging_ ? judging_->take_failures() : std::vector<WorldFailure>{};
+}
+
+std::string Simulation::results() {
+  const std::scoped_lock lock(mutex_);
+  if (!judging_) return {};
+  judging_->finish();
+  return judging_->results();
 }
 
 void Simulation::sample() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/engine/physics.hpp"
+#include "sim/judging/judging.hpp"
 #include "sim/trace_writer.hpp"
 #include "sim/track.hpp"
 #include "tessera/result.hpp"
@@ -24,6 +25,12 @@ class Simulation {
  public:
   /// floor: nullopt means white everywhere.
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
+
+  /// What the run is judged by, before its first step. Problem: as Judging::read.
+  [[nodiscard]] std::optional<Problem> judge_by(const std::string& checks_json);
+  [[nodiscard]] std::vector<WorldFailure> take_failures();
+  /// As Judging::results; judges what holds at the end.
+  [[nodiscard]] std::string results();
 
   void advance_to(Time time);
   /// Problem: the physics has failed, or the trace could not be written.
@@ -60,6 +67,7 @@ class Simulation {
   std::unique_ptr<Physics> physics_;
   std::optional<Track> floor_;
   std::vector<Eye> eyes_;
+  std::unique_ptr<Judging> judging_;    // nullptr: there is nothing to judge
   std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;
   Duration next_sample_{0};

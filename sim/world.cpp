@@ -86,6 +86,10 @@ class MujocoWorld final : public World {
   }
 
   void advance_to(Time time) override { context_.simulation->advance_to(time); }
+  [[nodiscard]] std::vector<WorldFailure> take_failures() override {
+    return context_.simulation->take_failures();
+  }
+  [[nodiscard]] std::string results() override { return context_.simulation->results(); }
   [[nodiscard]] bool finish(std::string& error) override {
     const std::optional<Problem> problem = context_.simulation->finish();
     if (problem) error = problem->text;
@@ -127,6 +131,7 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
     floor = std::move(*track);
   }
   auto simulation = std::make_shared<Simulation>(std::move(*physics), std::move(floor), options.trace);
+  if (auto problem = simulation->judge_by(options.checks)) return std::move(*problem);
   return std::unique_ptr<World>(
       std::make_unique<MujocoWorld>(DeviceContext{std::move(simulation), options.footprint_m, options.seed}));
 }

@@ -48,6 +48,13 @@ class Physics {
   /// once an instant. After a failure its content means nothing.
   [[nodiscard]] const mjData& state() const;
 
+  /// Calls `use(geom, other geom)` for those that touched when the last step began.
+  template <class Use>
+  void for_contacts_of_last_step(Use&& use) const {
+    for (int index = 0; index < data_->ncon; ++index)
+      if (data_->contact[index].dist <= 0) use(data_->contact[index].geom1, data_->contact[index].geom2);
+  }
+
   /// For an actuator, from the next step on.
   void command(int actuator, double value) { commands_[static_cast<std::size_t>(actuator)] = value; }
   /// Any other change. It is made at the beginning of the next step, in the order of the calls. `state` is

@@ -147,7 +147,15 @@ struct WorldOptions {
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
+  std::string checks;  ///< JSON: what the run is judged by (docs/worlds.md); empty: nothing
   std::string models;  ///< JSON: the placed models (docs/simulation_file.md); empty: none
+};
+
+/// A check of the run that has failed.
+struct WorldFailure {
+  std::string check;  ///< its name
+  std::string text;   ///< what it demands, and the facts
+  double time_s = 0;  ///< of the simulated clock
 };
 
 /// A simulated world. It makes devices and moves in lock-step with the clock.
@@ -171,6 +179,10 @@ class World {
   [[nodiscard]] virtual std::shared_ptr<WorldState> state(const std::string& /*agent*/) { return nullptr; }
   /// Computes the physics up to `time`, deterministically. Never goes back.
   virtual void advance_to(Time time) = 0;
+  /// The checks that have failed since the last call.
+  [[nodiscard]] virtual std::vector<WorldFailure> take_failures() { return {}; }
+  /// JSON with `checks` and `measures` of the run (docs/worlds.md), at its end; empty: there are none.
+  [[nodiscard]] virtual std::string results() { return {}; }
   /// Writes the trace to its file. false and `error` if that failed.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 };

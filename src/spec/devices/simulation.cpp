@@ -4,6 +4,7 @@
 
 #include "spec/devices/drivers.hpp"
 #include "spec/devices/placements.hpp"
+#include "spec/devices/world_checks.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
 
@@ -63,7 +64,7 @@ Track read_track(const Entry& entry, Diagnostics& out) {
 void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
                                     [](const Driver& driver) { return driver.kind != "cpp"; });
-  if (of_world || simulation.track || !simulation.models.empty() || simulation.drivers.empty())
+  if (of_world || simulation.track || !simulation.checks.empty() || !simulation.measures.empty() || !simulation.models.empty() || simulation.drivers.empty())
     section.require("world", "for example world: line_world.xml");
 }
 
@@ -72,14 +73,15 @@ void require_world(const Section& section, const Simulation& simulation) {
 std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const AgentGroups& groups,
                                           Diagnostics& out) {
   if (entry == nullptr) return std::nullopt;
-  const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "models", "drivers"},
-                        out);
+  const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "models", "drivers", "checks", "measures"}, out);
   Simulation simulation;
   simulation.span = entry->span;
   simulation.world = read_file_name(section.find("world"), "the world", simulation.world_span, out);
   if (const Entry* track = section.find("track")) simulation.track = read_track(*track, out);
   simulation.models = read_placements(section.find("models"), model, groups, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
+  simulation.checks = read_world_checks(section.find("checks"), out);
+  simulation.measures = read_world_measures(section.find("measures"), out);
   if (section.find("world") == nullptr) require_world(section, simulation);
   return simulation;
 }

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "checks/checks.hpp"
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
 
@@ -324,12 +325,25 @@ struct Track {
   double footprint_m = 0.008;
 };
 
+/// What a simulated run is judged by.
+struct WorldCheck {
+  checks::Check check;
+  Span span;  ///< of the formula
+};
+/// A number that a simulated run tells.
+struct WorldMeasure {
+  checks::Measure measure;
+  Span span;  ///< of the number
+};
+
 struct Simulation {
   std::string world;  ///< empty: no world; the drivers are C++ classes
   Span world_span;
   std::optional<Track> track;
   std::vector<ModelPlacement> models;  ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;
+  std::vector<WorldCheck> checks;
+  std::vector<WorldMeasure> measures;
   Span span;
 };
 

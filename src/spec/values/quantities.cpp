@@ -125,6 +125,29 @@ std::optional<double> read_angle(const Node& node, Span at, std::string_view wha
   return read(node, at, what, angle_units, "90 deg", out);
 }
 
+namespace {
+
+struct Quantities {
+  std::string_view base;
+  double in_base;  ///< of the units' own factors
+  std::span<const Unit> units;
+};
+constexpr std::array quantities = {Quantities{"m", 1, length_units}, Quantities{"rad", 1, angle_units},
+                                   Quantities{"s", 1e-9, time_units}, Quantities{"Hz", 1, rate_units}};
+
+}  // namespace
+
+std::optional<double> si_factor(std::string_view unit) {
+  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos) {
+    const auto way = si_factor(unit.substr(0, slash)), time = si_factor(unit.substr(slash + 1));
+    return way && time ? std::optional(*way / *time) : std::nullopt;
+  }
+  for (const Quantities& one : quantities)
+    for (const Unit& known : one.units)
+      if (!unit.empty() && known.name == unit) return known.factor * one.in_base;
+  return std::nullopt;
+}
+
 std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
                                               Diagnostics& out) {
   const Node* text = text_of(node, at, what, out, "write a number");
@@ -134,16 +157,9 @@ std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::st
       out.error("E205", text->span, std::string(what) + " must be a number, not " + quoted(text->text));
     return std::nullopt;
   }
-  struct Quantities {
-    std::string_view base;
-    double in_base;  ///< of the units' own factors
-    std::span<const Unit> units;
-  };
-  const std::array all = {Quantities{"m", 1, length_units}, Quantities{"rad", 1, angle_units},
-                          Quantities{"s", 1e-9, time_units}, Quantities{"Hz", 1, rate_units}};
   if (quantity->unit.empty()) return BaseQuantity{quantity->number, ""};
   std::string known;
-  for (const Quantities& one : all)
+  for (const Quantities& one : quantities)
     for (const Unit& unit : one.units) {
       if (unit.name == quantity->unit)
         return BaseQuantity{quantity->number * unit.factor * one.in_base, one.base};

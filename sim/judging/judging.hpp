@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checks/checks.hpp"
+#include "sim/judging/scene.hpp"
+#include "tessera/device.hpp"
+#include "tessera/result.hpp"
+
+namespace tessera::sim {
+
+/// The checks and measures of a run, as the simulation file has them, on the physics of a world.
+class Judging {
+ public:
+  /// json: a list of {"name", "when", "formula", "within_s"?} at "checks", and an object at "measures"; empty:
+  /// none of both. Problem: a check or measure that does not fit the world. physics: must outlive this object.
+  [[nodiscard]] static Result<std::unique_ptr<Judging>> read(const std::string& json, const Physics& physics);
+
+  /// Call it after every step: notes contacts, and judges every 10 ms.
+  void after_step();
+  /// Judges what holds at the end, once.
+  void finish();
+  [[nodiscard]] std::vector<WorldFailure> take_failures();
+  /// {"checks": [{"name", "text", "verdict", "time_s"?, "detail"?}], "measures": {NAME: {"least",
+  /// "least_at_s", "greatest", "greatest_at_s", "mean", "last"}}} as JSON; empty: there are none.
+  [[nodiscard]] std::string results() const;
+
+ private:
+  explicit Judging(const Physics& physics) : physics_(physics), scene_(physics) {}
+
+  const Physics& physics_;
+  Scene scene_;
+  std::optional<checks::Judge> judge_;
+  Duration next_{0};
+  bool finished_ = false;
+};
+
+}  // namespace tessera::sim

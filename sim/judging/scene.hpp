@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "checks/scene.hpp"
+#include "sim/engine/physics.hpp"
+
+namespace tessera::sim {
+
+/// A world as its checks and measures see it.
+///
+/// A model that is placed as `robot[3]` is all of its bodies for contacts; its origin is that of the first of
+/// them. A body is all that hangs on it. Without placed models, the names of the world file are used alone.
+///
+/// Contacts are noted after every step, so none between two observations is missed.
+class Scene final : public checks::Scene {
+ public:
+  /// physics: must outlive this object.
+  explicit Scene(const Physics& physics) : physics_(physics) {}
+
+  [[nodiscard]] std::vector<std::int64_t> indices_of(std::string_view name) const override;
+  [[nodiscard]] Result<std::size_t> find(As as, const std::string& name) override;
+  [[nodiscard]] std::size_t dimension_of(std::size_t sensor) const override;
+  [[nodiscard]] std::array<double, 3> position(std::size_t point) override;
+  [[nodiscard]] double speed(std::size_t point) override;
+  [[nodiscard]] bool touched(std::size_t solid, std::size_t other) override;
+  [[nodiscard]] bool touched_anything(std::size_t solid) override;
+  [[nodiscard]] bool inside(std::size_t point, std::size_t zone) override;
+  [[nodiscard]] double sensor(std::size_t sensor, std::size_t component) override;
+
+  /// Notes the contacts of the last step.
+  void note_contacts();
+  void forget_contacts();
+
+ private:
+  struct Element {
+    mjtObj type;
+    int id;
+  };
+  [[nodiscard]] std::optional<Element> element_named(const std::string& name) const;
+  [[nodiscard]] std::vector<int> bodies_of_model(const std::string& name) const;
+  [[nodiscard]] Result<std::size_t> find_solid(const std::string& name);
+  [[nodiscard]] std::vector<bool> geoms_of(const std::string& name) const;
+  [[nodiscard]] Problem unknown(const char* what, const std::string& name,
+                                std::initializer_list<mjtObj> types) const;
+  void note_contact(int geom, int other);
+
+  const Physics& physics_;
+  std::vector<Element> elements_;  ///< points, zones and sensors
+  std::map<std::string, std::size_t> solids_;
+  std::vector<std::vector<std::size_t>> solids_of_geom_;
+  std::set<std::pair<std::size_t, std::size_t>> touching_;  ///< solids, the smaller number first
+  std::vector<bool> touching_anything_;                     ///< per solid
+};
+
+}  // namespace tessera::sim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "spec/document/document.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::spec {
+
+/// Reads `simulation: checks`: a list of { name: ..., never | always | at_end | eventually: FORMULA } with
+/// `within` for eventually. entry may be null.
+///
+/// Errors: E102-E104 form; E115 a formula that cannot be read; E205, E206 the time; E308 a name that is taken.
+[[nodiscard]] std::vector<WorldCheck> read_world_checks(const Entry* entry, Diagnostics& out);
+
+/// Reads `simulation: measures`: NAME: NUMBER. entry may be null. Errors: as for checks.
+[[nodiscard]] std::vector<WorldMeasure> read_world_measures(const Entry* entry, Diagnostics& out);
+
+}  // namespace tessera::spec

@@ -120,7 +120,7 @@ int check_run(const LaunchOptions& options, bool with_world) {
   if (!specification) return ok;
   if (!parameters_fit(*specification, options)) return failed;
   if (!with_world || !specification->model.simulation) return ok;
-  if (!simulation_files_exist(*specification, terminal())) return failed;
+  if (!simulation_is_possible(*specification, terminal(), options.world)) return failed;
   static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
   return ok;
 }

@@ -7,6 +7,7 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/assets.hpp"
+#include "project/files/world_check.hpp"
 #include "project/verification/pipeline.hpp"
 #include "spec/parser.hpp"
 
@@ -30,7 +31,8 @@ int check_json(const CheckOptions& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
     if (const std::optional<spec::Model> model = spec::parse(found)) {
-      check_simulation_files(*model, std::filesystem::absolute(spec_file(options.spec)).parent_path(), found);
+      const auto project = std::filesystem::absolute(spec_file(options.spec)).parent_path();
+      if (check_simulation_files(*model, project, found)) check_world(*model, project, "", found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
     }
   write_output(options.json, diagnostics::render_json(found) + "\n");
@@ -43,7 +45,7 @@ int check_command(const CheckOptions& options) {
   std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return exit_code_without_net();
   const bool sound = models_are_sound(*specification, terminal());
-  if (!simulation_files_exist(*specification, terminal()) || !sound) return exit_code_without_net();
+  if (!simulation_is_possible(*specification, terminal()) || !sound) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
   const spec::Model& model = specification->model;

@@ -5,11 +5,13 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <fstream>
 #include <numbers>
 #include <stdexcept>
 
 #include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
+#include "project/files/simulation_file.hpp"
 #include "project/verification/verdicts.hpp"
 #include "sim/track.hpp"
 
@@ -63,14 +65,12 @@ void append(Command& command, std::initializer_list<std::string> words) {
   command.insert(command.end(), words);
 }
 
-void add_drivers(Command& command, const spec::Model& model) {
-  for (const spec::Driver& driver : model.simulation->drivers) {
-    if (driver.kind == "cpp") continue;
-    std::string value = fmt::format("{}={}:{}", model.driver_path(driver), driver.kind, driver.target);
-    for (const auto& [name, option] : driver.options)
-      value += fmt::format(",{}={}", name, std::get<double>(option.value));
-    append(command, {"--driver", value});
-  }
+void add_devices(Command& command, const Specification& specification, const LaunchOptions& options) {
+  const fs::path file = fs::absolute(options.folder) / file_names::simulation;
+  std::ofstream stream(file);
+  stream << simulation_json(specification.model, specification.project) << std::flush;
+  if (!stream) throw std::runtime_error("cannot write " + file.string());
+  append(command, {"--simulation", file.string()});
 }
 
 // "robot.motor.left" is in "robot.motor".
@@ -118,7 +118,7 @@ void add_world(Command& command, const Specification& specification, const Launc
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);
   append(command, {"--trace", run_files(options).trace.string()});
-  add_drivers(command, specification.model);
+  add_devices(command, specification, options);
 }
 
 // The real buffers that have no driver for a run of this kind.

@@ -62,7 +62,7 @@ inline constexpr const char* usual_record_limit = "1GB";
                                                 Listener& listener);
 
 /// The controller's command line. mode: "simulate" or "run"; simulated: use the simulated robot,
-/// in its world if it has one.
+/// in its world if it has one. Then it writes simulation.json into the folder of the run.
 [[nodiscard]] Command controller_command(const Controller& controller, const LaunchOptions& options,
                                          const std::string& mode, bool simulated);
 

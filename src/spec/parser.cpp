@@ -48,6 +48,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.system = read_system(file, out);
   Types types;
   types.read(file.find("types"), out);
+  model.structures = types.structures();
   model.parameters = read_parameters(file.find("parameters"), types, out);
   const Entry* agents = file.require("agents", "a system is made of agents");
   const AgentGroups groups =
@@ -60,7 +61,6 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
-  model.structures = types.structures();
   return model;
 }
 

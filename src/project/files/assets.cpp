@@ -57,6 +57,9 @@ bool check_simulation_files(const spec::Model& model, const fs::path& project,
   const spec::Simulation& simulation = *model.simulation;
   bool found = simulation.world.empty() ||  // the drivers are C++ classes
                check_file(simulation.world, "world", "worlds", simulation.world_span, project, out);
+  for (const spec::ModelPlacement& placement : simulation.models)
+    if (&placement == &simulation.models.front() || (&placement)[-1].span != placement.span)
+      found = check_file(placement.model, "model", "worlds", placement.model_span, project, out) && found;
   if (simulation.track)
     found = check_file(simulation.track->image, "picture", "tracks", simulation.track->image_span, project,
                        out) &&

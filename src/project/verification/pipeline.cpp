@@ -11,6 +11,7 @@
 #include "net/flatten.hpp"
 #include "project/files/assets.hpp"
 #include "project/files/file_names.hpp"
+#include "project/files/world_check.hpp"
 #include "project/process/listener.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
@@ -103,9 +104,11 @@ bool models_are_sound(const Specification& specification, Listener& listener) {
   return sound;
 }
 
-bool simulation_files_exist(const Specification& specification, Listener& listener) {
+bool simulation_is_possible(const Specification& specification, Listener& listener,
+                            const std::string& world) {
   diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
-  const bool there = check_simulation_files(specification.model, specification.project, found);
+  const bool there = check_simulation_files(specification.model, specification.project, found) &&
+                     check_world(specification.model, specification.project, world, found);
   listener.say(found);
   return there;
 }

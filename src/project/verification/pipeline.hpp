@@ -36,8 +36,10 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out);
 /// The same, with the diagnostics reported to the listener.
 [[nodiscard]] bool models_are_sound(const Specification& specification, Listener& listener);
 
-/// check_simulation_files, told (src/project/files/assets.hpp).
-[[nodiscard]] bool simulation_files_exist(const Specification& specification, Listener& listener);
+/// check_simulation_files, told (src/project/files/assets.hpp), and then check_world
+/// (src/project/files/world_check.hpp). world: as there.
+[[nodiscard]] bool simulation_is_possible(const Specification& specification, Listener& listener,
+                                          const std::string& world = {});
 
 /// The nets of a model, as far as the stages got: an error is reported, and what
 /// follows from it is missing.

@@ -33,8 +33,11 @@ bool is_real(const Type& type, const Model& model) {
     return type.scalar == Scalar::float32 || type.scalar == Scalar::float64;
   if (type.kind != Type::Kind::structure) return false;
   if (type.structure >= model.structures.size()) return true;  // unknown, which is said elsewhere
-  return std::ranges::all_of(model.structures[type.structure].fields,
-                             [&](const Field& field) { return is_real(field.type, model); });
+  return std::ranges::all_of(model.structures[type.structure].fields, [&](const Field& field) {
+    // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
+    const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;
+    return cycle || is_real(field.type, model);
+  });
 }
 
 }  // namespace

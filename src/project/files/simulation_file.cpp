@@ -1,0 +1,89 @@
+#include "project/files/simulation_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "project/files/installation.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+WorldValue value_of(const spec::DriverOption& option) {
+  WorldValue value;
+  std::visit([&](const auto& one) { value.value = one; }, option.value);
+  value.unit = option.unit;
+  return value;
+}
+
+WorldOption option_of(const spec::DriverOption& option) {
+  if (!option.is_list) return {value_of(option)};
+  std::vector<WorldValue> values;
+  for (const spec::DriverOption& one : option.list) values.push_back(value_of(one));
+  return {std::move(values)};
+}
+
+Json json_of(const WorldValue& value) {
+  const Json bare = std::visit([](const auto& one) { return Json(one); }, value.value);
+  return value.unit.empty() ? bare : Json{{"number", bare}, {"unit", value.unit}};
+}
+
+Json json_of(const WorldOption& option) {
+  if (!option.is_list) return json_of(option.values.at(0));
+  Json list = Json::array();
+  for (const WorldValue& value : option.values) list.push_back(json_of(value));
+  return list;
+}
+
+Json json_of(const DriverRequest& request) {
+  Json driver{{"path", request.path}, {"kind", request.kind}, {"targets", request.targets}};
+  for (const auto& [name, option] : request.options) driver["options"][name] = json_of(option);
+  return driver;
+}
+
+Json json_of(const spec::ModelPlacement& placement, const fs::path& project) {
+  Json json{{"instance", placement.instance}, {"agent", placement.is_agent}};
+  json["model"] = find_asset(placement.model, project, "worlds").value_or(placement.model).string();
+  if (placement.at_m) json["at_m"] = *placement.at_m;
+  json["heading_rad"] = placement.heading_rad;
+  if (!placement.pose.empty()) json["pose"] = placement.pose;
+  if (!placement.scatter.empty()) json["scatter"] = placement.scatter;
+  if (placement.apart_m > 0) json["apart_m"] = placement.apart_m;
+  for (const auto& [name, ends] : placement.vary) json["vary"][name] = {ends.first, ends.second};
+  return json;
+}
+
+Json models_of(const spec::Simulation& simulation, const fs::path& project) {
+  Json models = Json::array();
+  for (const spec::ModelPlacement& placement : simulation.models)
+    models.push_back(json_of(placement, project));
+  return models;
+}
+
+}  // namespace
+
+DriverRequest request_of(const spec::Model& model, const spec::Driver& driver) {
+  DriverRequest request{.path = model.driver_path(driver), .kind = driver.kind, .targets = {}, .options = {}};
+  for (const spec::Driver::Target& target : driver.targets) request.targets.push_back(target.name);
+  for (const auto& [name, option] : driver.options) request.options.emplace(name, option_of(option));
+  if (driver.real != spec::none)
+    request.type = model.layout_of(model.subsystem(driver.instance).real[driver.real].type);
+  return request;
+}
+
+std::string placements_json(const spec::Simulation& simulation, const fs::path& project) {
+  return simulation.models.empty() ? "" : models_of(simulation, project).dump();
+}
+
+std::string simulation_json(const spec::Model& model, const fs::path& project) {
+  Json json{{"drivers", Json::array()}};
+  for (const spec::Driver& driver : model.simulation->drivers)
+    if (driver.kind != "cpp") json["drivers"].push_back(json_of(request_of(model, driver)));
+  json["models"] = models_of(*model.simulation, project);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,108 @@
+#include "project/files/world_check.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <set>
+
+#include "project/files/installation.hpp"
+#include "project/files/simulation_file.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A function of the library of worlds, which stays loaded.
+Result<void*> function_of_library(const char* name) {
+  const fs::path file = Installation::find().world_library;
+  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return Problem{"cannot load the library of worlds: " + std::string(dlerror())};
+  void* const function = dlsym(library, name);
+  if (function == nullptr) return Problem{file.string() + " is of another version: it has no " + name};
+  return function;
+}
+
+/// Where in the specification a problem is.
+diagnostics::Span place_of(const spec::Driver& driver, const DriverProblem& problem) {
+  if (const auto option = driver.option_spans.find(problem.subject); option != driver.option_spans.end())
+    return option->second;
+  const auto target = std::ranges::find(driver.targets, problem.subject, &spec::Driver::Target::name);
+  if (target != driver.targets.end()) return target->span;
+  return driver.targets.empty() ? driver.span : driver.targets.front().span;
+}
+
+/// One message for a whole fleet.
+class Judge {
+ public:
+  Judge(const spec::Model& model, World& world, diagnostics::Diagnostics& out)
+      : model_(model), world_(world), out_(out) {}
+
+  void judge(const spec::Driver& driver) {
+    const bool effector = model_.subsystem(driver.instance).kind == spec::SubsystemKind::effector;
+    const auto problem = world_.problem_with(request_of(model_, driver), effector);
+    if (!problem) return;
+    ok_ = false;
+    const diagnostics::Span place = place_of(driver, *problem);
+    if (said_.insert({place, problem->subject}).second)
+      out_.error("E311", place, problem->text, problem->hint);
+  }
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  const spec::Model& model_;
+  World& world_;
+  diagnostics::Diagnostics& out_;
+  std::set<std::pair<diagnostics::Span, std::string>> said_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<World>> open_world_to_ask(const WorldOptions& options) {
+  const auto function = function_of_library(open_world_function);
+  if (!function) return Problem{function.problem()};
+  std::string error;
+  auto world = reinterpret_cast<OpenWorld>(*function)(options, error);
+  if (world == nullptr) return Problem{error};
+  return world;
+}
+
+Result<std::string> contents_of_world(const WorldOptions& options) {
+  const auto function = function_of_library(list_world_function);
+  if (!function) return Problem{function.problem()};
+  std::string json, error;
+  if (!reinterpret_cast<ListWorld>(*function)(options, json, error)) return Problem{error};
+  return json;
+}
+
+bool has_world_library() { return fs::exists(Installation::find().world_library); }
+
+bool check_world(const spec::Model& model, const fs::path& project, const std::string& world,
+                 diagnostics::Diagnostics& out) {
+  if (!model.simulation || (model.simulation->world.empty() && world.empty())) return true;
+  const spec::Simulation& simulation = *model.simulation;
+  const diagnostics::Span place = simulation.world.empty() ? simulation.span : simulation.world_span;
+  if (!has_world_library()) {
+    out.note("N313", place,
+             "the library of simulated worlds is not installed, so the devices are not checked");
+    return true;
+  }
+  const auto file = find_asset(world.empty() ? simulation.world : world, project, "worlds");
+  if (!file) return true;  // said elsewhere
+  WorldOptions options;
+  options.world = file->string();
+  options.models = placements_json(simulation, project);
+  const auto opened = open_world_to_ask(options);
+  if (!opened) {
+    out.error("E312", place, "the world cannot be opened: " + opened.problem());
+    return false;
+  }
+  Judge judge(model, **opened, out);
+  for (const spec::Driver& driver : simulation.drivers)
+    if (driver.kind != "cpp") judge.judge(driver);
+  return judge.ok();
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "small_worlds.hpp"
+
+namespace tessera::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// Two balls on one rail: the left one rolls to the right at 1 m/s and meets the other after 0.8 s.
+constexpr const char* rail = R"(<mujoco model="rail">
+  <option timestep="0.002" gravity="0 0 0"/>
+  <worldbody>
+    <site name="goal" type="box" size="0.2 0.2 0.2" pos="1.7 0 0"/>
+    <body name="ball[0]"><joint name="ball[0]/x" type="slide" axis="1 0 0"/>
+      <geom name="ball[0]/skin" type="sphere" size="0.1" mass="1"/></body>
+    <body name="ball[1]" pos="1 0 0"><joint name="ball[1]/x" type="slide" axis="1 0 0"/>
+      <geom name="ball[1]/skin" type="sphere" size="0.1" mass="1"/></body>
+    <body name="post" pos="0 3 0"><geom name="pole" type="sphere" size="0.1"/></body>
+  </worldbody>
+  <actuator><velocity name="push" joint="ball[0]/x" kv="50"/></actuator>
+  <sensor><jointvel name="pace" joint="ball[0]/x"/><framepos name="where" objtype="body" objname="post"/></sensor>
+</mujoco>)";
+
+class JudgedWorld {
+ public:
+  explicit JudgedWorld(const json& checks, const json& measures = json::object()) {
+    const json written{{"checks", checks}, {"measures", measures}};
+    world_ = open({.world = file_with("rail.xml", rail), .checks = written.dump()});
+    push_ = effector<double>(*world_, {.path = "a.b.c", .kind = "actuator", .targets = {"push"}});
+    EXPECT_TRUE(write_as(*push_, 1.0));
+  }
+  std::vector<WorldFailure> run_to(double end_s) {
+    world_->advance_to(Time(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(end_s))));
+    return world_->take_failures();
+  }
+  json results() { return json::parse(world_->results()); }
+
+ private:
+  std::unique_ptr<World> world_;
+  std::unique_ptr<RealEffector> push_;
+};
+
+json check(const char* when, const char* formula) {
+  return {{"name", "it"}, {"when", when}, {"formula", formula}};
+}
+
+TEST(Judging, ACollisionIsAFailureWithItsTime) {
+  JudgedWorld world(json::array({check("never", "contact(ball[*], ball[*])")}));
+  EXPECT_TRUE(world.run_to(0.5).empty());
+  const std::vector<WorldFailure> failures = world.run_to(3);
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].check, "it");
+  EXPECT_NEAR(failures[0].time_s, 0.82, 0.03);
+  EXPECT_THAT(failures[0].text, HasSubstr("ball[0], ball[1] touch"));
+  EXPECT_TRUE(world.run_to(4).empty());
+}
+
+TEST(Judging, AMeasureHasNoRunningIndex) {
+  EXPECT_THROW(JudgedWorld(json::array(), {{"gap", "distance(ball[i], ball[i+1])"}}), std::runtime_error);
+}
+
+TEST(Judging, MeasuresTellWhenTheyWereLeast) {
+  JudgedWorld world(json::array({check("eventually", "inside(ball[1], goal)")}),
+                    {{"gap", "distance(ball[*], ball[*])"},
+                     {"pace", "sensor(pace)"},
+                     {"speed", "speed(ball[0])"},
+                     {"post", "sensor(where, 1) + height(post)"}});
+  EXPECT_TRUE(world.run_to(3).empty());
+  const json results = world.results();
+  EXPECT_EQ(results["checks"][0]["verdict"], "held");
+  EXPECT_GT(results["checks"][0]["time_s"], 1);
+  const json gap = results["measures"]["gap"];
+  EXPECT_NEAR(gap["greatest"].get<double>(), 1, 0.01);
+  EXPECT_NEAR(gap["least"].get<double>(), 0.2, 0.02);
+  EXPECT_NEAR(gap["least_at_s"].get<double>(), 0.82, 0.1);
+  EXPECT_EQ(results["measures"]["pace"]["greatest"], results["measures"]["speed"]["greatest"]);
+  EXPECT_EQ(results["measures"]["post"]["mean"], 3);
+}
+
+TEST(Judging, WhatTheWorldLacksIsNamed) {
+  const auto problem = [](const char* formula) -> std::string {
+    try {
+      JudgedWorld world(json::array({check("never", formula)}));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(problem("contact(bal[0], post)"), HasSubstr("check 'it': the world has no model, body or geom 'bal[0]'"));
+  EXPECT_THAT(problem("inside(ball[0], gaol)"), HasSubstr("did you mean 'goal'?"));
+  EXPECT_THAT(problem("sensor(where) > 1"), HasSubstr("gives 3 numbers"));
+  EXPECT_THAT(problem("contact(goal)"), HasSubstr("no shape"));
+  EXPECT_EQ(problem("contact(post)"), "");
+}
+
+/// Reading never disturbs: a judged run has the same bytes as one that is not.
+TEST(Judging, DoesNotChangeTheRun) {
+  const auto last = [](const json& checks, const json& measures) {
+    auto world = open({.world = file_with("rail.xml", rail), .checks = json{{"checks", checks}, {"measures", measures}}.dump()});
+    auto push = effector<double>(*world, {.path = "a.b.c", .kind = "actuator", .targets = {"push"}});
+    EXPECT_TRUE(write_as(*push, 1.0));
+    auto where = receptor<double>(*world, {.path = "a.b.d", .kind = "joint_position", .targets = {"ball[1]/x"}});
+    world->advance_to(Time(std::chrono::seconds(2)));
+    return read_as<double>(*where);
+  };
+  EXPECT_EQ(last(json::array(), json::object()),
+            last(json::array({check("never", "contact(post)")}), {{"pace", "sensor(pace)"}, {"speed", "speed(ball[0])"}}));
+}
+
+}  // namespace
+}  // namespace tessera::testing

@@ -174,7 +174,11 @@ Result<Results> parse_results(std::string_view text) {
 }
 
 Result<Results> parse_counts(std::string_view text) {
-  return read_with(text, "is no summary of schedules", read_counts);
+  return read_with(text, "is no summary of schedules", [](const json& from, Results& results) {
+    results.identity.system = from.at("system");
+    results.identity.net = from.at("net_hash");
+    read_counts(from, results);
+  });
 }
 
 }  // namespace tessera::statistics

@@ -104,7 +104,9 @@ std::string schedules_text(const ScheduleReport& report) {
 }
 
 std::string schedules_json(const ScheduleReport& report) {
-  ordered_json json{{"asked", report.asked},
+  ordered_json json{{"system", report.system},
+                    {"net_hash", report.net_hash},
+                    {"asked", report.asked},
                     {"tried", report.tried},
                     {"failed", report.failed},
                     {"first_seed", report.first_seed},

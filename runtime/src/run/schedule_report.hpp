@@ -51,6 +51,7 @@ struct ScheduleOutcome {
 
 /// The result of trying many schedules.
 struct ScheduleReport {
+  std::string system, net_hash;
   std::uint64_t first_seed = 1, asked = 0;
   std::uint64_t tried = 0;    ///< completed runs
   std::uint64_t failed = 0;   ///< of these
@@ -78,7 +79,7 @@ struct ScheduleReport {
 
 /// A few lines for people.
 [[nodiscard]] std::string schedules_text(const ScheduleReport& report);
-/// {"asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
+/// {"system", "net_hash", "asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
 /// "firings", "interrupted", "kinds": [outcome...], "outcomes": [outcome...], "failure": null or {"seed",
 /// "at_s", "ended"}}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
 /// "at_s", "text"}. If firings were counted, also "transitions": {name: firings}.

@@ -54,6 +54,8 @@ class Schedules {
         seeds_(options.seed, request.count, jobs_),
         system_(system),
         progress_(progress) {
+    report_.system = system.name;
+    report_.net_hash = system.net_hash;
     report_.first_seed = options.seed;
     report_.asked = request.count;
     report_.jobs = jobs_;

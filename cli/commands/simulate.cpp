@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -208,7 +209,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
               "--schedules", options->schedules.count,
               "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report what fails, how "
               "often, and how likely that is")
-          .positive();
+          .within(1, std::numeric_limits<int>::max());
   command.option("--part", options->schedules.part, "Of schedules: only one part of the seeds, 3/20");
   command
       .option("--jobs", options->schedules.jobs, "Of schedules: processes at a time (default: one per core)")

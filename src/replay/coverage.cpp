@@ -107,6 +107,18 @@ struct Reachable {
   }
 };
 
+/// Of transitions whose name says little.
+const char* meaning_of(net::TransitionRole role) {
+  switch (role) {
+    case net::TransitionRole::overwrite:
+      return "overwrites a value that nobody has read";
+    case net::TransitionRole::skip:
+      return "there is nothing to read";
+    default:
+      return "";
+  }
+}
+
 /// Which transition fires only if the condition of another one does not hold.
 bool fires_instead(const Condition& condition, const Condition& other) {
   using Kind = Condition::Kind;
@@ -224,7 +236,8 @@ class Measure {
     }
     Group& group = group_of(transition);
     const bool fired = counts_.of(TransitionId{index}) > 0;
-    count(group, group.transitions, fired, {Missing::Kind::transition, transition.name, "", transition.span});
+    count(group, group.transitions, fired,
+          {Missing::Kind::transition, transition.name, meaning_of(transition.role), transition.span});
     const Condition& condition = transition.condition;
     if (condition.known(/*failures=*/true).truth != Condition::Truth::free ||
         condition.kind == Condition::Kind::go_on)

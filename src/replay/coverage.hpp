@@ -53,7 +53,7 @@ struct Coverage {
   struct Missing {
     enum class Kind : std::uint8_t { place, transition, holds, does_not_hold } kind;
     std::string name;  ///< path of the place or the transition
-    std::string text;  ///< of conditions: as in the specification
+    std::string text;  ///< of conditions: as in the specification; of some transitions: what they do
     net::Span span{};
   };
   /// One behaviour; or what belongs to a subsystem, an agent, the system, or all channels, and to no

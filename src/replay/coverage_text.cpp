@@ -41,7 +41,7 @@ std::string describe(const Missing& missing, const Group& group, const std::stri
     case Missing::Kind::place:
       return fmt::format("    never marked: {}{}\n", name, line_text(missing.span, file));
     case Missing::Kind::transition:
-      return fmt::format("    never fired: {}{}\n", name, line_text(missing.span, file));
+      return fmt::format("    never fired: {}{}{}\n", name, condition, line_text(missing.span, file));
     case Missing::Kind::holds:
       return fmt::format("    never true: {}{}{}\n", name, condition, line_text(missing.span, file));
     case Missing::Kind::does_not_hold:

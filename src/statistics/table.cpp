@@ -88,9 +88,13 @@ std::string percent(double share) {
 }
 
 std::string to_table(const Results& results) {
-  std::string text = fmt::format("{} of {} schedules from seed {} on, ", results.tried, results.whole.count(),
+  std::string text = fmt::format("{} of {} schedules from seed {} on", results.tried, results.whole.count(),
                                  results.whole.begin);
-  text += results.failed == 0 ? "none fails" : fmt::format("{} fail", results.failed);
+  if (results.ran.size() == 1 && results.ran.front() != results.whole)
+    text += fmt::format(" ({})", text_of(results.ran.front()));
+  text += results.tried == 0    ? ", no run was completed"
+          : results.failed == 0 ? ", none fails"
+                                : fmt::format(", {} fail", results.failed);
   text += fmt::format(" ({:.1f} s simulated in {:.2f} s, {} firings){}\n", results.simulated_s,
                       results.wall_s, results.firings, results.interrupted ? "; interrupted" : "");
   if (results.tried == 0) return text;

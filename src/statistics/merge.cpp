@@ -62,6 +62,7 @@ void add(Results& sum, const Results& more) {
   sum.wall_s += more.wall_s;
   sum.firings += more.firings;
   sum.interrupted = sum.interrupted || more.interrupted;
+  sum.not_repeated.insert(sum.not_repeated.end(), more.not_repeated.begin(), more.not_repeated.end());
   for (const Outcome& kind : more.kinds) add(sum.kinds, kind);
   for (const Outcome& outcome : more.outcomes) add(sum.outcomes, outcome);
   if (more.failure && (!sum.failure || more.failure->seed < sum.failure->seed)) sum.failure = more.failure;

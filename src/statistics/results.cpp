@@ -98,6 +98,7 @@ void read_counts(const json& from, Results& results) {
   for (const json& outcome : from.at("outcomes")) results.outcomes.push_back(outcome_in(outcome, results));
   if (const json& failure = from.at("failure"); !failure.is_null())
     results.failure = {count_in(failure.at("seed")), amount_in(failure.at("at_s")), failure.at("ended")};
+  for (const json& seed : from.at("not_repeated")) results.not_repeated.push_back(count_in(seed));
   demand(results.failure.has_value() == (results.failed > 0), "the first failure is not told");
   if (from.contains("transitions"))
     for (const auto& [name, firings] : from.at("transitions").items())
@@ -141,6 +142,7 @@ std::string to_json(const Results& results) {
                        {"kinds", ordered_json::array()},
                        {"outcomes", ordered_json::array()},
                        {"failure", nullptr},
+                       {"not_repeated", results.not_repeated},
                        {"again", results.again}};
   for (const Seeds& range : results.ran) written["ran"].push_back(to_json(range));
   for (const Outcome& kind : results.kinds) written["kinds"].push_back(to_json(kind, results));

@@ -49,7 +49,9 @@ struct Results {
     std::string ended;
   };
   std::optional<Failure> failure;  ///< the run of the lowest seed that failed
-  std::string again;               ///< command that makes a run again, when the seed is put behind it
+  /// First seeds whose runs went otherwise when they were made again, alone in a process.
+  std::vector<std::uint64_t> not_repeated;
+  std::string again;  ///< command that makes a run again, when the seed is put behind it
   /// Firings per transition of the net, over all runs; empty: not counted.
   std::map<std::string, std::uint64_t> transitions;
 };
@@ -57,7 +59,7 @@ struct Results {
 /// {"tessera": "schedules", "version": 1, "system", "specification", "net", "controller", "settings", "seeds":
 /// [begin, end], "parts", "ran": [[begin, end]...], "tried", "failed", "interval": [low, high], "simulated_s",
 /// "wall_s", "firings", "interrupted", "kinds", "outcomes", "failure": null or {"seed", "at_s", "ended"},
-/// "again", "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
+/// "not_repeated": [seed...], "again", "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
 /// "runs", "failed", "interval", and if there are runs "first_seed", "at_s", "text", "reproduce"}...].
 [[nodiscard]] std::string to_json(const Results& results);
 

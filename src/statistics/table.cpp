@@ -77,6 +77,13 @@ std::string commands(const Results& results) {
   for (const std::uint64_t seed : seeds)
     if (shown++ < most_commands) text += fmt::format("  {} {}\n", results.again, seed);
   if (shown > most_commands) text += fmt::format("  ... and {} more seeds\n", shown - most_commands);
+  for (const std::uint64_t seed : results.not_repeated)
+    if (seeds.contains(seed))
+      text += fmt::format(
+          "Seed {} went otherwise when it ran alone: something in the user's code (a global, a static) lasts "
+          "from "
+          "run to run, so these runs were not independent.\n",
+          seed);
   return text;
 }
 

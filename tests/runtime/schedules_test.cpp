@@ -150,6 +150,8 @@ TEST(Schedules, ADeathLosesOneRunAndIsNamed) {
   EXPECT_EQ(crash.first_seed, 3u);
   EXPECT_NE(crash.text.find("robot.a"), std::string::npos) << crash.text;
   EXPECT_NE(crash.text.find("SIGSEGV"), std::string::npos) << crash.text;
+  EXPECT_EQ(report.not_repeated, (std::vector<std::uint64_t>{3}))
+      << "alone it is the first run of its process";
 }
 
 TEST(Schedules, ASystemThatCannotStartSaysWhy) {
@@ -238,6 +240,7 @@ TEST_F(Race, IsFoundOnlyByInterleavingAndTheSeedMakesItAgain) {
   ASSERT_TRUE(report.first_failure);
   EXPECT_NE(report.first_failure->ended.find("broken assertion: "), std::string::npos);
   EXPECT_EQ(report.kinds.at("assertion").runs, report.failed);
+  EXPECT_TRUE(report.not_repeated.empty());
 
   holder = 0;
   options.interleave = true;

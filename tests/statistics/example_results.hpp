@@ -20,6 +20,7 @@ inline Results example_results(std::uint64_t begin, std::uint64_t end) {
       .kinds = {{.kind = "assertion", .name = {}, .text = {}}, {.kind = "deadlock", .name = {}, .text = {}}},
       .outcomes = {{.kind = "assertion", .name = "nobody touches", .text = {}}},
       .failure = {},
+      .not_repeated = {},
       .again = "tessera simulate rover --interleave --for 1s --seed",
       .transitions = {{"t_in", end - begin}}};
   if (begin < end) results.ran = {{begin, end}};

@@ -56,10 +56,17 @@ TEST(Results, ThatContradictThemselvesAreRefused) {
 TEST(Table, NamesWhatHappenedWithIntervalsAndCommands) {
   const std::string table = to_table(example_results(101, 201));
   for (const char* part :
-       {"100 of 300 schedules from seed 1 on (seeds 101 to 200), 10 fail", "4.9 % to 17.6 %", "assertion", "robot.control",
-        "0.250000 s: blind", "deadlock, assertion 'nobody touches'", "each at most 3.62 %",
+       {"100 of 300 schedules from seed 1 on (seeds 101 to 200), 10 fail", "4.9 % to 17.6 %", "assertion",
+        "robot.control", "0.250000 s: blind", "deadlock, assertion 'nobody touches'", "each at most 3.62 %",
         "tessera simulate rover --interleave --for 1s --seed 110\n"})
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+}
+
+TEST(Table, WarnsOfASeedThatGoesOtherwiseAlone) {
+  Results results = example_results(1, 101);
+  EXPECT_EQ(to_table(results).find("went otherwise"), std::string::npos);
+  results.not_repeated = {10};
+  EXPECT_NE(to_table(results).find("Seed 10 went otherwise"), std::string::npos);
 }
 
 TEST(Table, WithoutRunsClaimsNothing) {

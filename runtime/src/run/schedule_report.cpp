@@ -118,7 +118,8 @@ std::string schedules_json(const ScheduleReport& report) {
                     {"interrupted", report.interrupted != 0},
                     {"kinds", ordered_json::array()},
                     {"outcomes", ordered_json::array()},
-                    {"failure", nullptr}};
+                    {"failure", nullptr},
+                    {"not_repeated", report.not_repeated}};
   for (const SeedRange& range : report.ran) json["ran"].push_back({range.begin, range.end});
   for (const std::string& kind : schedule_event_kinds())
     json["kinds"].push_back(outcome_json(kind, "", report.kinds.at(kind)));

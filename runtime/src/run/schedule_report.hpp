@@ -70,6 +70,9 @@ struct ScheduleReport {
     std::string ended;
   };
   std::optional<Failure> first_failure;  ///< that of the lowest seed
+  /// Seeds named as first whose run, made again alone in a process, went otherwise: something of the user's
+  /// code lasts from run to run.
+  std::vector<std::uint64_t> not_repeated;
   /// Firings of each transition over all runs; empty: not counted.
   std::vector<std::pair<std::string, std::uint64_t>> transitions;
 
@@ -81,7 +84,7 @@ struct ScheduleReport {
 [[nodiscard]] std::string schedules_text(const ScheduleReport& report);
 /// {"system", "net_hash", "asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
 /// "firings", "interrupted", "kinds": [outcome...], "outcomes": [outcome...], "failure": null or {"seed",
-/// "at_s", "ended"}}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
+/// "at_s", "ended"}, "not_repeated": [seed...]}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
 /// "at_s", "text"}. If firings were counted, also "transitions": {name: firings}.
 [[nodiscard]] std::string schedules_json(const ScheduleReport& report);
 

@@ -10,6 +10,7 @@
 #include <exception>
 #include <list>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ constexpr std::int64_t schedules_progress_period_ns = 200'000'000;
 constexpr int between_looks_at_workers_ms = 100;
 /// From then on the processes that follow are quiet: their deaths say the same.
 constexpr std::uint64_t deaths_to_be_heard = 4;
+constexpr std::size_t most_repeated = 16;
 
 [[nodiscard]] unsigned usable_cores() {
   cpu_set_t cores;
@@ -60,6 +62,9 @@ class Schedules {
     report_.asked = request.count;
     report_.jobs = jobs_;
   }
+
+  /// Standard error of the processes goes nowhere.
+  void be_quiet() { deaths_ = deaths_to_be_heard; }
 
   /// nullopt and `error`: no run can start.
   [[nodiscard]] std::optional<ScheduleReport> run(std::string& error) {
@@ -202,6 +207,34 @@ class Schedules {
   Workers workers_;
 };
 
+/// Of the runs that the report names first: those that go otherwise when they are all that a process does.
+[[nodiscard]] std::vector<std::uint64_t> not_repeated(const ScheduleReport& report, const System& system,
+                                                      RunOptions options, int parent) {
+  std::set<std::uint64_t> seeds;
+  if (report.first_failure) seeds.insert(report.first_failure->seed);
+  for (const auto& [key, outcome] : report.outcomes) seeds.insert(outcome.first_seed);
+  std::vector<std::uint64_t> otherwise;
+  std::size_t repeated = 0;
+  for (const std::uint64_t seed : seeds) {
+    if (repeated++ == most_repeated || StopSignals::pending() != 0) break;
+    options.seed = seed;
+    Schedules alone(system, options, {.count = 1, .jobs = 1}, parent, /*progress=*/false);
+    alone.be_quiet();
+    std::string error;
+    const std::optional<ScheduleReport> again = alone.run(error);
+    if (StopSignals::pending() != 0) break;
+    const bool same_events =
+        again && std::ranges::all_of(report.outcomes, [&](const auto& outcome) {
+          return outcome.second.first_seed != seed || again->outcomes.contains(outcome.first);
+        });
+    const bool same_end =
+        !report.first_failure || report.first_failure->seed != seed ||
+        (again && again->first_failure && again->first_failure->ended == report.first_failure->ended);
+    if (!same_events || !same_end) otherwise.push_back(seed);
+  }
+  return otherwise;
+}
+
 }  // namespace
 
 std::optional<ScheduleReport> try_schedules(const System& system, RunOptions options,
@@ -220,7 +253,10 @@ std::optional<ScheduleReport> try_schedules(const System& system, RunOptions opt
   if (options.world) options.world->trace.clear();
   const int parent = std::exchange(options.parent, 0);
   const StopSignals signals;
-  return Schedules(system, options, request, parent, progress).run(error);
+  std::optional<ScheduleReport> report = Schedules(system, options, request, parent, progress).run(error);
+  if (report && report->interrupted == 0)
+    report->not_repeated = not_repeated(*report, system, options, parent);
+  return report;
 } catch (const std::exception& exception) {
   error = exception.what();
   return std::nullopt;

@@ -29,6 +29,7 @@ constexpr int between_looks_at_workers_ms = 100;
 /// From then on the processes that follow are quiet: their deaths say the same.
 constexpr std::uint64_t deaths_to_be_heard = 4;
 constexpr std::size_t most_repeated = 16;
+constexpr const char* cannot_start = "no start";
 
 [[nodiscard]] unsigned usable_cores() {
   cpu_set_t cores;
@@ -158,7 +159,7 @@ class Schedules {
     if (report_.tried == 0)
       error = std::move(why);
     else
-      add_failure(seed, "no start", std::move(why));
+      add_failure(seed, cannot_start, std::move(why));
   }
 
   void hear_death(unsigned number, const std::string& death) {
@@ -223,13 +224,13 @@ class Schedules {
     std::string error;
     const std::optional<ScheduleReport> again = alone.run(error);
     if (StopSignals::pending() != 0) break;
-    const bool same_events =
-        again && std::ranges::all_of(report.outcomes, [&](const auto& outcome) {
-          return outcome.second.first_seed != seed || again->outcomes.contains(outcome.first);
-        });
+    const bool same_events = std::ranges::all_of(report.outcomes, [&](const auto& outcome) {
+      if (outcome.second.first_seed != seed) return true;
+      return again ? again->outcomes.contains(outcome.first) : outcome.first.first == cannot_start;
+    });
     const bool same_end =
-        !report.first_failure || report.first_failure->seed != seed ||
-        (again && again->first_failure && again->first_failure->ended == report.first_failure->ended);
+        !again || !report.first_failure || report.first_failure->seed != seed ||
+        (again->first_failure && again->first_failure->ended == report.first_failure->ended);
     if (!same_events || !same_end) otherwise.push_back(seed);
   }
   return otherwise;

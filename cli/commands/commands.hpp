@@ -15,6 +15,7 @@ void add_generate(CommandLine& app, int& exit_code);
 void add_test(CommandLine& app, int& exit_code);
 void add_simulate(CommandLine& app, int& exit_code);
 void add_run(CommandLine& app, int& exit_code);
+void add_merge(CommandLine& app, int& exit_code);
 void add_replay(CommandLine& app, int& exit_code);
 void add_studio(CommandLine& app, int& exit_code);
 void add_top(CommandLine& app, int& exit_code);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/commands/commands.hpp"
+#include "cli/coverage.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
@@ -37,7 +38,8 @@ constexpr const char* all_values = "*";
 constexpr const char* usual_recording = ".tessera/last/recording.tsr";
 
 struct ReplayOptions {
-  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json;
+  std::vector<std::string> recordings;
+  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, coverage;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
   bool check = false, print = false;
@@ -245,8 +247,22 @@ std::string last_recording() {
   return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
 }
 
+/// Of all recordings together, which must be of one net.
+int coverage_command(const ReplayOptions& options) {
+  const std::optional<Specification> specification = read(specification_of(options), terminal());
+  if (!specification) return exit_code_without_net();
+  CoverageInput input(*specification);
+  for (const std::string& recording : options.recordings) input.add_file(recording);
+  report_coverage(input, options.coverage, options.coverage != "-");
+  return ok;
+}
+
 int replay_command(ReplayOptions options) {
-  if (options.recording == usual_recording) options.recording = last_recording();
+  if (options.recordings.empty()) options.recordings.push_back(last_recording());
+  options.recording = options.recordings.front();
+  if (!options.coverage.empty()) return coverage_command(options);
+  if (options.recordings.size() > 1)
+    return complain("several recordings are read together with --coverage only"), usage;
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
   if (!recording) return complain(error);
@@ -288,10 +304,15 @@ void add_replay(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
   auto options = std::make_shared<ReplayOptions>();
-  command.option("recording", options->recording, "Recording of a run").shows_default();
+  command.option(
+      "recording", options->recordings,
+      std::string("Recording of a run (default: ") + usual_recording + "); several with --coverage");
   command.flag("--check", options->check,
                "Play it on the net of its specification: is it a legal firing sequence?");
   command.option("--spec", options->spec, "That specification (default: beside the recording or above)");
+  command.flag("--coverage", options->coverage, shown_only,
+               "Show what of the net none of the recordings, or results of schedules, has reached; "
+               "--coverage=FILE writes JSON, too");
   command.flag("--print", options->print, "Print the events");
   command.flag("--values", options->values, all_values,
                "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
@@ -311,7 +332,8 @@ void add_replay(CommandLine& app, int& exit_code) {
       "Example: tessera replay --check\n"
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"
-      "         tessera replay --to-perfetto run.json");
+      "         tessera replay --to-perfetto run.json\n"
+      "         tessera replay --coverage monday.tsr tuesday.tsr all.json");
   command.callback([options, &exit_code] { exit_code = replay_command(*options); });
 }
 

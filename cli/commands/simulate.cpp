@@ -1,15 +1,19 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/commands/commands.hpp"
+#include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
 #include "cli/outputs.hpp"
 #include "cli/play_net.hpp"
+#include "cli/schedules.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
@@ -21,10 +25,12 @@ using namespace project;
 
 namespace {
 
+constexpr int most_jobs = 4096;
+
 struct SimulateOptions : LaunchOptions {
-  std::string json, report, scenario, from;
+  std::string json, report, scenario, from, coverage;
   bool realtime = false, interleave = false;
-  std::uint64_t schedules = 0;
+  ScheduleOptions schedules;
   std::uint64_t steps = PlayOptions{}.steps;
 };
 
@@ -43,7 +49,8 @@ int print_debugger(const Command& command) {
 // Even a run that failed writes a summary, which says why. Only a controller that
 // could not start leaves none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
-           const Command& command, const std::string& json, const std::string& report_folder) {
+           const Command& command, const std::string& json, const std::string& report_folder,
+           const std::string& coverage = {}) {
   if (options.debug) return print_debugger(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
@@ -56,46 +63,34 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
     return exit.code == 0 ? failed : exit.code;
   }
   const RunOutcome outcome = read_outcome(controller, options);
-  if (json != "-") print(outcome);
+  if (json != "-" && coverage != "-") print(outcome);
   if (!json.empty()) write_output(json, to_json(outcome));
+  if (!coverage.empty()) {
+    CoverageInput input(controller.specification);
+    input.add_file(outcome.recording.string());
+    report_coverage(input, coverage, json != "-" && coverage != "-");
+  }
   if (!report_folder.empty()) write_report(outcome, controller.report, report_folder);
   return exit.code;
 }
 
-// The command that repeats one of the schedules, alone and recorded.
-std::string reproduction(const SimulateOptions& options, std::uint64_t seed) {
-  Command line{"tessera", "simulate",           options.spec, "--interleave",
-               "--seed",  std::to_string(seed), "--for",      options.duration};
+// The command that repeats one of the schedules, alone and recorded, when its seed is put behind it.
+std::string reproduction(const SimulateOptions& options) {
+  Command line{"tessera", "simulate", options.spec, "--interleave", "--for", options.duration};
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) line.insert(line.end(), {option, value});
   };
   for (const std::string& value : options.set) add("--set", value);
   for (const std::string& fault : options.inject) add("--inject", fault);
   if (options.accept_stuck) line.emplace_back("--accept-stuck");
+  if (options.gate.accept_violations) line.emplace_back("--accept-violations");
   add("--parameters", options.parameters);
   add("--track", options.track);
   if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
   if (!options.start.empty()) line.push_back("--start=" + options.start);
   add("--scenario", options.scenario);
+  line.emplace_back("--seed");
   return shell_line(line);
-}
-
-// The controller reports its result; this command adds how to look at it.
-int launch_schedules(const SimulateOptions& options, Command command) {
-  command.insert(command.end(), {"--schedules", std::to_string(options.schedules)});
-  if (options.debug) return print_debugger(command);
-  const RunFiles files = run_files(options);
-  const Exit exit = run(command);
-  nlohmann::json summary =
-      nlohmann::json::parse(std::ifstream(files.summary), nullptr, /*allow_exceptions=*/false);
-  if (summary.is_discarded()) return exit.code == 0 ? failed : exit.code;
-  if (const nlohmann::json& failure = summary["failure"]; failure.is_object()) {
-    const std::string again = reproduction(options, failure.at("seed").get<std::uint64_t>());
-    fmt::print(stderr, "  make it again: {}\n", again);
-    summary["reproduce"] = again;
-  }
-  if (!options.json.empty()) write_output(options.json, summary.dump(2) + "\n");
-  return exit.code;
 }
 
 // Runs user code again on recorded data: without a world, without a new recording.
@@ -132,23 +127,35 @@ void check_outputs(const LaunchOptions& options, const std::string& json, const 
   check_report(report);
 }
 
+/// The options of schedules mean nothing without them.
+bool schedules_fit(const SimulateOptions& options) {
+  const ScheduleOptions& schedules = options.schedules;
+  const bool is_asked = !schedules.part.empty() || schedules.jobs > 0 || !schedules.results.empty();
+  if (schedules.count == 0 && is_asked)
+    return complain("--part, --jobs and --results are for --schedules N"), false;
+  return is_part(schedules.part);
+}
+
 int simulate_command(SimulateOptions options) {
+  if (!schedules_fit(options)) return usage;
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
   if (const int code = check_run(options, options.from.empty()); code != ok) return code;
   // A scenario shows a violation, so the controller must be made in spite of it.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   check_outputs(options, options.json, options.report);
+  check_replaceable(options.schedules.results, "{");
+  if (options.coverage != shown_only) check_replaceable(options.coverage, "{");
   if (options.from.empty() && !every_real_buffer_has_driver(options, /*simulated=*/true, terminal()))
     return failed;
   std::optional<Controller> controller =
       make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
   if (!controller) return exit_code_without_net();
-  const bool is_recorded = options.from.empty() && options.schedules == 0;
+  const bool is_recorded = options.from.empty() && options.schedules.count == 0;
   const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
   const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
   if (!options.from.empty()) return run_again(*controller, options);
-  if (options.duration.empty()) options.duration = options.schedules > 0 ? "1s" : "60s";
+  if (options.duration.empty()) options.duration = options.schedules.count > 0 ? "1s" : "60s";
   Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
   if (options.interleave) command.push_back("--interleave");
   if (options.realtime) command.push_back("--realtime");
@@ -156,8 +163,13 @@ int simulate_command(SimulateOptions options) {
     command.emplace_back("--scenario");
     command.push_back(std::filesystem::absolute(options.scenario).string());
   }
-  if (options.schedules > 0) return launch_schedules(options, command);
-  return launch(*controller, folder, options, command, options.json, options.report);
+  if (options.schedules.count > 0) {
+    options.schedules.json = options.json;
+    options.schedules.coverage = options.coverage;
+    options.schedules.again = reproduction(options);
+    return run_schedules(*controller, options, options.schedules, std::move(command));
+  }
+  return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
 }
 
 int run_command(RunCommandOptions options) {
@@ -191,10 +203,21 @@ void add_simulate(CommandLine& app, int& exit_code) {
                     .option("--from", options->from,
                             "Run user code again on the inputs of this recording, and compare the results")
                     .existing_file();
-  Option schedules = command.option(
-      "--schedules", options->schedules,
-      "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report the first "
-      "that breaks an assertion, ends with an error or hangs");
+  Option schedules =
+      command
+          .option(
+              "--schedules", options->schedules.count,
+              "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report what fails, how "
+              "often, and how likely that is")
+          .within(1, std::numeric_limits<int>::max());
+  command.option("--part", options->schedules.part, "Of schedules: only one part of the seeds, 3/20");
+  command
+      .option("--jobs", options->schedules.jobs, "Of schedules: processes at a time (default: one per core)")
+      .within(1, most_jobs);
+  command.option("--results", options->schedules.results,
+                 "Of schedules: write the counts to this file, which `tessera merge` joins with others");
+  command.flag("--coverage", options->coverage, shown_only,
+               "Show what of the net was not reached; --coverage=FILE writes JSON, too");
   command.flag(
       "--interleave", options->interleave,
       "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
@@ -207,7 +230,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.declared("--record").excludes(schedules);
   for (const char* other :
        {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
-        "--scenario", "--schedules", "--interleave", "--realtime", "--report", "--hardware"})
+        "--scenario", "--schedules", "--coverage", "--interleave", "--realtime", "--report", "--hardware"})
     from.excludes(command.declared(other));
   for (const char* other : {"--schedules", "--scenario"})
     command.declared("--hardware").excludes(command.declared(other));
@@ -216,6 +239,8 @@ void add_simulate(CommandLine& app, int& exit_code) {
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
       "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
+      "  tessera simulate --schedules 1000000 --part 3/20 --results part3.json   see `tessera merge`\n"
+      "  tessera simulate --schedules 100 --coverage     what has no run reached?\n"
       "  tessera simulate --from field.tsr               would this code have done the same there?\n"
       "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
   command.callback([options, &exit_code] { exit_code = simulate_command(*options); });

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "command.hpp"
@@ -75,6 +76,35 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   EXPECT_EQ(good.at("simulated_s"), 20.0);
   EXPECT_TRUE(good.at("failure").is_null());
 
+  // In parts on several machines, and joined.
+  for (const char* part : {"1", "2", "3"})
+    json(fmt::format("simulate 01_line_follower --schedules 20 --part {}/3 --results {}.json --coverage",
+                     part, part));
+  const project::Exit two = tessera("merge 1.json 3.json --results 13.json");
+  EXPECT_EQ(two.code, 3) << two.text;
+  EXPECT_NE(two.text.find("missing: part 2/3: seeds 7 to 13"), std::string::npos) << two.text;
+  const nlohmann::json joined = json("merge 2.json 13.json --results all.json");
+  for (const char* same : {"net", "controller", "settings", "ran", "tried", "firings", "kinds"})
+    EXPECT_EQ(joined.at(same), good.at(same)) << same;
+  const project::Exit twice = tessera("merge 13.json 1.json");
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_NE(twice.text.find("both have seeds 1 to 6"), std::string::npos) << twice.text;
+
+  // What the runs have reached is the same by counting and by recordings.
+  const auto reached = [&](const std::string& arguments) {
+    const project::Exit done =
+        tessera("replay --spec 01_line_follower " + arguments + " --coverage=coverage.json");
+    EXPECT_EQ(done.code, 0) << done.text;
+    return nlohmann::json::parse(content_of(folder_ / "coverage.json"), nullptr, false);
+  };
+  tessera("simulate 01_line_follower --for 1s --interleave --seed 1 --record one.tsr");
+  json("simulate 01_line_follower --schedules 1 --results one.json --coverage");
+  EXPECT_EQ(reached("one.tsr"), reached("one.json"));
+  const nlohmann::json both = reached("all.json one.tsr");
+  EXPECT_EQ(both.at("runs"), 21);
+  EXPECT_EQ(both.at("behaviours").at("reached"), 4);
+  EXPECT_LT(both.at("conditions").at("reached"), both.at("conditions").at("all"));
+
   // Whether a reading has come by the end of the first instant is up to the order in it.
   replace(project / "src/control.cpp", "  out.motion = steer(",
           "  context.assert_that(in.line.valid, \"blind in iteration {}\", context.iteration);\n"
@@ -82,7 +112,14 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   const project::Exit found = tessera("simulate 01_line_follower --schedules 1000 --json out.json");
   EXPECT_EQ(found.code, 1) << found.text;
   const nlohmann::json failure = nlohmann::json::parse(content_of(folder_ / "out.json"));
-  EXPECT_NE(found.text.find("broken assertion: blind in iteration 1"), std::string::npos) << found.text;
+  EXPECT_NE(found.text.find("robot.control.follow.in: blind in iteration 1"), std::string::npos)
+      << found.text;
+  EXPECT_EQ(failure.at("tried"), 1000);
+  EXPECT_GT(failure.at("failed"), 0);
+  EXPECT_EQ(failure.at("not_repeated"), nlohmann::json::array());
+  EXPECT_EQ(failure.at("outcomes").at(0).at("kind"), "assertion");
+  EXPECT_EQ(failure.at("outcomes").at(0).at("name"), "robot.control");
+  EXPECT_NE(tessera("merge all.json out.json").text.find("the programs"), std::string::npos);
   std::string again = failure.at("reproduce");
   ASSERT_TRUE(again.starts_with("tessera simulate ")) << again;
   const project::Exit made = tessera(again.substr(8));

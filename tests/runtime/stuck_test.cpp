@@ -163,12 +163,12 @@ TEST(Stuck, AScheduleThatLeavesSomebodyStuckFails) {
   system.add("robot.c", nets::alone, Script{}, 10ms);
   system.connect(a, "x", b, "x", buffered);
   std::string error;
-  const auto report = try_schedules(system.system(), simulated(200ms), 10, error);
+  const auto report = try_schedules(system.system(), simulated(200ms), {.count = 10}, error);
   ASSERT_TRUE(report) << error;
-  ASSERT_TRUE(report->failed);
-  EXPECT_EQ(report->tried, 1U);
-  EXPECT_NE(schedules_line(*report).find("stuck for good: robot.b"), std::string::npos)
-      << schedules_line(*report);
+  EXPECT_EQ(report->failed, 10U);
+  EXPECT_EQ(report->kinds.at("stuck for good").runs, 10U);
+  EXPECT_NE(schedules_text(*report).find("stuck for good: robot.b"), std::string::npos)
+      << schedules_text(*report);
 }
 
 // -------------------------------------------------------------------------------------------- an oracle

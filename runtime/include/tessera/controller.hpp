@@ -77,6 +77,15 @@ struct RunSummary {
   /// follows if some subsystems can never fire again while others can. That is a failure.
   std::string ended;
   bool failed = false;  ///< a fault ended the run, or a device has not taken its safe command
+  /// Why a run failed, if no fault of a subsystem says so.
+  enum class Failure : std::uint8_t {
+    none,      ///< it has not failed, or a fault says why
+    deadlock,  ///< nothing could ever happen again
+    stuck,     ///< a subsystem is stuck for good
+    scenario,  ///< the scenario could not be followed
+    unsafe,    ///< a device has not taken its safe command
+    world      ///< of the simulated world
+  } failure = Failure::none;
   int signal = 0;       ///< the signal that ended the run; 0: none
   /// If a world was slower than real time: how far the world came while `simulated` passed.
   std::optional<Duration> world_time;

@@ -261,7 +261,11 @@ class Assembler {
 
   bool open_recording() {
     const RunOptions& options = assembly_.options;
-    if (options.recording.empty()) return true;
+    if (options.recording.empty()) {
+      if (assembly_.tally != nullptr)
+        assembly_.recorder = Recorder::counting(static_cast<std::uint32_t>(parts_.size()), *assembly_.tally);
+      return true;
+    }
     const bool simulated = options.clock == RunOptions::Clock::simulated;
     assembly_.recorder =
         Recorder::open(options.recording, recording_header(system_, options, net_, parts_),

@@ -32,6 +32,7 @@ struct Assembly {
   const RunOptions& options;
   RunControl control;
   Guardian* guardian = nullptr;  ///< nullptr: none
+  RunTally* tally = nullptr;     ///< counts what is not recorded; nullptr: nothing does
   std::unique_ptr<World> world;
   std::unique_ptr<Recorder> recorder;
   std::optional<Scenario> scenario;

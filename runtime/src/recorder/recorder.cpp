@@ -16,8 +16,9 @@ constexpr std::int64_t drain_period_ns = 5'000'000;
 
 // ------------------------------------------------------------------------------------------------ lane
 
-RecordingLane::RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity)
-    : instance_(instance), file_(file), ring_(capacity == 0 ? 0 : std::bit_ceil(capacity)) {}
+RecordingLane::RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity,
+                             RunTally* tally)
+    : instance_(instance), file_(file), tally_(tally), ring_(capacity == 0 ? 0 : std::bit_ceil(capacity)) {}
 
 Event RecordingLane::event(Event::Kind kind, Time time) {
   return {.time_ns = time.time_since_epoch().count(),
@@ -26,6 +27,7 @@ Event RecordingLane::event(Event::Kind kind, Time time) {
 }
 
 void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t version) {
+  if (tally_ != nullptr) return tally_->fire(transition);
   Event fired = event(Event::Kind::firing, time);
   if (!has_room(1)) return has_lost_firings_.store(true, std::memory_order_relaxed);
   fired.subject = transition;
@@ -35,6 +37,7 @@ void RecordingLane::firing(Time time, std::uint32_t transition, std::uint32_t ve
 }
 
 void RecordingLane::overrun(Time time, std::uint32_t missed) {
+  if (tally_ != nullptr) return;
   Event late = event(Event::Kind::overrun, time);
   if (!has_room(1)) return;
   late.subject = missed;
@@ -43,6 +46,10 @@ void RecordingLane::overrun(Time time, std::uint32_t missed) {
 }
 
 void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text) {
+  if (tally_ != nullptr) {
+    if (kind == Event::Kind::fault) tally_->note(instance_, static_cast<Fault>(level), time, text);
+    return;
+  }
   Event head = event(kind, time);
   if (!has_room(1 + (text.size() + sizeof(Event) - 1) / sizeof(Event))) return;
   head.subject = static_cast<std::uint32_t>(text.size());
@@ -53,6 +60,7 @@ void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::
 }
 
 void RecordingLane::call(Time time, std::uint32_t behaviour, std::uint64_t iteration) {
+  if (tally_ != nullptr) return;
   Event begun = event(Event::Kind::call, time);
   if (!has_room(1)) return;
   begun.subject = behaviour;
@@ -156,6 +164,15 @@ std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_vi
   return recorder;
 }
 
+std::unique_ptr<Recorder> Recorder::counting(std::uint32_t instances, RunTally& tally) {
+  std::unique_ptr<Recorder> recorder(new Recorder);
+  recorder->is_written_ = false;
+  for (std::uint32_t instance = 0; instance < instances; ++instance)
+    recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, 0, &tally));
+  recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, 0, &tally));
+  return recorder;
+}
+
 Recorder::~Recorder() {
   if (writer_.joinable()) static_cast<void>(close());
 }
@@ -204,6 +221,7 @@ bool Recorder::waits_for_what_is_lost() const {
 }
 
 Recorder::Result Recorder::close() {
+  if (!is_written_) return {};
   closing_.store(1, std::memory_order_release);
   if (writer_.joinable()) {
     file_.hurry();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "recorder/marking_track.hpp"
+#include "recorder/run_tally.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/recording.hpp"
 #include "tessera/time.hpp"
@@ -81,7 +82,8 @@ class RecordingFile {
 class RecordingLane {
  public:
   /// capacity 0: events are appended directly.
-  RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity);
+  /// tally: counts the events, which are then not written; nullptr: none.
+  RecordingLane(std::uint32_t instance, RecordingFile& file, std::size_t capacity, RunTally* tally = nullptr);
 
   void firing(Time time, std::uint32_t transition, std::uint32_t version);
   void overrun(Time time, std::uint32_t missed);
@@ -113,6 +115,7 @@ class RecordingLane {
   std::uint32_t sequence_ = 0;
   std::uint64_t lost_ = 0;
   RecordingFile& file_;
+  RunTally* tally_;
   std::vector<Event> ring_;         // empty: events are appended directly; otherwise a power of two
   std::uint64_t pushed_ = 0;        // used by the producer only
   std::uint64_t seen_drained_ = 0;  // the value of drained_ that the producer saw last
@@ -131,6 +134,8 @@ class Recorder {
                                                       std::uint32_t instances, Mode mode, std::string& error,
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
                                                       std::unique_ptr<MarkingTrack> track = nullptr);
+  /// Writes nothing: everything is only counted. The tally must live longer.
+  [[nodiscard]] static std::unique_ptr<Recorder> counting(std::uint32_t instances, RunTally& tally);
   ~Recorder();
 
   [[nodiscard]] RecordingLane* lane(std::uint32_t instance) { return lanes_[instance].get(); }
@@ -151,6 +156,7 @@ class Recorder {
   void drain_in_order();
   [[nodiscard]] bool waits_for_what_is_lost() const;
   RecordingFile file_;
+  bool is_written_ = true;
   std::vector<std::unique_ptr<RecordingLane>> lanes_;
   std::atomic<std::uint32_t> closing_{0};
   std::thread writer_;

@@ -18,6 +18,8 @@
 namespace tessera {
 namespace {
 
+constexpr unsigned most_jobs = 4096;
+
 /// The options as the user wrote them, before they are interpreted.
 struct Words {
   std::string duration, parameter_file, record_limit, simulation;
@@ -227,7 +229,11 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_flag("--interleave", line.options.interleave,
                      "Subsystems take turns after every firing, drawn from the seed");
   simulate->add_option("--schedules", line.schedules,
-                       "Try so many seeds from --seed on, interleaved; report the first whose run fails");
+                       "Try so many seeds from --seed on, interleaved; report how many fail, and of what");
+  simulate->add_option("--jobs", line.jobs, "Of schedules: processes at a time (default: one per core)")
+      ->check(CLI::Range(1U, most_jobs));
+  simulate->add_flag("--coverage", line.coverage,
+                     "Of schedules: the summary says how often each transition fired");
   simulate->add_option("--from", line.from,
                        "Run user code again on the inputs of this recording, and compare the results");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");

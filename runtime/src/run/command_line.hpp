@@ -12,9 +12,11 @@ namespace tessera {
 /// The requests on the command line of a controller.
 struct CommandLine {
   RunOptions options;
-  std::string summary;          ///< file; "-": standard output; empty: none
-  std::string from;             ///< recording to run user code again from; empty: none
-  std::uint64_t schedules = 0;  ///< number of schedules to try; 0: one run
+  std::string summary;                     ///< file; "-": standard output; empty: none
+  std::string from;                        ///< recording to run user code again from; empty: none
+  std::optional<std::uint64_t> schedules;  ///< number of schedules to try; nullopt: one run
+  unsigned jobs = 0;                       ///< of schedules: processes at a time; 0: one per core
+  bool coverage = false;                   ///< of schedules: counts the firings of each transition
 };
 
 /// The command line, or the exit code with which to end (help: 0, wrong usage: 2, unreadable file:

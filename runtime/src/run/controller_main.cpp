@@ -42,17 +42,19 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
 
 [[nodiscard]] int run_schedules(const System& system, const CommandLine& line) {
   std::string error;
-  const std::optional<ScheduleReport> report = try_schedules(system, line.options, line.schedules, error);
+  const std::optional<ScheduleReport> report =
+      try_schedules(system, line.options, {*line.schedules, line.jobs, line.coverage}, error);
   if (!report) {
     fmt::print(stderr, "error: {}\n", error);
     return exit_failed;
   }
-  fmt::print(stderr, "{}", schedules_line(*report));
+  // A user who asks for a summary file shows its content.
+  if (line.summary.empty()) fmt::print(stderr, "{}", schedules_text(*report));
   if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
   }
-  if (report->failed) return exit_failed;
+  if (report->failed > 0) return exit_failed;
   return report->interrupted == 0 ? exit_ok : exit_signal + report->interrupted;
 }
 
@@ -77,7 +79,7 @@ int controller_main(const System& system, int argc, char** argv) try {
   const std::variant<CommandLine, int> parsed = parse_command_line(system, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const CommandLine& line = std::get<CommandLine>(parsed);
-  if (line.schedules > 0) return run_schedules(system, line);
+  if (line.schedules) return run_schedules(system, line);
   if (!line.from.empty()) return run_again(system, line);
   std::string error;
   const std::optional<RunSummary> summary = execute(system, line.options, error);

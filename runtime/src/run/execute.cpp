@@ -1,3 +1,5 @@
+#include "run/execute.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -40,7 +42,7 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   if (assembly.world == nullptr) return;
   std::string error;
   if (assembly.world->finish(error)) return;
-  summary.failed = true;
+  if (!std::exchange(summary.failed, true)) summary.failure = RunSummary::Failure::world;
   warn(summary, fmt::format("the world: {}", error));
 }
 
@@ -116,7 +118,7 @@ template <class Run>
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
   last_chance.reset();
   if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
-  ending.failed = ending.failed || !unsafe.empty();
+  if (!unsafe.empty() && !std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::unsafe;
   const std::vector<std::string> unclosed = devices.close();
 
   std::string stuck;
@@ -124,12 +126,14 @@ template <class Run>
   if (!stuck.empty() && !assembly.options.accept_stuck) {
     ending.text += "; " + std::exchange(stuck, {});
     ending.failed = true;
+    ending.failure = RunSummary::Failure::stuck;
   }
 
   RunSummary summary;
   summary.simulated = ending.at.time_since_epoch();
   summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
   summary.failed = ending.failed;
+  summary.failure = ending.failure;
   summary.signal = ending.signal;
   summary.world_time = ending.world_time;
   summary.firings = upper.firings();
@@ -169,6 +173,11 @@ template <class Run>
 }  // namespace
 
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
+  return execute(system, options, nullptr, error);
+}
+
+std::optional<RunSummary> execute(const System& system, const RunOptions& options, RunTally* tally,
+                                  std::string& error) {
   const auto instances = static_cast<std::uint32_t>(system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
@@ -186,6 +195,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
   companions.watch();
   Assembly assembly(system, options);
   assembly.guardian = companions.guardian();
+  assembly.tally = tally;
   if (simulated) {
     SimulatedRun run(instances, options.seed);
     return with_lost_lines(drive(run, assembly, signals, error), assembly, session);

@@ -15,6 +15,8 @@
 namespace tessera {
 namespace {
 
+using Failure = RunSummary::Failure;
+
 /// Keeps simulated time from running ahead of real time. A signal or a command ends the wait.
 class Pace {
  public:
@@ -113,7 +115,8 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
   clock_.set(time);
   if (assembly.world == nullptr) return;
-  survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); });
+  if (!survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); }))
+    world_failure_ = Failure::world;
 }
 
 /// Gives safe commands to all devices at this instant, and not at the next turns of their subsystems.
@@ -169,7 +172,11 @@ std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLay
     if (!follow_step(assembly, upper, index))
       return Ending{fmt::format("the scenario cannot be followed: {} cannot fire; {}", steps[index].name,
                                 executor.whereabouts(assembly.system)),
-                    true, clock_.now(), 0, std::nullopt};
+                    true,
+                    clock_.now(),
+                    0,
+                    std::nullopt,
+                    Failure::scenario};
     if (const int signal = StopSignals::pending(); signal != 0)
       return Ending{StopSignals::name(signal), false, clock_.now(), signal, std::nullopt};
   }
@@ -214,6 +221,7 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
   if (stuck.empty() || ending.failed) return ending;  // the reason of the failure says more
   ending.text += "; stuck since the scenario: " + stuck;
   ending.failed = true;
+  ending.failure = Failure::stuck;
   return ending;
 }
 
@@ -221,8 +229,8 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   const std::optional<Duration> duration = assembly.options.duration;
   Pace pace(assembly.options.realtime, !assembly.options.hardware.empty(), remote_.get(), signals);
   ProgressLine progress(assembly.options.progress, duration);
-  const auto ending = [&](std::string text, bool failed) {
-    return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt};
+  const auto ending = [&](std::string text, bool failed, Failure failure = Failure::none) {
+    return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt, failure};
   };
 
   move_to(assembly, Time{});
@@ -238,11 +246,13 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     if (const int signal = StopSignals::pending(); signal != 0)
       return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
     if (assembly.control.stopping())
-      return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed());
+      return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(),
+                    world_failure_);
     if (upper.ended()) return ending("net ended", false);
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     if (next != Time::max()) next = std::min(next, assembly.signals.next());
-    if (next == Time::max()) return ending("stopped: " + why_nothing_happens(assembly), true);
+    if (next == Time::max())
+      return ending("stopped: " + why_nothing_happens(assembly), true, Failure::deadlock);
     stuck_.look(assembly, clock_.now());
     if (!beats_.empty()) next = std::min(next, beats_.first_time());
     if (remote_ != nullptr) remote_->keep_recording_live();

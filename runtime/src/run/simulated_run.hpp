@@ -26,6 +26,7 @@ struct Ending {
   Time at{};
   int signal = 0;                        ///< the signal that ended the run; 0: none
   std::optional<Duration> world_time{};  ///< if a world was slower than real time: how far it came
+  RunSummary::Failure failure = RunSummary::Failure::none;
 };
 
 /// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that have
@@ -63,6 +64,7 @@ class SimulatedRun final : public Waker {
   DeadlineQueue deadlines_, beats_;
   EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
+  RunSummary::Failure world_failure_ = RunSummary::Failure::none;
   StuckWatch stuck_;
   std::optional<CallWatch> calls_;
   std::optional<Monitor> monitor_;  // the last member: it looks at the others

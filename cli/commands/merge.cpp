@@ -1,0 +1,73 @@
+#include "statistics/merge.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands/commands.hpp"
+#include "cli/outputs.hpp"
+#include "cli/terminal.hpp"
+#include "statistics/table.hpp"
+
+namespace tessera::cli {
+
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> files;
+  std::string results, json;
+  bool other_builds = false;
+};
+
+int merge_command(const MergeOptions& options) {
+  check_replaceable(options.results, "{");
+  check_replaceable(options.json, "{");
+  std::vector<statistics::NamedResults> all;
+  for (const std::string& file : options.files) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    Result<statistics::Results> results = statistics::parse_results(text);
+    if (!results) return complain(fmt::format("{} {}", file, results.problem()));
+    all.push_back({file, std::move(*results)});
+  }
+  const Result<statistics::Results> merged = statistics::merge(all, options.other_builds);
+  if (!merged) return complain(merged.problem());
+  const std::string text = statistics::to_json(*merged);
+  if (!options.results.empty()) write_output(options.results, text);
+  if (!options.json.empty()) write_output(options.json, text);
+  if (options.results != "-" && options.json != "-") fmt::print("{}", statistics::to_table(*merged));
+  const std::vector<std::string> missing = statistics::missing_parts(*merged);
+  constexpr std::size_t most_shown = 20;
+  for (std::size_t index = 0; index < missing.size(); ++index)
+    if (index < most_shown) fmt::print(stderr, "missing: {}\n", missing[index]);
+  if (missing.size() > most_shown)
+    fmt::print(stderr, "missing: ... and {} more\n", missing.size() - most_shown);
+  if (merged->failed > 0) return failed;
+  return missing.empty() ? ok : unknown;
+}
+
+}  // namespace
+
+void add_merge(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("merge", "Join the results of schedules that were run in parts");
+  auto options = std::make_shared<MergeOptions>();
+  command.option("files", options->files, "Files of `tessera simulate --schedules N --results FILE`")
+      .required()
+      .existing_file();
+  command.option("--results", options->results, "Write them as one file of the same kind");
+  command.option("--json", options->json, "Write the same to this file (- is standard output)");
+  command.flag("--other-builds", options->other_builds,
+               "The controllers were built apart, from the same sources: count them as one");
+  command.footer(
+      "Parts of different nets, settings or programs are refused, and so is a seed that is in two files.\n"
+      "Ends with 0 if no run failed, 1 if one did, 3 if none did and parts are missing.\n"
+      "Example: tessera simulate --schedules 1000000 --part 3/20 --results part3.json   (on each machine)\n"
+      "         tessera merge part*.json --results all.json");
+  command.callback([options, &exit_code] { exit_code = merge_command(*options); });
+}
+
+}  // namespace tessera::cli

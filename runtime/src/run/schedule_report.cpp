@@ -1,0 +1,165 @@
+#include "run/schedule_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tessera/recording.hpp"
+
+namespace tessera {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr auto invalid_text_replaced = ordered_json::error_handler_t::replace;
+
+void count_event(ScheduleOutcome& outcome, const ScheduleResult& result, const ScheduleEvent& event) {
+  ++outcome.runs;
+  if (result.failed) ++outcome.failed;
+  if (outcome.runs > 1 && outcome.first_seed <= result.seed) return;
+  outcome.first_seed = result.seed;
+  outcome.at_s = event.at_s;
+  outcome.text = event.text;
+}
+
+/// Keeps the ranges sorted and apart.
+void insert_seed(std::vector<SeedRange>& ranges, std::uint64_t seed) {
+  const auto after = std::ranges::upper_bound(ranges, seed, {}, &SeedRange::begin);
+  const bool extends = after != ranges.begin() && std::prev(after)->end == seed;
+  const bool precedes = after != ranges.end() && after->begin == seed + 1;
+  if (extends && precedes) {
+    std::prev(after)->end = after->end;
+    ranges.erase(after);
+  } else if (extends) {
+    std::prev(after)->end = seed + 1;
+  } else if (precedes) {
+    after->begin = seed;
+  } else {
+    ranges.insert(after, {seed, seed + 1});
+  }
+}
+
+[[nodiscard]] ordered_json outcome_json(const std::string& kind, const std::string& name,
+                                        const ScheduleOutcome& outcome) {
+  ordered_json json{{"kind", kind}, {"name", name}, {"runs", outcome.runs}, {"failed", outcome.failed}};
+  if (outcome.runs == 0) return json;
+  json["first_seed"] = outcome.first_seed;
+  json["at_s"] = outcome.at_s;
+  json["text"] = outcome.text;
+  return json;
+}
+
+}  // namespace
+
+const std::vector<std::string>& schedule_event_kinds() {
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> all;
+    for (const Fault fault : {Fault::assertion, Fault::net, Fault::exception, Fault::not_finite,
+                              Fault::device, Fault::limit, Fault::stale, Fault::stall, Fault::overrun})
+      all.emplace_back(name_of(fault));
+    for (const char* other :
+         {"deadlock", "stuck for good", "scenario", "unsafe device", "world", "crash", "no start", "other"})
+      all.emplace_back(other);
+    return all;
+  }();
+  return kinds;
+}
+
+ScheduleReport::ScheduleReport() {
+  for (const std::string& kind : schedule_event_kinds()) kinds.emplace(kind, ScheduleOutcome{});
+}
+
+void ScheduleReport::add(const ScheduleResult& result) {
+  ++tried;
+  simulated += result.simulated;
+  firings += result.firings;
+  insert_seed(ran, result.seed);
+  std::map<std::string_view, const ScheduleEvent*> first;  // of each kind
+  for (const ScheduleEvent& event : result.events) {
+    count_event(outcomes[{event.kind, event.name}], result, event);
+    const ScheduleEvent*& earliest = first[event.kind];
+    if (earliest == nullptr || event.at_s < earliest->at_s) earliest = &event;
+  }
+  for (const auto& [kind, event] : first) count_event(kinds[std::string(kind)], result, *event);
+  if (!result.failed) return;
+  ++failed;
+  if (!first_failure || result.seed < first_failure->seed)
+    first_failure = {result.seed, seconds(result.simulated), result.ended};
+}
+
+std::string schedules_text(const ScheduleReport& report) {
+  std::string text =
+      fmt::format("{} of {} schedules from seed {} on, {} ({:.1f} s simulated in {:.2f} s, {} firings){}\n",
+                  report.tried, report.asked, report.first_seed,
+                  report.failed == 0 ? std::string("none fails") : fmt::format("{} fail", report.failed),
+                  seconds(report.simulated), report.wall_s, report.firings,
+                  report.interrupted == 0 ? "" : "; interrupted");
+  for (const auto& [key, outcome] : report.outcomes)
+    text += fmt::format("  {}{}{}: in {} of {} runs; first seed {} at {:.6f} s: {}\n", key.first,
+                        key.second.empty() ? "" : " ", key.second, outcome.runs, report.tried,
+                        outcome.first_seed, outcome.at_s, outcome.text);
+  return text;
+}
+
+std::string schedules_json(const ScheduleReport& report) {
+  ordered_json json{{"system", report.system},
+                    {"net_hash", report.net_hash},
+                    {"asked", report.asked},
+                    {"tried", report.tried},
+                    {"failed", report.failed},
+                    {"first_seed", report.first_seed},
+                    {"ran", ordered_json::array()},
+                    {"jobs", report.jobs},
+                    {"simulated_s", seconds(report.simulated)},
+                    {"wall_s", report.wall_s},
+                    {"firings", report.firings},
+                    {"interrupted", report.interrupted != 0},
+                    {"kinds", ordered_json::array()},
+                    {"outcomes", ordered_json::array()},
+                    {"failure", nullptr},
+                    {"not_repeated", report.not_repeated}};
+  for (const SeedRange& range : report.ran) json["ran"].push_back({range.begin, range.end});
+  for (const std::string& kind : schedule_event_kinds())
+    json["kinds"].push_back(outcome_json(kind, "", report.kinds.at(kind)));
+  for (const auto& [key, outcome] : report.outcomes)
+    json["outcomes"].push_back(outcome_json(key.first, key.second, outcome));
+  if (report.first_failure)
+    json["failure"] = {{"seed", report.first_failure->seed},
+                       {"at_s", report.first_failure->at_s},
+                       {"ended", report.first_failure->ended}};
+  if (!report.transitions.empty()) {
+    json["transitions"] = ordered_json::object();
+    for (const auto& [name, firings] : report.transitions) json["transitions"][name] = firings;
+  }
+  return json.dump(2, ' ', false, invalid_text_replaced) + '\n';
+}
+
+std::string to_line(const ScheduleResult& result) {
+  ordered_json events = ordered_json::array();
+  for (const ScheduleEvent& event : result.events)
+    events.push_back({event.kind, event.name, event.at_s, event.text});
+  const ordered_json line{result.seed,    result.failed, result.interrupted, result.simulated.count(),
+                          result.firings, result.ended,  std::move(events)};
+  return line.dump(-1, ' ', false, invalid_text_replaced);
+}
+
+std::optional<ScheduleResult> from_line(std::string_view line) try {
+  const auto json = nlohmann::json::parse(line);
+  ScheduleResult result{.seed = json.at(0),
+                        .failed = json.at(1),
+                        .interrupted = json.at(2),
+                        .simulated = Duration(json.at(3).get<std::int64_t>()),
+                        .firings = json.at(4),
+                        .ended = json.at(5),
+                        .events = {}};
+  for (const auto& event : json.at(6))
+    result.events.push_back(
+        {.kind = event.at(0), .name = event.at(1), .at_s = event.at(2), .text = event.at(3)});
+  return result;
+} catch (const nlohmann::json::exception&) {
+  return std::nullopt;
+}
+
+}  // namespace tessera

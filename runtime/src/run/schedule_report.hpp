@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tessera/controller.hpp"
+
+namespace tessera {
+
+/// Seeds that follow one another: begin, begin + 1, ..., end - 1.
+struct SeedRange {
+  std::uint64_t begin = 0, end = 0;
+  bool operator==(const SeedRange&) const = default;
+};
+
+/// Something that went wrong in one run: a class of faults, or a way to fail, and where.
+struct ScheduleEvent {
+  std::string kind;  ///< "assertion", "deadlock", ...: one of schedule_event_kinds
+  std::string name;  ///< the subsystem, or the check of the system; empty: of no one
+  double at_s = 0;   ///< of the first in the run
+  std::string text;
+};
+
+/// The result of one run among many.
+struct ScheduleResult {
+  std::uint64_t seed = 0;
+  bool failed = false;
+  bool interrupted = false;  ///< a signal has ended the run
+  Duration simulated{};
+  std::uint64_t firings = 0;
+  std::string ended;                  ///< as RunSummary::ended
+  std::vector<ScheduleEvent> events;  ///< each kind and name once; a run that failed has at least one
+};
+
+/// How often something went wrong.
+struct ScheduleOutcome {
+  std::uint64_t runs = 0;    ///< in which it happened
+  std::uint64_t failed = 0;  ///< of these runs; in the others, the controller went on all the same
+  std::uint64_t first_seed = 0;
+  double at_s = 0;  ///< in the run of the first seed
+  std::string text;
+};
+
+/// The kinds of what can go wrong, in the order of the table.
+[[nodiscard]] const std::vector<std::string>& schedule_event_kinds();
+
+/// The result of trying many schedules.
+struct ScheduleReport {
+  std::string system, net_hash;
+  std::uint64_t first_seed = 1, asked = 0;
+  std::uint64_t tried = 0;    ///< completed runs
+  std::uint64_t failed = 0;   ///< of these
+  unsigned jobs = 1;          ///< processes that ran at a time
+  Duration simulated{};       ///< sum over all runs
+  std::uint64_t firings = 0;  ///< sum over all runs
+  double wall_s = 0;
+  int interrupted = 0;  ///< the signal that ended the search; 0: none
+  std::vector<SeedRange> ran;
+  std::map<std::pair<std::string, std::string>, ScheduleOutcome> outcomes;  ///< by kind and name
+  /// By kind alone; a run counts once, however many subsystems have the fault. All kinds are there.
+  std::map<std::string, ScheduleOutcome> kinds;
+  struct Failure {
+    std::uint64_t seed;
+    double at_s;
+    std::string ended;
+  };
+  std::optional<Failure> first_failure;  ///< that of the lowest seed
+  /// Seeds named as first whose run, made again alone in a process, went otherwise: something of the user's
+  /// code lasts from run to run.
+  std::vector<std::uint64_t> not_repeated;
+  /// Firings of each transition over all runs; empty: not counted.
+  std::vector<std::pair<std::string, std::uint64_t>> transitions;
+
+  ScheduleReport();
+  void add(const ScheduleResult& result);
+};
+
+/// A few lines for people.
+[[nodiscard]] std::string schedules_text(const ScheduleReport& report);
+/// {"system", "net_hash", "asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
+/// "firings", "interrupted", "kinds": [outcome...], "outcomes": [outcome...], "failure": null or {"seed",
+/// "at_s", "ended"}, "not_repeated": [seed...]}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
+/// "at_s", "text"}. If firings were counted, also "transitions": {name: firings}.
+[[nodiscard]] std::string schedules_json(const ScheduleReport& report);
+
+/// One line of JSON, without its end; and back (nullopt: it is none).
+[[nodiscard]] std::string to_line(const ScheduleResult& result);
+[[nodiscard]] std::optional<ScheduleResult> from_line(std::string_view line);
+
+}  // namespace tessera

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::replay {
+
+/// How often each transition of a net fired, summed over runs.
+class FiringCounts {
+ public:
+  explicit FiringCounts(const net::Net& net);
+
+  /// Adds a recorded run. Returns why that is not possible: the recording is of another net; empty: it was
+  /// added.
+  [[nodiscard]] std::string add(const Recording& recording);
+  /// Adds runs of which only the firings are known, by the names of the transitions.
+  [[nodiscard]] std::string add(const std::map<std::string, std::uint64_t>& firings, std::uint64_t runs);
+
+  [[nodiscard]] std::uint64_t of(net::TransitionId id) const { return firings_[id.value]; }
+  /// A run was there, in whatever way it began, and the place was marked at some time without a firing.
+  [[nodiscard]] bool was_marked(net::PlaceId id) const { return marked_[id.value]; }
+  [[nodiscard]] std::uint64_t runs() const { return runs_; }
+  /// Events are missing in some recording: what is said not to be reached may have been.
+  [[nodiscard]] bool lacks_events() const { return lacks_events_; }
+
+ private:
+  const net::Net& net_;
+  std::map<std::string, std::uint32_t> transitions_, places_;  // by name
+  std::vector<std::uint64_t> firings_;                         // per transition
+  std::vector<bool> marked_;                                   // per place
+  std::uint64_t runs_ = 0;
+  bool lacks_events_ = false;
+};
+
+/// What runs have reached of a net.
+///
+/// Elements that no run can reach are left out: what only a condition leads to that is the constant false.
+/// A condition has two outcomes, each of which counts: it held, and its transition fired; it did not hold, and
+/// one fired that does so only then. A failure (an exception, a device) makes an error hold.
+struct Coverage {
+  struct Share {
+    std::size_t reached = 0, all = 0;
+    Share& operator+=(const Share& more);
+    /// 1 if there is nothing to reach.
+    [[nodiscard]] double share() const;
+  };
+  struct Missing {
+    enum class Kind : std::uint8_t { place, transition, holds, does_not_hold } kind;
+    std::string name;  ///< path of the place or the transition
+    std::string text;  ///< of conditions: as in the specification; of some transitions: what they do
+    net::Span span{};
+  };
+  /// One behaviour; or what belongs to a subsystem, an agent, the system, or all channels, and to no
+  /// behaviour.
+  struct Group {
+    std::string path;  ///< "robot.control.follow"; of the system ""
+    enum class Kind : std::uint8_t { system, agent, subsystem, behaviour, channels } kind;
+    net::Span span{};
+    bool reached = false;  ///< the behaviour was entered; of others: something was reached
+    Share places{}, transitions{}, conditions{};
+    std::vector<Missing> missing{};
+  };
+  std::vector<Group> groups;  ///< each behind that to which it belongs; the channels come last
+  Share behaviours, places, transitions, conditions;
+  std::size_t unreachable = 0;  ///< places and transitions that are left out
+  std::uint64_t runs = 0;
+  bool lacks_events = false;
+};
+
+/// Precondition: `net` is what `pages` are when flat, and the counts are of it.
+[[nodiscard]] Coverage coverage_of(const net::HierarchicalNet& pages, const net::Net& net,
+                                   const FiringCounts& counts);
+
+/// file: the name of the specification, for its lines.
+[[nodiscard]] std::string coverage_text(const Coverage& coverage, const std::string& file);
+
+/// {"runs", "lacks_events", "unreachable", "behaviours", "places", "transitions", "conditions", "groups":
+/// [{"path", "kind", "line", "reached", "places", "transitions", "conditions", "missing": [{"kind", "name",
+/// "text", "line"}...]}...], "firings": {transition: count}}; a share is {"reached", "all"}.
+[[nodiscard]] std::string coverage_json(const Coverage& coverage, const net::Net& net,
+                                        const FiringCounts& counts);
+
+}  // namespace tessera::replay

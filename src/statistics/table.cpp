@@ -1,0 +1,120 @@
+#include "statistics/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include "statistics/clopper_pearson.hpp"
+
+namespace tessera::statistics {
+namespace {
+
+/// Of a fleet, the rows of its first members are shown; the JSON has all.
+constexpr std::size_t most_rows_of_a_kind = 12, most_commands = 12, longest_text = 160;
+
+std::string interval_text(std::uint64_t events, std::uint64_t runs) {
+  const Interval interval = clopper_pearson(events, runs);
+  return fmt::format("{} to {}", percent(interval.low), percent(interval.high));
+}
+
+std::string cut(const std::string& text) {
+  return text.size() <= longest_text ? text : text.substr(0, longest_text) + "...";
+}
+
+std::string row(const Outcome& outcome, const std::string& label, const Results& results) {
+  const double share = static_cast<double>(outcome.runs) / static_cast<double>(results.tried);
+  std::string text = fmt::format("{:<32} {:>9} {:>9}   {:<22} {:>10}", label, outcome.runs, percent(share),
+                                 interval_text(outcome.runs, results.tried), outcome.first_seed);
+  if (outcome.failed < outcome.runs)
+    text +=
+        fmt::format("   {}", outcome.failed == 0 ? "none of these runs failed"
+                                                 : fmt::format("{} of these runs failed", outcome.failed));
+  return text + "\n";
+}
+
+std::string rows_of(const Outcome& kind, const Results& results) {
+  std::vector<const Outcome*> named;
+  for (const Outcome& outcome : results.outcomes)
+    if (outcome.kind == kind.kind && outcome.runs > 0) named.push_back(&outcome);
+  std::string text = row(kind, kind.kind, results);
+  const bool has_names = std::ranges::any_of(named, [](const Outcome* one) { return !one->name.empty(); });
+  if (!has_names) return text + fmt::format("    {:.6f} s: {}\n", kind.at_s, cut(kind.text));
+  std::ranges::stable_sort(named, std::greater{}, &Outcome::runs);
+  for (std::size_t index = 0; index < std::min(named.size(), most_rows_of_a_kind); ++index) {
+    const Outcome& one = *named[index];
+    text += row(one, "  " + one.name, results);
+    text += fmt::format("    {:.6f} s: {}\n", one.at_s, cut(one.text));
+  }
+  if (named.size() > most_rows_of_a_kind)
+    text += fmt::format("  ... and {} more\n", named.size() - most_rows_of_a_kind);
+  return text;
+}
+
+/// What never happened, in one sentence. Checks are named.
+std::string rest_of(const Results& results) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const Outcome& kind : results.kinds)
+    if (kind.runs == 0) add(kind.kind);
+  for (const Outcome& outcome : results.outcomes)
+    if (outcome.runs == 0) add(fmt::format("{} '{}'", outcome.kind, outcome.name));
+  if (names.empty()) return "";
+  return fmt::format("In none of {} runs (each at most {}): {}\n", results.tried,
+                     percent(clopper_pearson(0, results.tried).high), names);
+}
+
+std::string commands(const Results& results) {
+  if (results.again.empty()) return "";
+  std::set<std::uint64_t> seeds;
+  if (results.failure) seeds.insert(results.failure->seed);
+  for (const Outcome& outcome : results.outcomes)
+    if (outcome.runs > 0) seeds.insert(outcome.first_seed);
+  if (seeds.empty()) return "";
+  std::string text = "Make the first of each again, with a recording:\n";
+  std::size_t shown = 0;
+  for (const std::uint64_t seed : seeds)
+    if (shown++ < most_commands) text += fmt::format("  {} {}\n", results.again, seed);
+  if (shown > most_commands) text += fmt::format("  ... and {} more seeds\n", shown - most_commands);
+  for (const std::uint64_t seed : results.not_repeated)
+    if (seeds.contains(seed))
+      text += fmt::format(
+          "Seed {} went otherwise when it ran alone: something in the user's code (a global, a static) lasts "
+          "from "
+          "run to run, so these runs were not independent.\n",
+          seed);
+  return text;
+}
+
+}  // namespace
+
+std::string percent(double share) {
+  if (share > 0 && share < 1e-6) return fmt::format("{:.2e} %", share * 100);
+  return fmt::format("{:.3g} %", share * 100);
+}
+
+std::string to_table(const Results& results) {
+  std::string text = fmt::format("{} of {} schedules from seed {} on", results.tried, results.whole.count(),
+                                 results.whole.begin);
+  if (results.ran.size() == 1 && results.ran.front() != results.whole)
+    text += fmt::format(" ({})", text_of(results.ran.front()));
+  text += results.tried == 0    ? ", no run was completed"
+          : results.failed == 0 ? ", none fails"
+                                : fmt::format(", {} fail", results.failed);
+  text += fmt::format(" ({:.1f} s simulated in {:.2f} s, {} firings){}\n", results.simulated_s,
+                      results.wall_s, results.firings, results.interrupted ? "; interrupted" : "");
+  if (results.tried == 0) return text;
+  text += fmt::format("A run fails with a probability of {} ({:.0f} % confidence).\n",
+                      interval_text(results.failed, results.tried), usual_confidence * 100);
+  const bool has_rows = std::ranges::any_of(results.kinds, [](const Outcome& kind) { return kind.runs > 0; });
+  if (has_rows)
+    text += fmt::format("\n{:<32} {:>9} {:>9}   {:<22} {:>10}\n", "", "runs", "share", "95 % interval",
+                        "first seed");
+  for (const Outcome& kind : results.kinds)
+    if (kind.runs > 0) text += rows_of(kind, results);
+  if (has_rows) text += "\n";
+  return text + rest_of(results) + commands(results);
+}
+
+}  // namespace tessera::statistics

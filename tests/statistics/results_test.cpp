@@ -1,0 +1,87 @@
+#include "statistics/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "example_results.hpp"
+#include "statistics/table.hpp"
+
+namespace tessera::statistics {
+namespace {
+
+using nlohmann::json;
+
+TEST(Results, ComeBackFromTheirJson) {
+  const std::string text = to_json(example_results(101, 201));
+  const Result<Results> back = parse_results(text);
+  ASSERT_TRUE(back) << back.problem();
+  EXPECT_EQ(to_json(*back), text);
+  const json written = json::parse(text);
+  EXPECT_EQ(written.at("reproduce"), "tessera simulate rover --interleave --for 1s --seed 110");
+  EXPECT_EQ(written.at("outcomes").at(1).at("first_seed"), 110);
+  EXPECT_NEAR(written.at("interval").at(0).get<double>(), 0.04900469, 1e-7);
+}
+
+TEST(Results, OfOtherFilesAndNonsenseAreRefused) {
+  for (const char* text : {"", "{", "[]", "null", "7", "\"x\"", "{}", R"({"tessera": 3})",
+                           R"({"tessera": "net"})", R"({"tessera": "schedules"})", "\x01\xff\xfe"})
+    EXPECT_FALSE(parse_results(text)) << text;
+}
+
+TEST(Results, ThatContradictThemselvesAreRefused) {
+  const json good = json::parse(to_json(example_results(1, 101)));
+  struct Case {
+    const char* where;
+    json value;
+    const char* says;
+  };
+  for (const Case& one :
+       {Case{"/version", 2, "another version"}, Case{"/tried", 99, "not that of the seeds"},
+        Case{"/tried", -1, "natural number"}, Case{"/tried", 1.5, "natural number"},
+        Case{"/failed", 101, "more runs failed"}, Case{"/failure", nullptr, "first failure"},
+        Case{"/ran", json::array({{1, 51}, {50, 100}}), "twice"},
+        Case{"/ran", json::array({{101, 1}}), "before they begin"},
+        Case{"/seeds", {1, 50}, "none of the whole"}, Case{"/parts", 0, "no parts"},
+        Case{"/simulated_s", -3, "from 0 up"}, Case{"/kinds/0/runs", 101, "more runs than there were"},
+        Case{"/kinds/0/failed", 11, "more runs than there were"}}) {
+    json wrong = good;
+    wrong[json::json_pointer(one.where)] = one.value;
+    const Result<Results> read = parse_results(wrong.dump());
+    ASSERT_FALSE(read) << one.where;
+    EXPECT_NE(read.problem().find(one.says), std::string::npos) << one.where << ": " << read.problem();
+  }
+}
+
+TEST(Table, NamesWhatHappenedWithIntervalsAndCommands) {
+  const std::string table = to_table(example_results(101, 201));
+  for (const char* part :
+       {"100 of 300 schedules from seed 1 on (seeds 101 to 200), 10 fail", "4.9 % to 17.6 %", "assertion",
+        "robot.control", "0.250000 s: blind", "deadlock, assertion 'nobody touches'", "each at most 3.62 %",
+        "tessera simulate rover --interleave --for 1s --seed 110\n"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+}
+
+TEST(Table, WarnsOfASeedThatGoesOtherwiseAlone) {
+  Results results = example_results(1, 101);
+  EXPECT_EQ(to_table(results).find("went otherwise"), std::string::npos);
+  results.not_repeated = {10};
+  EXPECT_NE(to_table(results).find("Seed 10 went otherwise"), std::string::npos);
+}
+
+TEST(Table, WithoutRunsClaimsNothing) {
+  const std::string table = to_table(example_results(1, 1));
+  EXPECT_EQ(table.find('%'), std::string::npos) << table;
+}
+
+TEST(Table, OfAFaultThatFailsNoRunSaysSo) {
+  Results results = example_results(1, 10);
+  results.kinds[1] = {"deadlock", "", 4, 0, 2, 0.5, "late"};
+  results.outcomes.push_back({"deadlock", "robot.a", 4, 0, 2, 0.5, "late"});
+  const std::string table = to_table(results);
+  EXPECT_NE(table.find("none of these runs failed"), std::string::npos) << table;
+  EXPECT_NE(table.find("none fails"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace tessera::statistics

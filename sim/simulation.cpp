@@ -46,6 +46,12 @@ std::optional<Problem> Simulation::judge_by(const std::string& checks_json) {
   return std::nullopt;
 }
 
+std::optional<Problem> Simulation::problem_with_checks(const std::string& checks_json) {
+  const std::scoped_lock lock(mutex_);
+  const Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_);
+  return judging ? std::nullopt : std::optional(Problem{judging.problem()});
+}
+
 std::vector<WorldFailure> Simulation::take_failures() {
   const std::scoped_lock lock(mutex_);
   return judging_ ? judging_->take_failures() : std::vector<WorldFailure>{};

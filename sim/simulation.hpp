@@ -28,6 +28,7 @@ class Simulation {
 
   /// What the run is judged by, before its first step. Problem: as Judging::read.
   [[nodiscard]] std::optional<Problem> judge_by(const std::string& checks_json);
+  [[nodiscard]] std::optional<Problem> problem_with_checks(const std::string& checks_json);
   [[nodiscard]] std::vector<WorldFailure> take_failures();
   /// As Judging::results; judges what holds at the end.
   [[nodiscard]] std::string results();

@@ -86,6 +86,9 @@ class MujocoWorld final : public World {
   }
 
   void advance_to(Time time) override { context_.simulation->advance_to(time); }
+  [[nodiscard]] std::optional<Problem> problem_with_checks(const std::string& json) override {
+    return context_.simulation->problem_with_checks(json);
+  }
   [[nodiscard]] std::vector<WorldFailure> take_failures() override {
     return context_.simulation->take_failures();
   }

@@ -86,7 +86,7 @@ struct RunSummary {
     unsafe,    ///< a device has not taken its safe command
     world      ///< of the simulated world
   } failure = Failure::none;
-  int signal = 0;       ///< the signal that ended the run; 0: none
+  int signal = 0;  ///< the signal that ended the run; 0: none
   /// If a world was slower than real time: how far the world came while `simulated` passed.
   std::optional<Duration> world_time;
   struct PerSubsystem {
@@ -94,6 +94,7 @@ struct RunSummary {
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
   };
   std::vector<PerSubsystem> subsystems;
+  std::string judgement;                ///< checks and measures as World::results; empty: none
   std::uint64_t lost_events = 0;        ///< of the recording
   std::uint64_t lines_not_printed = 0;  ///< lines that the terminal did not take
   std::vector<std::string> warnings;    ///< e.g. the recording could not be written

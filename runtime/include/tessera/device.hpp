@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tessera/driver_setup.hpp"
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 #include "tessera/value_encoding.hpp"
 #include "tessera/world_state.hpp"
@@ -179,6 +180,11 @@ class World {
   [[nodiscard]] virtual std::shared_ptr<WorldState> state(const std::string& /*agent*/) { return nullptr; }
   /// Computes the physics up to `time`, deterministically. Never goes back.
   virtual void advance_to(Time time) = 0;
+  /// Why it could not judge by such checks and measures (WorldOptions::checks); nullopt: it can, or does not
+  /// tell.
+  [[nodiscard]] virtual std::optional<Problem> problem_with_checks(const std::string& /*json*/) {
+    return std::nullopt;
+  }
   /// The checks that have failed since the last call.
   [[nodiscard]] virtual std::vector<WorldFailure> take_failures() { return {}; }
   /// JSON with `checks` and `measures` of the run (docs/worlds.md), at its end; empty: there are none.

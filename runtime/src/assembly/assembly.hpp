@@ -34,6 +34,9 @@ struct Assembly {
   Guardian* guardian = nullptr;  ///< nullptr: none
   RunTally* tally = nullptr;     ///< counts what is not recorded; nullptr: nothing does
   std::unique_ptr<World> world;
+  std::vector<WorldFailure> failed_checks;  ///< of the world, so far
+  std::size_t recorded_checks = 0;          ///< how many of them are recorded
+  std::string judgement;                    ///< World::results, at the end
   std::unique_ptr<Recorder> recorder;
   std::optional<Scenario> scenario;
   Injections faults;

@@ -122,14 +122,13 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
     if (!request) return fmt::format("--driver {}: {}", driver, error);
     options.drivers.push_back(*request);
   }
-  std::string models;
+  WorldOptions world = words.world;
   if (!words.simulation.empty()) {
     std::string error;
-    if (!read_simulation_file(words.simulation, options.drivers, models, error)) return error;
+    if (!read_simulation_file(words.simulation, options.drivers, world, error)) return error;
   }
   if (words.world.world.empty()) return "";
-  options.world = words.world;
-  options.world->models = models;
+  options.world = world;
   options.world->seed = options.seed;
   if (words.start.size() == 3) {
     options.world->start_x_m = words.start[0];

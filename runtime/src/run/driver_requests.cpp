@@ -74,7 +74,7 @@ std::optional<DriverRequest> parse_driver(const std::string& text, std::string& 
   return request;
 }
 
-bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& drivers, std::string& models,
+bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& drivers, WorldOptions& world,
                           std::string& error) {
   std::ifstream stream(path);
   if (!stream) {
@@ -85,7 +85,11 @@ bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& d
     const json file = json::parse(stream);
     for (const json& driver : file.at("drivers")) drivers.push_back(request_of(driver));
     if (const auto placed = file.find("models"); placed != file.end() && !placed->empty())
-      models = placed->dump();
+      world.models = placed->dump();
+    json judged;
+    for (const char* part : {"checks", "measures"})
+      if (const auto found = file.find(part); found != file.end() && !found->empty()) judged[part] = *found;
+    if (!judged.is_null()) world.checks = judged.dump();
     return true;
   } catch (const json::exception& exception) {
     error = fmt::format("'{}' is no simulation file: {}", path, exception.what());

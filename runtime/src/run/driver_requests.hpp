@@ -16,9 +16,8 @@ namespace tessera {
 [[nodiscard]] std::optional<DriverRequest> parse_driver(const std::string& text, std::string& error);
 
 /// Reads the simulation file that `tessera simulate` writes (docs/worlds.md). It adds the devices
-/// to `drivers`. models: receives the placed models, as JSON; empty: there are none.
-/// false and `error`: the file cannot be read, or is of another form.
+/// to `drivers`, and the placed models, checks and measures to `world`. false and `error`: the file cannot be read, or is of another form.
 [[nodiscard]] bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& drivers,
-                                        std::string& models, std::string& error);
+                                        WorldOptions& world, std::string& error);
 
 }  // namespace tessera

@@ -13,6 +13,7 @@
 #include "assembly/upper_layers.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
+#include "run/world_checks.hpp"
 #include "safety/companions.hpp"
 #include "safety/last_chance.hpp"
 #include "system/console.hpp"
@@ -121,6 +122,10 @@ template <class Run>
   if (!unsafe.empty() && !std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::unsafe;
   const std::vector<std::string> unclosed = devices.close();
 
+  if (const std::string failed_checks = finish_checks(assembly, ending.at); !failed_checks.empty()) {
+    ending.text += failed_checks;
+    ending.failed = true;
+  }
   std::string stuck;
   if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));
   if (!stuck.empty() && !assembly.options.accept_stuck) {
@@ -136,6 +141,7 @@ template <class Run>
   summary.failure = ending.failure;
   summary.signal = ending.signal;
   summary.world_time = ending.world_time;
+  summary.judgement = std::exchange(assembly.judgement, {});
   summary.firings = upper.firings();
   for (const auto& executor : assembly.executors) {
     const Operations& operations = executor->operations();

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "run/world_checks.hpp"
 #include "system/console.hpp"
 #include "watch/boundary.hpp"
 #include "watch/stillness.hpp"
@@ -115,8 +116,12 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
   clock_.set(time);
   if (assembly.world == nullptr) return;
-  if (!survives_in_thread(assembly.control, "the world", [&] { assembly.world->advance_to(time); }))
-    world_failure_ = Failure::world;
+  const auto advance = [&] {
+    assembly.world->advance_to(time);
+    notice_failed_checks(assembly);
+    record_failed_checks(assembly, time);
+  };
+  if (!survives_in_thread(assembly.control, "the world", advance)) world_failure_ = Failure::world;
 }
 
 /// Gives safe commands to all devices at this instant, and not at the next turns of their subsystems.

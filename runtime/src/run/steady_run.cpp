@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "run/world_checks.hpp"
 #include "safety/death.hpp"
 #include "system/console.hpp"
 #include "system/realtime.hpp"
@@ -130,7 +131,9 @@ void SteadyRun::deny(const std::string& what) {
 
 /// A world that is slower than real time falls behind. It moves in short steps, so that no thread waits
 /// long for it. The delay that it cannot make up for is left out (Ending::world_time).
-void SteadyRun::run_world(World& world, RunControl& control) {
+void SteadyRun::run_world(Assembly& assembly) {
+  World& world = *assembly.world;
+  RunControl& control = assembly.control;
   const AlternateStack stack;
   const bool survived = survives_in_thread(control, "the world", [&] {
     Duration left_out{};
@@ -141,6 +144,7 @@ void SteadyRun::run_world(World& world, RunControl& control) {
       if (left_out > Duration::zero()) say_world_is_slow();
       world_time_ = std::min(now - left_out, world_time_ + longest_world_step);
       world.advance_to(world_time_);
+      notice_failed_checks(assembly);
       if (world_time_ + longest_world_step < clock_.now() - left_out) continue;  // the world catches up
       next = std::max(next, clock_.now()) + world_step;
       if (!control.stopping()) world_wakes_.sleep(ticket, clock_.absolute_ns(next));
@@ -203,7 +207,7 @@ Ending SteadyRun::ending(const Assembly& assembly, const UpperLayers& upper) con
 
 void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& threads) {
   threads.reserve(assembly.executors.size() + 1);
-  if (assembly.world != nullptr) threads.emplace_back([&] { run_world(*assembly.world, assembly.control); });
+  if (assembly.world != nullptr) threads.emplace_back([&] { run_world(assembly); });
   for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
     threads.emplace_back([this, &assembly, instance] {
       run_subsystem(*assembly.executors[instance], instance, assembly.control);

@@ -38,7 +38,7 @@ class SteadyRun final : public Waker {
   void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
              const SubsystemExecutor::Progress& progress) const;
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
-  void run_world(World& world, RunControl& control);
+  void run_world(Assembly& assembly);
   void say_world_is_slow();
   void start_threads(Assembly& assembly, std::vector<std::thread>& threads);
   void tell_supervisor() const;

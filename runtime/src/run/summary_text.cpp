@@ -5,6 +5,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "run/world_checks.hpp"
+
 namespace tessera {
 
 std::string summary_json(const RunSummary& summary, const RunOptions& options) {
@@ -24,6 +26,9 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
   };
   if (summary.world_time) json["world_s"] = seconds(*summary.world_time);
   if (options.world && !options.world->track.empty()) json["track"] = options.world->track;
+  const auto judgement =
+      nlohmann::ordered_json::parse(summary.judgement, nullptr, /*allow_exceptions=*/false);
+  if (judgement.is_object()) json.update(judgement);
   json["subsystems"] = nlohmann::ordered_json::array();
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     json["subsystems"].push_back({{"path", subsystem.path},
@@ -39,7 +44,7 @@ std::string summary_lines(const RunSummary& summary) {
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
                    subsystem.iterations, subsystem.overruns, subsystem.errors);
-  return text;
+  return text + text_of_judgement(summary.judgement);
 }
 
 }  // namespace tessera

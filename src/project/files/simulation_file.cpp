@@ -63,6 +63,14 @@ Json models_of(const spec::Simulation& simulation, const fs::path& project) {
   return models;
 }
 
+Json json_of(const checks::Check& check) {
+  Json json{{"name", check.name},
+            {"when", checks::name_of(check.when)},
+            {"formula", checks::text_of(check.formula)}};
+  if (check.within_s) json["within_s"] = *check.within_s;
+  return json;
+}
+
 }  // namespace
 
 DriverRequest request_of(const spec::Model& model, const spec::Driver& driver) {
@@ -78,11 +86,22 @@ std::string placements_json(const spec::Simulation& simulation, const fs::path& 
   return simulation.models.empty() ? "" : models_of(simulation, project).dump();
 }
 
+std::string check_json(const checks::Check& check) { return Json{{"checks", {json_of(check)}}}.dump(); }
+
+std::string measure_json(const checks::Measure& measure) {
+  return Json{{"measures", {{measure.name, checks::text_of(measure.number)}}}}.dump();
+}
+
 std::string simulation_json(const spec::Model& model, const fs::path& project) {
   Json json{{"drivers", Json::array()}};
   for (const spec::Driver& driver : model.simulation->drivers)
     if (driver.kind != "cpp") json["drivers"].push_back(json_of(request_of(model, driver)));
   json["models"] = models_of(*model.simulation, project);
+  json["checks"] = Json::array();
+  for (const spec::WorldCheck& one : model.simulation->checks) json["checks"].push_back(json_of(one.check));
+  json["measures"] = Json::object();
+  for (const spec::WorldMeasure& one : model.simulation->measures)
+    json["measures"][one.measure.name] = checks::text_of(one.measure.number);
   return json.dump(1) + "\n";
 }
 

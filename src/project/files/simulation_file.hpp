@@ -18,7 +18,11 @@ namespace tessera::project {
 [[nodiscard]] std::string placements_json(const spec::Simulation& simulation,
                                           const std::filesystem::path& project);
 
-/// The content of the simulation file of a run, JSON with `drivers` and `models`.
+/// One check or measure, as World::problem_with_checks reads it.
+[[nodiscard]] std::string check_json(const checks::Check& check);
+[[nodiscard]] std::string measure_json(const checks::Measure& measure);
+
+/// The content of the simulation file of a run, JSON with `drivers`, `models`, `checks` and `measures`.
 [[nodiscard]] std::string simulation_json(const spec::Model& model, const std::filesystem::path& project);
 
 }  // namespace tessera::project

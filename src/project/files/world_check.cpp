@@ -102,7 +102,16 @@ bool check_world(const spec::Model& model, const fs::path& project, const std::s
   Judge judge(model, **opened, out);
   for (const spec::Driver& driver : simulation.drivers)
     if (driver.kind != "cpp") judge.judge(driver);
-  return judge.ok();
+  bool ok = judge.ok();
+  const auto judge_text = [&](const std::string& json, diagnostics::Span its_place) {
+    const auto problem = (*opened)->problem_with_checks(json);
+    if (!problem) return;
+    out.error("E314", its_place, problem->text);
+    ok = false;
+  };
+  for (const spec::WorldCheck& one : simulation.checks) judge_text(check_json(one.check), one.span);
+  for (const spec::WorldMeasure& one : simulation.measures) judge_text(measure_json(one.measure), one.span);
+  return ok;
 }
 
 }  // namespace tessera::project

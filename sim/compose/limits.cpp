@@ -1,0 +1,55 @@
+#include "sim/compose/limits.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/compose/xml.hpp"
+
+namespace tessera::sim {
+namespace {
+
+struct Limit {
+  std::string_view element, attribute;
+  double most;  ///< for the product of the numbers
+};
+
+constexpr std::array<Limit, 22> limits{{
+    {"composite", "count", 10'000},    {"skin", "subgrid", 50},           {"texture", "width", 16'384},
+    {"texture", "height", 100'000},    {"texture", "gridsize", 10'000},   {"hfield", "nrow", 20'000},
+    {"hfield", "ncol", 20'000},        {"numeric", "size", 1'000'000},    {"user", "dim", 100'000},
+    {"size", "njmax", 100'000},        {"size", "nconmax", 100'000},      {"size", "nstack", 1e9},
+    {"size", "nuserdata", 10'000'000}, {"size", "nkey", 10'000},          {"size", "nuser_body", 10'000},
+    {"size", "nuser_jnt", 10'000},     {"size", "nuser_geom", 10'000},    {"size", "nuser_site", 10'000},
+    {"size", "nuser_cam", 10'000},     {"size", "nuser_tendon", 10'000},  {"size", "nuser_actuator", 10'000},
+    {"size", "nuser_sensor", 10'000},
+}};
+
+bool exceeds(std::string_view text, double most) {
+  double product = 1;
+  for (const double value : numbers_in(text)) {
+    if (!(std::abs(value) <= most)) return true;
+    product *= std::max(1.0, std::abs(value));
+  }
+  return product > most;
+}
+
+}  // namespace
+
+std::optional<Problem> gigantic_count(pugi::xml_node root) {
+  std::optional<Problem> problem;
+  for_each_element(root, [&](pugi::xml_node element) {
+    for (const Limit& limit : limits) {
+      if (problem || limit.element != element.name()) continue;
+      const pugi::xml_attribute attribute = element.attribute(std::string(limit.attribute).c_str());
+      if (attribute && exceeds(attribute.value(), limit.most))
+        problem = Problem{"`" + std::string(limit.attribute) + "` of `" + std::string(limit.element) +
+                          "` is too large: " + std::string(attribute.value()).substr(0, 60)};
+    }
+  });
+  return problem;
+}
+
+}  // namespace tessera::sim

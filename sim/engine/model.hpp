@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+#include "tessera/result.hpp"
+
+namespace tessera::sim {
+
+struct ReleaseModel {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct ReleaseData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using ModelPtr = std::unique_ptr<mjModel, ReleaseModel>;
+using DataPtr = std::unique_ptr<mjData, ReleaseData>;
+
+/// Compiles a model. files: what the engine should find in memory; nullptr: all is on disk.
+///
+/// Errors: the file is missing or no valid MJCF, or its time step is longer than 100 ms. The text
+///         begins with the name of the file.
+/// Threads: any; the engine's parser has global state, so that one call waits for another.
+[[nodiscard]] Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files = nullptr);
+
+}  // namespace tessera::sim

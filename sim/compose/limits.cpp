@@ -17,13 +17,13 @@ struct Limit {
 };
 
 constexpr std::array<Limit, 22> limits{{
-    {"composite", "count", 10'000},    {"skin", "subgrid", 50},           {"texture", "width", 16'384},
-    {"texture", "height", 100'000},    {"texture", "gridsize", 10'000},   {"hfield", "nrow", 20'000},
-    {"hfield", "ncol", 20'000},        {"numeric", "size", 1'000'000},    {"user", "dim", 100'000},
-    {"size", "njmax", 100'000},        {"size", "nconmax", 100'000},      {"size", "nstack", 1e9},
-    {"size", "nuserdata", 10'000'000}, {"size", "nkey", 10'000},          {"size", "nuser_body", 10'000},
-    {"size", "nuser_jnt", 10'000},     {"size", "nuser_geom", 10'000},    {"size", "nuser_site", 10'000},
-    {"size", "nuser_cam", 10'000},     {"size", "nuser_tendon", 10'000},  {"size", "nuser_actuator", 10'000},
+    {"composite", "count", 10'000},    {"skin", "subgrid", 50},          {"texture", "width", 4'096},
+    {"texture", "height", 25'000},     {"texture", "gridsize", 10'000},  {"hfield", "nrow", 5'000},
+    {"hfield", "ncol", 5'000},         {"numeric", "size", 1'000'000},   {"user", "dim", 100'000},
+    {"size", "njmax", 10'000},         {"size", "nconmax", 100'000},     {"size", "nstack", 1e9},
+    {"size", "nuserdata", 10'000'000}, {"size", "nkey", 10'000},         {"size", "nuser_body", 10'000},
+    {"size", "nuser_jnt", 10'000},     {"size", "nuser_geom", 10'000},   {"size", "nuser_site", 10'000},
+    {"size", "nuser_cam", 10'000},     {"size", "nuser_tendon", 10'000}, {"size", "nuser_actuator", 10'000},
     {"size", "nuser_sensor", 10'000},
 }};
 

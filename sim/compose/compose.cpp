@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,6 +20,8 @@ namespace tessera::sim {
 namespace {
 
 constexpr std::size_t most_placements = 10'000;
+/// The engine counts pairs of bodies with 16 bits for each, and does not notice when they do not suffice.
+constexpr int most_bodies = 32'000;
 constexpr std::size_t longest_name = 200;
 /// Beyond that the numbers of the engine, and its pictures, are of no use.
 constexpr double farthest_m = 1e6;
@@ -110,6 +113,14 @@ class Library {
   std::set<std::string> ids_;
 };
 
+std::optional<Problem> too_many_bodies(const ModelFile& world, const std::vector<PlacedModel>& placed) {
+  std::int64_t bodies = world.alone->nbody;
+  for (const PlacedModel& each : placed) bodies += each.alone->nbody;
+  if (bodies <= most_bodies) return std::nullopt;
+  return Problem{"all models together have " + std::to_string(bodies) + " bodies; MuJoCo 2.2.2 can have " +
+                 std::to_string(most_bodies)};
+}
+
 /// The engine has one way to find the inertia of meshes, which decides how they lie in their geoms.
 std::optional<Problem> mixed_mesh_inertia(const std::vector<const ModelFile*>& files) {
   const ModelFile* first = nullptr;
@@ -129,6 +140,39 @@ bool has_exact_mesh_inertia(const std::vector<const ModelFile*>& files) {
   });
 }
 
+/// Which file each placement has, and all files, the world first.
+struct Chosen {
+  std::vector<const Library::Entry*> of_placement;
+  std::vector<const ModelFile*> files;
+};
+
+/// Reads the files of all placements, and their keyframes.
+std::optional<Problem> choose(Library& library, const std::vector<Placement>& placements, Chosen& chosen,
+                              Composition& composition) {
+  for (const Placement& placement : placements) {
+    const Result<const Library::Entry*> entry = library.get(placement.model);
+    if (!entry) return Problem{entry.problem()};
+    const ModelFile& file = *(*entry)->file;
+    chosen.of_placement.push_back(*entry);
+    if (std::ranges::find(chosen.files, &file) == chosen.files.end()) chosen.files.push_back(&file);
+    if (auto problem = add_initial_values(file, placement, composition.initial)) return problem;
+    composition.placed.push_back({placement, file.alone});
+  }
+  return std::nullopt;
+}
+
+std::string composed_text(const Chosen& chosen, const std::vector<Placement>& placements) {
+  Composer composer(has_exact_mesh_inertia(chosen.files));
+  composer.add_world(*chosen.files.front());
+  std::set<const Library::Entry*> added;
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    const Library::Entry& entry = *chosen.of_placement[i];
+    if (added.insert(&entry).second) composer.add_file(*entry.file, entry.id);
+    composer.add_instance(*entry.file, entry.id, placements[i]);
+  }
+  return composer.text();
+}
+
 }  // namespace
 
 Result<Composition> compose(const std::string& world_file, const std::vector<Placement>& placements) {
@@ -141,30 +185,12 @@ Result<Composition> compose(const std::string& world_file, const std::vector<Pla
 
   Library library;
   Composition composition;
-  std::vector<const Library::Entry*> chosen;  // one a placement
-  std::vector<const ModelFile*> files{world->get()};
-  for (const Placement& placement : placements) {
-    const Result<const Library::Entry*> entry = library.get(placement.model);
-    if (!entry) return Problem{entry.problem()};
-    chosen.push_back(*entry);
-    if (std::ranges::find(files, (*entry)->file.get()) == files.end()) files.push_back((*entry)->file.get());
-    if (auto problem = add_initial_values(*(*entry)->file, placement, composition.initial))
-      return *std::move(problem);
-    composition.placed.push_back({placement, (*entry)->file->alone});
-  }
-  if (auto problem = mixed_mesh_inertia(files)) return *std::move(problem);
-
-  Composer composer(has_exact_mesh_inertia(files));
-  composer.add_world(**world);
-  std::set<const Library::Entry*> added;
-  for (std::size_t i = 0; i < placements.size(); ++i) {
-    if (added.insert(chosen[i]).second) {
-      composer.add_file(*chosen[i]->file, chosen[i]->id);
-      add_wishes(*chosen[i]->file, **world, composition.warnings);
-    }
-    composer.add_instance(*chosen[i]->file, chosen[i]->id, placements[i]);
-  }
-  composition.mjcf = composer.text();
+  Chosen chosen{{}, {world->get()}};
+  if (auto problem = choose(library, placements, chosen, composition)) return *std::move(problem);
+  if (auto problem = too_many_bodies(**world, composition.placed)) return *std::move(problem);
+  if (auto problem = mixed_mesh_inertia(chosen.files)) return *std::move(problem);
+  for (const ModelFile* file : chosen.files) add_wishes(*file, **world, composition.warnings);
+  composition.mjcf = composed_text(chosen, placements);
   return composition;
 }
 

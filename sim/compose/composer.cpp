@@ -24,6 +24,10 @@ int id_in(const ModelFile& file, mjtObj type, pugi::xml_node element) {
   return mj_name2id(file.alone.get(), type, element.attribute("name").value());
 }
 
+bool is_endless(const mjModel& model, int geom) {
+  return model.geom_type[geom] == mjGEOM_PLANE || model.geom_type[geom] == mjGEOM_HFIELD;
+}
+
 bool is_sky(pugi::xml_node asset) { return std::string_view(asset.attribute("type").value()) == "skybox"; }
 
 }  // namespace
@@ -90,8 +94,8 @@ void Composer::add_elements(Instance instance) {
   for (const char* section : sections) put_section(instance, section);
 }
 
-/// A child of the file's worldbody. Planes go to the world as well, because the engine compares a plane in
-/// another body with all geoms there are.
+/// A child of the file's worldbody. Planes and height fields go to the world as well: in any other body the
+/// engine compares them with all bodies, and has no room for that many pairs.
 void Composer::put_in_world(Instance& instance, pugi::xml_node element) {
   if (!is_element(element)) return;
   const mjModel& alone = *instance.file.alone;
@@ -100,7 +104,7 @@ void Composer::put_in_world(Instance& instance, pugi::xml_node element) {
   const int geom = kind == "geom" ? id_in(instance.file, mjOBJ_GEOM, element) : -1;
   if (instance.placement != nullptr && body >= 0 && moves_freely(alone, body)) {
     put_free(instance, element, instance.frame.of(alone.body_pos + 3 * body, alone.body_quat + 4 * body));
-  } else if (instance.placement != nullptr && geom >= 0 && alone.geom_type[geom] == mjGEOM_PLANE) {
+  } else if (instance.placement != nullptr && geom >= 0 && is_endless(alone, geom)) {
     put_free(instance, element, instance.frame.of(alone.geom_pos + 3 * geom, alone.geom_quat + 4 * geom));
   } else {
     pugi::xml_node parent = instance.placement == nullptr ? world_ : fixed_body(instance);

@@ -80,7 +80,7 @@ class Includer {
     if (!included_.insert(file.lexically_normal().string()).second || file.lexically_normal() == file_)
       return fail("the file '" + name + "' is included twice, or includes itself");
     const Result<DocumentPtr> document = parsed(file);
-    if (!document) return fail("of an <include>: " + document.problem());
+    if (!document) return fail("an <include> fails: " + document.problem());
     pugi::xml_node parent = include.parent(), first;
     for (const pugi::xml_node element : (*document)->document_element().children()) {
       const pugi::xml_node copy = parent.insert_copy_before(element, include);
@@ -103,6 +103,7 @@ class Includer {
 std::optional<Problem> wrong_root(const std::string& file, std::string_view root) {
   if (root == "mujoco") return std::nullopt;
   if (root == "robot") return Problem{file + ": is a URDF file; it must be converted to MJCF first"};
+  if (root == "mujocoinclude") return Problem{file + ": is a part for an <include>, no model of its own"};
   return Problem{file + ": is no MJCF file: it begins with <" + std::string(root) + ">, not with <mujoco>"};
 }
 

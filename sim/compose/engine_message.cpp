@@ -175,7 +175,8 @@ bool is_newer_attribute(std::string_view element, std::string_view attribute) {
 
 std::string unknown(const std::string& what, const Where& where, bool is_newer) {
   if (is_newer) return "needs a newer MuJoCo: " + what + where.line;
-  return "MuJoCo 2.2.2 does not know " + what + where.line + "; a slip, or it needs a newer MuJoCo";
+  return "MuJoCo 2.2.2 does not know " + what + " at this place" + where.line +
+         "; it is wrong, or needs a newer MuJoCo";
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ Composer::Composer(bool exact_mesh_inertia) {
   set_attribute(root_, "model", "composed");
   pugi::xml_node compiler = root_.append_child("compiler");
   set_attribute(compiler, "angle", "radian");
-  set_attribute(compiler, "autolimits", "false");
+  // All is limited explicitly but the parts of composites, which can have limits in this way only.
+  set_attribute(compiler, "autolimits", "true");
   set_attribute(compiler, "exactmeshinertia", exact_mesh_inertia ? "true" : "false");
   defaults_ = root_.append_child("default");
   assets_ = root_.append_child("asset");

@@ -74,7 +74,6 @@ void write_composite(pugi::xml_node composite, const CompilerSettings& settings)
   const bool turns = type == "rope" || type == "loop" || type == "cloth";
   for (pugi::xml_node part : composite.children()) {
     if (!part.attribute("range")) continue;
-    if (settings.limits_by_range && !part.attribute("limited")) set_attribute(part, "limited", "true");
     const bool slides = std::string_view(part.attribute("kind").value()) == "stretch";
     if (std::string_view(part.name()) != "joint" || !settings.angles_in_degrees || !turns || slides) continue;
     std::vector<double> range = numbers_in(part.attribute("range").value());

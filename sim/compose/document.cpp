@@ -31,7 +31,8 @@ Result<std::string> content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) return Problem{file.string() + ": cannot be read, or is empty"};
+  if (!in) return Problem{file.string() + ": cannot be read"};
+  if (text.view().empty()) return Problem{file.string() + ": is empty"};
   return std::move(text).str();
 }
 

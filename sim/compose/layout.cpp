@@ -93,7 +93,8 @@ std::string no_site(const mjModel& model, const std::string& file, const std::st
   std::vector<std::string> names;
   std::string list;
   for (int id = 0; id < model.nsite && names.size() < 100; ++id) {
-    const std::string name = mj_id2name(&model, mjOBJ_SITE, id);
+    const char* const named = mj_id2name(&model, mjOBJ_SITE, id);
+    const std::string name = named != nullptr ? named : "";
     if (name.empty() || name.front() == '(') continue;
     names.push_back(name);
     list += (list.empty() ? "" : ", ") + name;

@@ -1,7 +1,7 @@
 #include "sim/compose/limits.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,13 +27,15 @@ constexpr std::array<Limit, 22> limits{{
     {"size", "nuser_sensor", 10'000},
 }};
 
-bool exceeds(std::string_view text, double most) {
+/// Empty: the numbers are within the limit. -1 stands for "as many as needed".
+std::string_view trouble(std::string_view text, double most) {
   double product = 1;
   for (const double value : numbers_in(text)) {
-    if (!(std::abs(value) <= most)) return true;
-    product *= std::max(1.0, std::abs(value));
+    if (value < -1) return "is negative";
+    if (!(value <= most)) return "is too large";
+    product *= std::max(1.0, value);
   }
-  return product > most;
+  return product > most ? "is too large" : "";
 }
 
 }  // namespace
@@ -44,9 +46,10 @@ std::optional<Problem> gigantic_count(pugi::xml_node root) {
     for (const Limit& limit : limits) {
       if (problem || limit.element != element.name()) continue;
       const pugi::xml_attribute attribute = element.attribute(std::string(limit.attribute).c_str());
-      if (attribute && exceeds(attribute.value(), limit.most))
-        problem = Problem{"`" + std::string(limit.attribute) + "` of `" + std::string(limit.element) +
-                          "` is too large: " + std::string(attribute.value()).substr(0, 60)};
+      const std::string_view what = trouble(attribute.value(), limit.most);
+      if (what.empty()) continue;
+      problem = Problem{"`" + std::string(limit.attribute) + "` of `" + std::string(limit.element) + "` " +
+                        std::string(what) + ": " + std::string(attribute.value()).substr(0, 60)};
     }
   });
   return problem;

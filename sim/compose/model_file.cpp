@@ -21,7 +21,6 @@ CompilerSettings settings_of(pugi::xml_node root) {
       const std::string_view key = attribute.name(), value = attribute.value();
       const bool is_true = value == "true";
       if (key == "angle") settings.angles_in_degrees = value != "radian";
-      if (key == "autolimits") settings.limits_by_range = is_true;
       if (key == "strippath") settings.strip_path = is_true;
       if (key == "exactmeshinertia") settings.exact_mesh_inertia = is_true;
       if (key == "fusestatic") settings.fuses_static_bodies = is_true;

@@ -14,7 +14,6 @@ namespace tessera::sim {
 /// The settings of <compiler> that change what the numbers of a file mean.
 struct CompilerSettings {
   bool angles_in_degrees = true;
-  bool limits_by_range = false;  ///< `autolimits`
   bool strip_path = false;
   bool exact_mesh_inertia = false;
   bool fuses_static_bodies = false;

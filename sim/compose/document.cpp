@@ -116,7 +116,7 @@ Result<DocumentPtr> read_document(const std::string& file) {
   const pugi::xml_node root = (*document)->document_element();
   if (auto problem = wrong_root(file, root.name())) return *std::move(problem);
   if (auto problem = Includer(fs::path(file).lexically_normal()).resolve(root, 1)) return *std::move(problem);
-  if (auto problem = gigantic_count(root)) return Problem{file + ": " + problem->text};
+  if (auto problem = unusable_number(root)) return Problem{file + ": " + problem->text};
   return document;
 }
 

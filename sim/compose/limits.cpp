@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,18 +39,37 @@ std::string_view trouble(std::string_view text, double most) {
   return product > most ? "is too large" : "";
 }
 
+/// Attributes that may hold any text.
+constexpr auto texts = std::to_array<std::string_view>(
+    {"name", "class", "childclass", "model", "file", "prefix", "data", "objname", "refname"});
+
+/// The engine may compute for ever with a number that is none, or beyond all measure.
+bool is_beyond_measure(pugi::xml_attribute attribute) {
+  if (std::ranges::find(texts, std::string_view(attribute.name())) != texts.end()) return false;
+  return std::ranges::any_of(numbers_in(attribute.value()),
+                             [](double value) { return !(std::abs(value) <= 1e30); });
+}
+
+Problem about(pugi::xml_node element, std::string_view attribute, std::string_view what) {
+  const std::string value = element.attribute(std::string(attribute).c_str()).value();
+  return Problem{"`" + std::string(attribute) + "` of `" + element.name() + "` " + std::string(what) + ": " +
+                 value.substr(0, 60)};
+}
+
 }  // namespace
 
-std::optional<Problem> gigantic_count(pugi::xml_node root) {
+std::optional<Problem> unusable_number(pugi::xml_node root) {
   std::optional<Problem> problem;
   for_each_element(root, [&](pugi::xml_node element) {
+    if (problem) return;
+    for (const pugi::xml_attribute attribute : element.attributes()) {
+      if (is_beyond_measure(attribute)) problem = about(element, attribute.name(), "is no usable number");
+    }
     for (const Limit& limit : limits) {
-      if (problem || limit.element != element.name()) continue;
-      const pugi::xml_attribute attribute = element.attribute(std::string(limit.attribute).c_str());
-      const std::string_view what = trouble(attribute.value(), limit.most);
-      if (what.empty()) continue;
-      problem = Problem{"`" + std::string(limit.attribute) + "` of `" + std::string(limit.element) + "` " +
-                        std::string(what) + ": " + std::string(attribute.value()).substr(0, 60)};
+      if (limit.element != element.name()) continue;
+      const std::string name(limit.attribute);
+      const std::string_view what = trouble(element.attribute(name.c_str()).value(), limit.most);
+      if (!what.empty()) problem = about(element, name, what);
     }
   });
   return problem;

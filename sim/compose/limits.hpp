@@ -7,8 +7,9 @@
 
 namespace tessera::sim {
 
-/// The first count in the document that is negative where it must not be, or so large that the engine would
-/// need more memory or time than a machine has. It allocates what it is told to.
-[[nodiscard]] std::optional<Problem> gigantic_count(pugi::xml_node root);
+/// The first number in the document that the engine cannot stand: a count that is negative, or so large that
+/// it would need more memory or time than a machine has (it allocates what it is told to); not a number, or
+/// beyond 1e30.
+[[nodiscard]] std::optional<Problem> unusable_number(pugi::xml_node root);
 
 }  // namespace tessera::sim

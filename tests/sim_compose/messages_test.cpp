@@ -81,6 +81,9 @@ TEST(Messages, NameTheFileAndTheReason) {
                 "height='1'/></asset></mujoco>",
                 "`width` of `texture` is too large"},
            Case{"<mujoco><size nuserdata='-5'/></mujoco>", "`nuserdata` of `size` is negative"},
+           Case{in_body("<joint damping='nan'/><geom size='1'/>"),
+                "`damping` of `joint` is no usable number: nan"},
+           Case{in_body("<joint damping='1 -inf'/><geom size='1'/>"), "is no usable number"},
            Case{"<mujoco><option timestep='1'/></mujoco>", "time step"},
        })
     EXPECT_THAT(problem_with(c.mjcf), HasSubstr(c.part)) << c.mjcf;

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "sim/compose/frame.hpp"
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

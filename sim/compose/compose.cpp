@@ -13,8 +13,8 @@
 
 #include "sim/compose/composer.hpp"
 #include "sim/compose/keyframe.hpp"
-#include "sim/compose/model_file.hpp"
 #include "sim/compose/wishes.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sim/compose/default_classes.hpp"
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sim/compose/frame.hpp"
-#include "sim/compose/model_file.hpp"
 #include "sim/compose/naming.hpp"
 #include "sim/compose/placement.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 namespace tessera::sim {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "sim/compose/compose.hpp"
-#include "sim/compose/model_file.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 namespace tessera::sim {
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <utility>
 
-#include "sim/compose/model_file.hpp"
 #include "sim/engine/complaint.hpp"
+#include "sim/mjcf/model_file.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::sim {

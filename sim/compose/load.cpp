@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "sim/compose/comparison.hpp"
-#include "sim/compose/compile.hpp"
 #include "sim/compose/compose.hpp"
 #include "sim/compose/keyframe.hpp"
+#include "sim/mjcf/compile.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

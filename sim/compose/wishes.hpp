@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/compose/model_file.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 namespace tessera::sim {
 

@@ -10,7 +10,7 @@
 
 #include "files.hpp"
 #include "sim/compose/comparison.hpp"
-#include "sim/compose/compile.hpp"
+#include "sim/mjcf/compile.hpp"
 
 namespace tessera::testing {
 namespace {

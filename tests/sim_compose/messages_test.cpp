@@ -89,6 +89,14 @@ TEST(Messages, NameTheFileAndTheReason) {
     EXPECT_THAT(problem_with(c.mjcf), HasSubstr(c.part)) << c.mjcf;
 }
 
+TEST(Messages, ASimulationThatTheEngineWouldRepeatForEverIsStopped) {
+  EXPECT_THAT(
+      problem_with("<mujoco><worldbody><body><joint name='j' range='-1 1' limited='true' damping='-1'/>"
+                   "<geom size='0.02' mass='0.001'/></body></worldbody><actuator><muscle joint='j'/>"
+                   "</actuator></mujoco>"),
+      HasSubstr("the engine warns without end: "));
+}
+
 TEST(Messages, DeepNestingIsRefused) {
   std::string deep = "<mujoco><worldbody>";
   for (int i = 0; i < 100'000; ++i) deep += "<body>";

@@ -1,10 +1,10 @@
-#include "sim/compose/compile.hpp"
+#include "sim/mjcf/compile.hpp"
 
 #include <cstring>
 #include <limits>
 #include <memory>
 
-#include "sim/compose/engine_message.hpp"
+#include "sim/mjcf/engine_message.hpp"
 
 namespace tessera::sim {
 

@@ -2,8 +2,8 @@
 #include <array>
 #include <string_view>
 
-#include "sim/compose/preparation.hpp"
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/preparation.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

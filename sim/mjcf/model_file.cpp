@@ -1,4 +1,4 @@
-#include "sim/compose/model_file.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -7,9 +7,10 @@
 #include <system_error>
 #include <utility>
 
-#include "sim/compose/compile.hpp"
-#include "sim/compose/engine_message.hpp"
-#include "sim/compose/preparation.hpp"
+#include "sim/engine/complaint.hpp"
+#include "sim/mjcf/compile.hpp"
+#include "sim/mjcf/engine_message.hpp"
+#include "sim/mjcf/preparation.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -54,6 +55,8 @@ std::string text_of(const pugi::xml_document& document) {
 
 /// The file itself is compiled again for its message, which names the lines of the file.
 Problem why_not(const std::string& path, const std::string& complaint_of_prepared) {
+  if (complaint_of_prepared.starts_with(endless_warnings))
+    return Problem{path + ": " + complaint_of_prepared};
   const Result<ModelPtr> model = load_model(path);
   if (model) return Problem{path + ": " + complaint_of_prepared};
   return Problem{path + ": " + explained(model.problem().substr(path.size() + 2))};

@@ -1,4 +1,4 @@
-#include "sim/compose/limits.hpp"
+#include "sim/mjcf/limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

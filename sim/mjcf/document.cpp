@@ -1,4 +1,4 @@
-#include "sim/compose/document.hpp"
+#include "sim/mjcf/document.hpp"
 
 #include <strings.h>
 
@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "sim/compose/limits.hpp"
+#include "sim/mjcf/limits.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "sim/compose/preparation.hpp"
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/preparation.hpp"
+#include "sim/mjcf/xml.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "sim/compose/document.hpp"
 #include "sim/engine/model.hpp"
+#include "sim/mjcf/document.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera::sim {

@@ -1,4 +1,4 @@
-#include "sim/compose/engine_message.hpp"
+#include "sim/mjcf/engine_message.hpp"
 
 #include <algorithm>
 #include <array>

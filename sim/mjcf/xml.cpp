@@ -1,4 +1,4 @@
-#include "sim/compose/xml.hpp"
+#include "sim/mjcf/xml.hpp"
 
 #include <array>
 #include <charconv>

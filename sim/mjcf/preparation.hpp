@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "sim/compose/model_file.hpp"
+#include "sim/mjcf/model_file.hpp"
 
 /// The steps that make a document independent of its file. Each is done once, in this order.
 namespace tessera::sim {

@@ -10,10 +10,6 @@ namespace {
 
 /// Receives the warnings of the engine that this thread causes.
 thread_local std::string* warnings = nullptr;
-thread_local int warning_count = 0;
-/// The engine finds the length range of an actuator by simulating, begins again whenever that is unstable, and
-/// warns each time.
-constexpr int most_warnings = 1000;
 
 /// MuJoCo requires that this function does not return. Its C code has unwind tables on all Debian
 /// architectures that ship it.
@@ -22,10 +18,9 @@ constexpr int most_warnings = 1000;
 void on_warning(const char* message) {
   if (warnings == nullptr) {
     std::fprintf(stderr, "MuJoCo: %s\n", message);
-    return;
+  } else if (warnings->empty()) {
+    *warnings = message;
   }
-  if (warnings->empty()) *warnings = message;
-  if (++warning_count > most_warnings) throw std::runtime_error(endless_warnings + *warnings);
 }
 
 }  // namespace
@@ -35,10 +30,7 @@ void catch_complaints() {
   mju_user_warning = on_warning;
 }
 
-WarningScope::WarningScope(std::string& text) : outer_(warnings) {
-  warnings = &text;
-  warning_count = 0;
-}
+WarningScope::WarningScope(std::string& text) : outer_(warnings) { warnings = &text; }
 WarningScope::~WarningScope() { warnings = outer_; }
 
 }  // namespace tessera::sim

@@ -10,9 +10,6 @@ namespace tessera::sim {
 /// Directs errors and warnings of the engine to `complaint_of`, for the whole process. May be called often.
 void catch_complaints();
 
-/// Begins the error of a call that warned again and again, which would not have come to an end.
-inline const std::string endless_warnings = "the engine warns without end: ";
-
 /// Collects the first warning that the engine gives in this thread while it exists.
 class WarningScope {
  public:

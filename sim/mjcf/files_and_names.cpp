@@ -46,12 +46,9 @@ void make_files_absolute(pugi::xml_node root, const CompilerSettings& settings, 
       make_absolute(asset, settings, folder);
     }
   }
-  if (!root.child("compiler")) root.prepend_child("compiler");
   for (pugi::xml_node compiler : root.children("compiler")) {
     for (const char* attribute : {"meshdir", "texturedir", "strippath", "fusestatic"})
       compiler.remove_attribute(attribute);
-    // In a thread of its own the engine could not be stopped (complaint.cpp).
-    set_attribute(compiler, "usethread", "false");
   }
 }
 

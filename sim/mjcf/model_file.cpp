@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "sim/engine/complaint.hpp"
 #include "sim/mjcf/compile.hpp"
 #include "sim/mjcf/engine_message.hpp"
 #include "sim/mjcf/preparation.hpp"

@@ -54,8 +54,6 @@ std::string text_of(const pugi::xml_document& document) {
 
 /// The file itself is compiled again for its message, which names the lines of the file.
 Problem why_not(const std::string& path, const std::string& complaint_of_prepared) {
-  if (complaint_of_prepared.starts_with(endless_warnings))
-    return Problem{path + ": " + complaint_of_prepared};
   const Result<ModelPtr> model = load_model(path);
   if (model) return Problem{path + ": " + complaint_of_prepared};
   return Problem{path + ": " + explained(model.problem().substr(path.size() + 2))};

@@ -76,7 +76,7 @@ std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out
   const Node* text = text_of(*claim->value, claim->span, quoted(claim->key), out, check_hint);
   if (text == nullptr) return std::nullopt;
   check.span = text->span;
-  check.check.name = text->text;
+  check.check.name = claim->key + " " + text->text;
   if (const Entry* name = section.find("name")) {
     const Node* words = text_of(*name->value, name->span, "the name", out);
     if (words != nullptr) check.check.name = words->text;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/mjcf/model_file.hpp"
+
+namespace tessera::sim {
+
+/// Adds a warning for each option that a model file sets and the world, whose options hold, has otherwise,
+/// if it changes how the model moves.
+void add_wishes(const ModelFile& file, const ModelFile& world, std::vector<std::string>& warnings);
+
+}  // namespace tessera::sim

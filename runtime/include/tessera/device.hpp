@@ -147,7 +147,7 @@ struct WorldOptions {
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
-  std::string models;  ///< JSON: the placed models (docs/simulation_file.md); empty: none
+  std::string models;  ///< JSON: the placed models (docs/worlds.md); empty: none
 };
 
 /// A simulated world. It makes devices and moves in lock-step with the clock.

@@ -7,6 +7,7 @@
 
 #include "sim/contents.hpp"
 #include "sim/devices/kinds.hpp"
+#include "sim/placed_world.hpp"
 #include "sim/simulation.hpp"
 #include "sim/view_of_world.hpp"
 #include "tessera/device.hpp"
@@ -113,12 +114,6 @@ std::optional<Problem> put_robot_at_start(Physics& physics, const WorldOptions& 
     return Problem{"the start pose must be finite numbers"};
   physics.place_robot(*pose);
   return std::nullopt;
-}
-
-/// The physics of the world file, with the placed models in it. The seam for sim/compose.
-Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
-  if (!options.models.empty()) return Problem{"this version cannot place models in a world yet"};
-  return Physics::load(options.world);
 }
 
 Result<std::unique_ptr<World>> open(const WorldOptions& options) {

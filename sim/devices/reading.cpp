@@ -4,14 +4,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/engine/seeds.hpp"
+
 namespace tessera::sim {
 namespace {
-
-/// FNV-1a: the same on every machine, unlike std::hash.
-std::uint64_t hash_of(std::string_view text, std::uint64_t hash) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
 
 class Reading final : public RealReceptor {
  public:
@@ -81,8 +77,7 @@ Frame frame_of(const Physics& physics, const DriverRequest& request, const std::
   throw DeviceError(unknown_name("body or site", name, names));
 }
 
-Noise::Noise(std::uint64_t seed, const std::string& path)
-    : random_(hash_of(path, seed * 0x9e3779b97f4a7c15ULL + 14695981039346656037ULL)) {}
+Noise::Noise(std::uint64_t seed, const std::string& path) : random_(seed_of(path, seed)) {}
 
 std::unique_ptr<RealReceptor> reading(std::shared_ptr<Simulation> simulation, Buffer buffer, Look look,
                                       Distort distort) {

@@ -83,6 +83,12 @@ Physics::Physics(ModelPtr model, DataPtr data, DataPtr view)
   model_->opt.enableflags &= ~static_cast<int>(mjENBL_SENSORNOISE);
 }
 
+void Physics::start_with(const std::function<void(const mjModel& model, mjData& data)>& set) {
+  set(*model_, *data_);
+  std::copy_n(data_->ctrl, model_->nu, commands_.begin());
+  known_ = View::old;
+}
+
 void Physics::step() {
   if (!failure_.empty()) return;
   apply_commands();

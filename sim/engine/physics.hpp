@@ -35,6 +35,8 @@ class Physics {
   /// name: of the file, for messages.
   [[nodiscard]] static Result<std::unique_ptr<Physics>> of(ModelPtr model, const std::string& name);
 
+  /// Sets the state before the first step.
+  void start_with(const std::function<void(const mjModel& model, mjData& data)>& set);
   /// One time step. Does nothing after a failure.
   void step();
   [[nodiscard]] Duration time() const { return steps_ * step_; }

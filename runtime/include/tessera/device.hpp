@@ -149,7 +149,7 @@ struct WorldOptions {
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
   std::string checks;  ///< JSON: what the run is judged by (docs/worlds.md); empty: nothing
-  std::string models;  ///< JSON: the placed models (docs/simulation_file.md); empty: none
+  std::string models;  ///< JSON: the placed models (docs/worlds.md); empty: none
 };
 
 /// A check of the run that has failed.

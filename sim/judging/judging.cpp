@@ -69,7 +69,8 @@ Result<std::unique_ptr<Judging>> Judging::read(const std::string& text, const Ph
     if (!check) return Problem{check.problem()};
     all_checks.push_back(std::move(*check));
   }
-  for (const auto& [name, one] : written.value("measures", json::object()).items()) {
+  const json measures = written.value("measures", json::object());
+  for (const auto& [name, one] : measures.items()) {
     Result<checks::Measure> measure = measure_of(name, one);
     if (!measure) return Problem{measure.problem()};
     all_measures.push_back(std::move(*measure));

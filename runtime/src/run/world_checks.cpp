@@ -59,7 +59,8 @@ std::string text_of_judgement(const std::string& text) {
     if (check.contains("detail")) fmt::format_to(out, "; {}", check["detail"].get<std::string>());
     lines += '\n';
   }
-  for (const auto& [name, measure] : json.value("measures", nlohmann::json::object()).items()) {
+  const nlohmann::json measures = json.value("measures", nlohmann::json::object());
+  for (const auto& [name, measure] : measures.items()) {
     if (!measure.is_object()) continue;
     fmt::format_to(out, "  {}: {:.6g} (at {:.3f} s) to {:.6g} (at {:.3f} s), mean {:.6g}\n", name,
                    measure["least"].get<double>(), measure["least_at_s"].get<double>(),

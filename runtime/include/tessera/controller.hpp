@@ -86,7 +86,7 @@ struct RunSummary {
     unsafe,    ///< a device has not taken its safe command
     world      ///< of the simulated world
   } failure = Failure::none;
-  int signal = 0;       ///< the signal that ended the run; 0: none
+  int signal = 0;  ///< the signal that ended the run; 0: none
   /// If a world was slower than real time: how far the world came while `simulated` passed.
   std::optional<Duration> world_time;
   struct PerSubsystem {

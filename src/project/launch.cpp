@@ -148,6 +148,8 @@ std::string hint_for(const std::string& buffer, const spec::Model& model, bool s
       "example\n"
       "      {}: {{ cpp: SimulatedMotor }}\n",
       buffer);
+  if (model.simulation && !model.simulation->world.empty())
+    hint += fmt::format("      `tessera world {}` lists what the world has.\n", model.simulation->world);
   if (const auto without = model.without_driver(model.drivers);
       std::ranges::find(without, buffer) == without.end())
     hint += fmt::format("      A simulation never opens real drivers, unless --hardware {} asks for it.\n",

@@ -50,9 +50,44 @@ int count_of(const mjModel& model, mjtObj type) {
   }
 }
 
-std::string name_of(const mjModel& model, mjtObj type, int id) {
+namespace {
+
+std::string given_name(const mjModel& model, mjtObj type, int id) {
   const char* name = mj_id2name(&model, type, id);
   return name == nullptr ? "" : name;
+}
+
+bool moves_joint(const mjModel& model, int actuator, int joint) {
+  const int how = model.actuator_trntype[actuator];
+  return (how == mjTRN_JOINT || how == mjTRN_JOINTINPARENT) && model.actuator_trnid[2 * actuator] == joint;
+}
+
+/// Empty if another actuator could be meant as well.
+std::string name_by_joint(const mjModel& model, int actuator) {
+  const int joint = model.actuator_trnid[2 * actuator];
+  if (!moves_joint(model, actuator, joint)) return {};
+  std::string name = given_name(model, mjOBJ_JOINT, joint);
+  for (int other = 0; other < model.nu; ++other) {
+    const bool same = moves_joint(model, other, joint) || given_name(model, mjOBJ_ACTUATOR, other) == name;
+    if (other != actuator && same) return {};
+  }
+  return name;
+}
+
+/// By its whole name.
+std::optional<int> find_exactly(const mjModel& model, mjtObj type, const std::string& name) {
+  if (const int id = mj_name2id(&model, type, name.c_str()); id >= 0) return id;
+  if (type != mjOBJ_ACTUATOR || name.empty()) return std::nullopt;
+  for (int id = 0; id < model.nu; ++id)
+    if (name_of(model, type, id) == name) return id;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string name_of(const mjModel& model, mjtObj type, int id) {
+  std::string name = given_name(model, type, id);
+  return name.empty() && type == mjOBJ_ACTUATOR ? name_by_joint(model, id) : name;
 }
 
 std::vector<std::string> names_of(const mjModel& model, mjtObj type) {
@@ -64,13 +99,9 @@ std::vector<std::string> names_of(const mjModel& model, mjtObj type) {
 
 std::optional<int> find_element(const mjModel& model, mjtObj type, std::string_view agent,
                                 const std::string& name) {
-  const auto found = [&](const std::string& full) -> std::optional<int> {
-    const int id = mj_name2id(&model, type, full.c_str());
-    return id < 0 ? std::nullopt : std::optional(id);
-  };
-  if (name.starts_with('/')) return found(name.substr(1));
-  if (const auto own = found(std::string(agent) + "/" + name)) return own;
-  return found(name);
+  if (name.starts_with('/')) return find_exactly(model, type, name.substr(1));
+  if (const auto own = find_exactly(model, type, std::string(agent) + "/" + name)) return own;
+  return find_exactly(model, type, name);
 }
 
 std::vector<std::string> names_for(const mjModel& model, mjtObj type, std::string_view agent) {

@@ -13,7 +13,7 @@ namespace tessera::sim {
 /// "sensor", "site", ...
 [[nodiscard]] const char* word_for(mjtObj type);
 [[nodiscard]] int count_of(const mjModel& model, mjtObj type);
-/// Empty: it has no name.
+/// Empty: it has no name. An actuator without a name has that of the joint that it moves alone.
 [[nodiscard]] std::string name_of(const mjModel& model, mjtObj type, int id);
 /// Of all elements that have one, in the order of the model.
 [[nodiscard]] std::vector<std::string> names_of(const mjModel& model, mjtObj type);

@@ -137,7 +137,8 @@ std::vector<std::string> missing_drivers(const spec::Model& model, const LaunchO
   return missing;
 }
 
-std::string hint_for(const std::string& buffer, const spec::Model& model, bool simulated) {
+std::string hint_for(const std::string& buffer, const spec::Model& model, const LaunchOptions& options,
+                     bool simulated) {
   if (!simulated)
     return fmt::format(
         "hint: name a class of src/drivers.hpp under `drivers:` of the specification, for example\n"
@@ -148,6 +149,8 @@ std::string hint_for(const std::string& buffer, const spec::Model& model, bool s
       "example\n"
       "      {}: {{ cpp: SimulatedMotor }}\n",
       buffer);
+  if (model.simulation && !model.simulation->world.empty())
+    hint += fmt::format("      `tessera world {}` lists what the world has.\n", options.spec);
   if (const auto without = model.without_driver(model.drivers);
       std::ranges::find(without, buffer) == without.end())
     hint += fmt::format("      A simulation never opens real drivers, unless --hardware {} asks for it.\n",
@@ -189,7 +192,7 @@ bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated, 
   for (const std::string& buffer : missing)
     listener.complain(
         fmt::format("the real buffer {} has no {}driver", buffer, simulated ? "simulated " : ""));
-  if (!missing.empty()) listener.say(hint_for(missing.front(), specification->model, simulated));
+  if (!missing.empty()) listener.say(hint_for(missing.front(), specification->model, options, simulated));
   return missing.empty();
 }
 

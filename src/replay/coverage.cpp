@@ -16,7 +16,7 @@ using net::TransitionId;
 // ---------------------------------------------------------------------------------------------- the counts
 
 FiringCounts::FiringCounts(const Net& net)
-    : net_(net), firings_(net.transitions().size()), marked_(net.places().size()) {
+    : firings_(net.transitions().size()), marked_(net.places().size()) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
     transitions_.emplace(net.transitions()[index].name, index);
   for (std::uint32_t index = 0; index < net.places().size(); ++index)

@@ -30,7 +30,6 @@ class FiringCounts {
   [[nodiscard]] bool lacks_events() const { return lacks_events_; }
 
  private:
-  const net::Net& net_;
   std::map<std::string, std::uint32_t> transitions_, places_;  // by name
   std::vector<std::uint64_t> firings_;                         // per transition
   std::vector<bool> marked_;                                   // per place

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -56,6 +57,11 @@ double amount_in(const json& value) {
   return value.get<double>();
 }
 
+/// Null: not known, as of a process that died.
+double instant_in(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : amount_in(value);
+}
+
 Seeds seeds_in(const json& value) {
   demand(value.is_array() && value.size() == 2, "seeds are no pair of numbers");
   const Seeds seeds{count_in(value[0]), count_in(value[1])};
@@ -75,7 +81,7 @@ Outcome outcome_in(const json& value, const Results& results) {
          "something happened in more runs than there were");
   if (outcome.runs == 0) return outcome;
   outcome.first_seed = count_in(value.at("first_seed"));
-  outcome.at_s = amount_in(value.at("at_s"));
+  outcome.at_s = instant_in(value.at("at_s"));
   outcome.text = value.at("text");
   return outcome;
 }
@@ -97,7 +103,7 @@ void read_counts(const json& from, Results& results) {
   for (const json& kind : from.at("kinds")) results.kinds.push_back(outcome_in(kind, results));
   for (const json& outcome : from.at("outcomes")) results.outcomes.push_back(outcome_in(outcome, results));
   if (const json& failure = from.at("failure"); !failure.is_null())
-    results.failure = {count_in(failure.at("seed")), amount_in(failure.at("at_s")), failure.at("ended")};
+    results.failure = {count_in(failure.at("seed")), instant_in(failure.at("at_s")), failure.at("ended")};
   for (const json& seed : from.at("not_repeated")) results.not_repeated.push_back(count_in(seed));
   demand(results.failure.has_value() == (results.failed > 0), "the first failure is not told");
   if (from.contains("transitions"))

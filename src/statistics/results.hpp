@@ -20,7 +20,7 @@ struct Outcome {
   std::uint64_t runs = 0;        ///< in which it happened, at least once
   std::uint64_t failed = 0;      ///< of these; in the others, the controller went on all the same
   std::uint64_t first_seed = 0;  ///< of the runs; the next two are of this run, too
-  double at_s = 0;
+  double at_s = 0;               ///< NaN: not known, null in JSON
   std::string text;
 };
 
@@ -45,7 +45,7 @@ struct Results {
   std::vector<Outcome> outcomes;  ///< by kind and name: those that happened, and checks that never failed
   struct Failure {
     std::uint64_t seed = 0;
-    double at_s = 0;
+    double at_s = 0;  ///< NaN: not known
     std::string ended;
   };
   std::optional<Failure> failure;  ///< the run of the lowest seed that failed

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -34,18 +35,23 @@ std::string row(const Outcome& outcome, const std::string& label, const Results&
   return text + "\n";
 }
 
+std::string first_of(const Outcome& outcome) {
+  const std::string time = std::isnan(outcome.at_s) ? "" : fmt::format("{:.6f} s: ", outcome.at_s);
+  return fmt::format("    {}{}\n", time, cut(outcome.text));
+}
+
 std::string rows_of(const Outcome& kind, const Results& results) {
   std::vector<const Outcome*> named;
   for (const Outcome& outcome : results.outcomes)
     if (outcome.kind == kind.kind && outcome.runs > 0) named.push_back(&outcome);
   std::string text = row(kind, kind.kind, results);
   const bool has_names = std::ranges::any_of(named, [](const Outcome* one) { return !one->name.empty(); });
-  if (!has_names) return text + fmt::format("    {:.6f} s: {}\n", kind.at_s, cut(kind.text));
+  if (!has_names) return text + first_of(kind);
   std::ranges::stable_sort(named, std::greater{}, &Outcome::runs);
   for (std::size_t index = 0; index < std::min(named.size(), most_rows_of_a_kind); ++index) {
     const Outcome& one = *named[index];
     text += row(one, "  " + one.name, results);
-    text += fmt::format("    {:.6f} s: {}\n", one.at_s, cut(one.text));
+    text += first_of(one);
   }
   if (named.size() > most_rows_of_a_kind)
     text += fmt::format("  ... and {} more\n", named.size() - most_rows_of_a_kind);

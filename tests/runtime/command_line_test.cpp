@@ -1,5 +1,4 @@
 #include "run/command_line.hpp"
-#include "run/driver_requests.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nets.hpp"
+#include "run/driver_requests.hpp"
 #include "test_system.hpp"
 
 using namespace std::chrono_literals;
@@ -139,6 +139,44 @@ TEST(CommandLine, LimitsOfRecordingsHaveUnits) {
   EXPECT_EQ(limit("4000"), std::pair(std::uint64_t{1000}, 4U));
   for (const char* wrong : {"", "MB", "5 apples", "-5MB", "5MBx1", "5MBx2.5", "5MBx", "0", "1"})
     EXPECT_FALSE(parse_record_limit(wrong)) << wrong;
+}
+
+TEST(SimulationFile, GivesTargetsOptionsAndModels) {
+  const std::string file = scratch_file("simulation.json");
+  std::ofstream(file) << R"({ "drivers": [
+    { "path": "robot[0].laser.ranges", "kind": "scan", "targets": ["laser"],
+      "options": { "reach": { "number": 4, "unit": "m" }, "groups": [1, 2], "noise": 0.5 } },
+    { "path": "robot[0].base.speed", "kind": "actuator", "targets": ["a", "b"],
+      "options": { "outside": "clamp" } } ],
+    "models": [ { "instance": "robot[0]" } ] })";
+  std::vector<DriverRequest> drivers;
+  std::string models, error;
+  ASSERT_TRUE(read_simulation_file(file, drivers, models, error)) << error;
+  ASSERT_EQ(drivers.size(), 2U);
+  EXPECT_EQ(drivers[1].targets, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(std::get<std::string>(drivers[1].options.at("outside").values.at(0).value), "clamp");
+  const WorldOption& groups = drivers[0].options.at("groups");
+  EXPECT_TRUE(groups.is_list);
+  EXPECT_EQ(std::get<double>(groups.values.at(1).value), 2);
+  EXPECT_EQ(drivers[0].options.at("reach").values.at(0).unit, "m");
+  EXPECT_EQ(models, R"([{"instance":"robot[0]"}])");
+}
+
+TEST(SimulationFile, OfAnotherFormIsRefused) {
+  const std::string file = scratch_file("simulation.json");
+  for (const char* text :
+       {"", "{", "[]", "{}", R"({"drivers": [{}]})", R"({"drivers": [{"path": 1}]})",
+        R"({"drivers": [{"path": "a", "kind": "b", "targets": "c"}]})",
+        R"({"drivers": [{"path": "a", "kind": "b", "targets": [], "options": {"x": null}}]})"}) {
+    std::ofstream(file) << text;
+    std::vector<DriverRequest> drivers;
+    std::string models, error;
+    EXPECT_FALSE(read_simulation_file(file, drivers, models, error)) << text;
+    EXPECT_NE(error.find("is no simulation file"), std::string::npos) << error;
+  }
+  std::vector<DriverRequest> drivers;
+  std::string models, error;
+  EXPECT_FALSE(read_simulation_file("/nowhere.json", drivers, models, error));
 }
 
 }  // namespace

@@ -362,5 +362,9 @@ TEST(WholeDriver, IsWrittenOnceAnIterationWithAllItsBuffers) {
   EXPECT_EQ(sink.commands, (std::vector<std::pair<double, int>>{{1, 10}, {2, 20}}));
 }
 
+TEST(DriverSetup, SaysThatThereIsNoWorld) {
+  EXPECT_THROW(static_cast<void>(DriverSetup("robot.motor.left").world()), DriverError);
+}
+
 }  // namespace
 }  // namespace tessera::testing

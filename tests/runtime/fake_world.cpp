@@ -84,7 +84,7 @@ class FakeWorld final : public tessera::World {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 extern "C" std::unique_ptr<tessera::World> tessera_open_world_2(const tessera::WorldOptions& options,
-                                                              std::string& error) {
+                                                                std::string& error) {
   if (options.world == "missing.xml") {
     error = "no such world: missing.xml";
     return nullptr;

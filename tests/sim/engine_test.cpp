@@ -73,5 +73,29 @@ TEST(Engine, ListsWhatAWorldOffers) {
   EXPECT_EQ(json["equalities"][0]["name"], "grip");
 }
 
+TEST(Engine, SaysWhichWordNeedsANewerVersion) {
+  const auto complaint = [](const std::string& inside) {
+    return sim::Physics::load(file_with("newer.xml", "<mujoco>" + inside + "</mujoco>")).problem();
+  };
+  EXPECT_THAT(
+      complaint("<option integrator='implicitfast'/>"),
+      ::testing::EndsWith("invalid keyword: 'implicitfast', Element 'option', line 1; 'implicitfast' needs a "
+                          "newer MuJoCo than this one, which is 2.2.2"));
+  EXPECT_THAT(complaint("<worldbody><frame/></worldbody>"),
+              ::testing::HasSubstr("'frame' needs a newer MuJoCo"));
+  EXPECT_THAT(complaint("<worldbody><blob/></worldbody>"),
+              ::testing::Not(::testing::HasSubstr("newer MuJoCo")));
+}
+
+TEST(Engine, AnActuatorWithoutANameHasThatOfItsJoint) {
+  const auto world = open_text("unnamed", R"(<mujoco><worldbody>
+    <body><joint name="a"/><geom size="0.1"/><body><joint name="b"/><geom size="0.1"/></body></body>
+    </worldbody><actuator><motor joint="a"/><motor joint="b"/><motor joint="b"/></actuator></mujoco>)");
+  EXPECT_NO_THROW(static_cast<void>(effector<double>(*world, {"r.m.a", "actuator", {"a"}, {}})));
+  EXPECT_THROW(static_cast<void>(effector<double>(*world, {"r.m.b", "actuator", {"b"}, {}})),
+               std::runtime_error)
+      << "there are two";
+}
+
 }  // namespace
 }  // namespace tessera::testing

@@ -88,5 +88,17 @@ TEST(Limits, AreClampedUnlessAFaultIsAskedFor) {
   EXPECT_FALSE(limit.fault);
 }
 
+TEST(Layout, IsWrittenAsInRecordings) {
+  const Reading reading(
+      "tessera: 1\nsystem: demo\n"
+      "types: { Flat: { x: float64, ok: bool }, Row: { all: \"Flat[3]\", name: string<=8 } }\n"
+      "agents: { a: { control: { rate: 1 Hz, memory: { m: Row, n: \"uint8[6]\" }, behaviours: { run: {} } } "
+      "} }\n");
+  ASSERT_TRUE(reading.model) << reading.report();
+  const auto& memory = reading.model->subsystem(0).memory;
+  EXPECT_EQ(reading.model->layout_of(memory[0].type), "{all: {x: float64, ok: bool}[3], name: string(8)}");
+  EXPECT_EQ(reading.model->layout_of(memory[1].type), "uint8[6]");
+}
+
 }  // namespace
 }  // namespace tessera::spec

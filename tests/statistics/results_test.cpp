@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "example_results.hpp"
@@ -21,6 +22,18 @@ TEST(Results, ComeBackFromTheirJson) {
   EXPECT_EQ(written.at("reproduce"), "tessera simulate rover --interleave --for 1s --seed 110");
   EXPECT_EQ(written.at("outcomes").at(1).at("first_seed"), 110);
   EXPECT_NEAR(written.at("interval").at(0).get<double>(), 0.04900469, 1e-7);
+}
+
+TEST(Results, OfADeathHaveNoTime) {
+  Results results = example_results(1, 101);
+  results.kinds[0].at_s = results.outcomes[1].at_s = results.failure->at_s =
+      std::numeric_limits<double>::quiet_NaN();
+  const std::string text = to_json(results);
+  EXPECT_TRUE(json::parse(text).at("failure").at("at_s").is_null());
+  const Result<Results> back = parse_results(text);
+  ASSERT_TRUE(back) << back.problem();
+  EXPECT_EQ(to_json(*back), text);
+  EXPECT_NE(to_table(*back).find("\n    blind\n"), std::string::npos) << to_table(*back);
 }
 
 TEST(Results, OfOtherFilesAndNonsenseAreRefused) {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tessera/recording.hpp"
@@ -14,6 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr auto invalid_text_replaced = ordered_json::error_handler_t::replace;
+
+constexpr double unknown_time = std::numeric_limits<double>::quiet_NaN();  // null in JSON
 
 void count_event(ScheduleOutcome& outcome, const ScheduleResult& result, const ScheduleEvent& event) {
   ++outcome.runs;
@@ -85,8 +89,9 @@ void ScheduleReport::add(const ScheduleResult& result) {
   for (const auto& [kind, event] : first) count_event(kinds[std::string(kind)], result, *event);
   if (!result.failed) return;
   ++failed;
+  const bool is_known_when = result.events.empty() || !std::isnan(result.events.front().at_s);
   if (!first_failure || result.seed < first_failure->seed)
-    first_failure = {result.seed, seconds(result.simulated), result.ended};
+    first_failure = {result.seed, is_known_when ? seconds(result.simulated) : unknown_time, result.ended};
 }
 
 std::string schedules_text(const ScheduleReport& report) {
@@ -97,9 +102,10 @@ std::string schedules_text(const ScheduleReport& report) {
                   seconds(report.simulated), report.wall_s, report.firings,
                   report.interrupted == 0 ? "" : "; interrupted");
   for (const auto& [key, outcome] : report.outcomes)
-    text += fmt::format("  {}{}{}: in {} of {} runs; first seed {} at {:.6f} s: {}\n", key.first,
-                        key.second.empty() ? "" : " ", key.second, outcome.runs, report.tried,
-                        outcome.first_seed, outcome.at_s, outcome.text);
+    text +=
+        fmt::format("  {}{}{}: in {} of {} runs; first seed {}{}: {}\n", key.first,
+                    key.second.empty() ? "" : " ", key.second, outcome.runs, report.tried, outcome.first_seed,
+                    std::isnan(outcome.at_s) ? "" : fmt::format(" at {:.6f} s", outcome.at_s), outcome.text);
   return text;
 }
 

@@ -22,7 +22,7 @@ struct SeedRange {
 struct ScheduleEvent {
   std::string kind;  ///< "assertion", "deadlock", ...: one of schedule_event_kinds
   std::string name;  ///< the subsystem, or the check of the system; empty: of no one
-  double at_s = 0;   ///< of the first in the run
+  double at_s = 0;   ///< of the first in the run; NaN: not known
   std::string text;
 };
 
@@ -85,7 +85,7 @@ struct ScheduleReport {
 /// {"system", "net_hash", "asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
 /// "firings", "interrupted", "kinds": [outcome...], "outcomes": [outcome...], "failure": null or {"seed",
 /// "at_s", "ended"}, "not_repeated": [seed...]}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
-/// "at_s", "text"}. If firings were counted, also "transitions": {name: firings}.
+/// "at_s", "text"}; an unknown "at_s" is null. If firings were counted, also "transitions": {name: firings}.
 [[nodiscard]] std::string schedules_json(const ScheduleReport& report);
 
 /// One line of JSON, without its end; and back (nullopt: it is none).

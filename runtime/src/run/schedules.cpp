@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <exception>
 #include <list>
@@ -176,7 +177,7 @@ class Schedules {
                           .firings = 0,
                           .ended = what,
                           .events = {}};
-    result.events.push_back({.kind = kind, .name = "", .at_s = 0, .text = std::move(what)});
+    result.events.push_back({.kind = kind, .name = "", .at_s = NAN, .text = std::move(what)});
     report_.add(result);
   }
 

@@ -32,11 +32,11 @@ TEST(Pages, NameTheInstanceThatExecutesThem) {
   const auto instance = [&](const char* path) {
     return built.pages.pages[built.pages.find(path).value].subsystem;
   };
-  EXPECT_EQ(instance(""), net::no_subsystem);
-  EXPECT_EQ(instance("robot[1]"), net::no_subsystem);
-  EXPECT_EQ(instance("robot[0].motor"), 2U);
-  EXPECT_EQ(instance("robot[1].control"), 3U);
-  EXPECT_EQ(instance("robot[1].sensor.watch.snd"), 4U);
+  EXPECT_EQ(instance(""), net::SubsystemId{});
+  EXPECT_EQ(instance("robot[1]"), net::SubsystemId{});
+  EXPECT_EQ(instance("robot[0].motor"), net::SubsystemId{2});
+  EXPECT_EQ(instance("robot[1].control"), net::SubsystemId{3});
+  EXPECT_EQ(instance("robot[1].sensor.watch.snd"), net::SubsystemId{4});
 }
 
 TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {

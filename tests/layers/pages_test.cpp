@@ -43,7 +43,7 @@ TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {
   const Built built = build(line_follower());
   const net::Page& follow = built.pages.pages[built.pages.find("robot.control.follow").value];
   EXPECT_EQ(follow.nodes[follow.input].operation,
-            (net::Operation{net::Operation::Kind::transition_function, 1}));
+            (net::Operation{net::Operation::Kind::transition_function, {1}}));
   EXPECT_EQ(follow.nodes[2].operation.kind, net::Operation::Kind::next_iteration);
 }
 

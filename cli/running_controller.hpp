@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "project/process/control_connection.hpp"
+
 namespace tessera::cli {
 
 /// The connection to the control socket of a running controller (tessera/monitor.hpp).
@@ -15,30 +17,22 @@ namespace tessera::cli {
 /// Threads: one.
 class RunningController {
  public:
-  /// nullopt: no process listens there.
+  /// nullopt: no process listens there, or it takes no connection within a second.
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
-  RunningController(RunningController&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)),
-        name_(std::move(other.name_)),
-        pending_(std::move(other.pending_)) {}
-  RunningController(const RunningController&) = delete;
-  RunningController& operator=(const RunningController&) = delete;
-  RunningController& operator=(RunningController&&) = delete;
-  ~RunningController();
-
   /// SYSTEM.PROCESS
   [[nodiscard]] const std::string& name() const { return name_; }
 
   /// The next line from the controller. nullopt: it has ended or was silent for too long (`be_patient_for`).
   [[nodiscard]] std::optional<std::string> line();
   /// Limits all later waits to this time, because the process may be stopped or hang.
-  void be_patient_for(std::chrono::milliseconds time);
+  void be_patient_for(std::chrono::milliseconds time) { connection_.limit_waits(time); }
   /// false: the controller has ended, or takes nothing.
-  [[nodiscard]] bool send(std::string_view text) const;
+  [[nodiscard]] bool send(std::string_view text) const { return connection_.send(text); }
 
  private:
-  RunningController(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
-  int descriptor_;
+  RunningController(project::ControlConnection connection, std::string name)
+      : connection_(std::move(connection)), name_(std::move(name)) {}
+  project::ControlConnection connection_;
   std::string name_, pending_;
 };
 

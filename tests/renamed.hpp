@@ -12,8 +12,8 @@ inline const std::string strange = "Q_";  ///< stands before each word of the la
 /// communication pages and states of channels. Names of the author stay: agents, subsystems, behaviours,
 /// blocks and channels.
 inline net::HierarchicalNet renamed(net::HierarchicalNet net) {
-  const auto block_of = [&](std::uint32_t block) {
-    return block == net::no_index ? std::string() : net.parts.blocks[block].name + ".";
+  const auto block_of = [&](net::BlockId block) {
+    return block.valid() ? net.parts[block].name + "." : std::string();
   };
   const auto rename = [&](std::string& name, const std::string& kept) {
     if (name.starts_with(kept)) name.insert(kept.size(), strange);
@@ -28,7 +28,7 @@ inline net::HierarchicalNet renamed(net::HierarchicalNet net) {
     for (net::PageTransition& transition : page.transitions)
       rename(transition.name, block_of(transition.block));
   }
-  for (net::FusionSet& set : net.fusions) rename(set.name, net.parts.channels[set.channel] + ".");
+  for (net::FusionSet& set : net.fusions) rename(set.name, net.parts[set.channel] + ".");
   return net;
 }
 

@@ -19,11 +19,11 @@ using net::TransitionId;
 struct Parts {
   explicit Parts(const net::Net& net, std::size_t instances) : places(instances), transitions(instances) {
     for (std::uint32_t id = 0; id < net.places().size(); ++id)
-      if (const std::uint32_t owner = net.places()[id].subsystem; owner != net::no_subsystem)
-        places[owner].push_back({id});
+      if (const net::SubsystemId owner = net.places()[id].subsystem; owner.valid())
+        places[owner.value].push_back({id});
     for (std::uint32_t id = 0; id < net.transitions().size(); ++id)
-      if (const std::uint32_t owner = net.transitions()[id].subsystem; owner != net::no_subsystem)
-        transitions[owner].push_back({id});
+      if (const net::SubsystemId owner = net.transitions()[id].subsystem; owner.valid())
+        transitions[owner.value].push_back({id});
   }
   std::vector<std::vector<PlaceId>> places;
   std::vector<std::vector<TransitionId>> transitions;
@@ -54,9 +54,9 @@ class Extraction {
   /// A block touches the fused places of its channel. An input and an output of one name get told apart.
   void find_ports() {
     for (const TransitionId id : transitions_) {
-      if (net_[id].block == net::no_index) continue;
-      const net::Parts::Block& block = net_.parts().blocks[net_[id].block];
-      const spec::Channel& channel = model_.channels[block.channel];
+      if (!net_[id].block.valid()) continue;
+      const net::Parts::Block& block = net_.parts()[net_[id].block];
+      const spec::Channel& channel = model_.channels[block.channel.value];
       const std::string& buffer = block.sends ? subsystem_.outputs[channel.from.buffer].name
                                               : subsystem_.inputs[channel.to.buffer].name;
       const LocalNet::Port port{block.name, buffer, block.sends, block.channel};
@@ -66,12 +66,6 @@ class Extraction {
       if (is_input(port.buffer) && is_output(port.buffer)) port.name.insert(0, port.sends ? "snd." : "rcv.");
   }
 
-  [[nodiscard]] spec::Index channel_of(TransitionId id) const {
-    for (const auto& arcs : {net_.preset(id), net_.postset(id)})
-      for (const net::Arc& arc : arcs)
-        if (net_[arc.place].fused()) return net_[arc.place].channel;
-    return spec::none;
-  }
   [[nodiscard]] bool is_input(const std::string& name) const {
     return std::ranges::find(subsystem_.inputs, name, &spec::Field::name) != subsystem_.inputs.end();
   }
@@ -79,7 +73,7 @@ class Extraction {
     return std::ranges::find(subsystem_.outputs, name, &spec::Field::name) != subsystem_.outputs.end();
   }
 
-  [[nodiscard]] const std::string& port(spec::Index channel, bool sends) const {
+  [[nodiscard]] const std::string& port(net::ChannelId channel, bool sends) const {
     return std::ranges::find_if(local_.ports,
                                 [&](const LocalNet::Port& candidate) {
                                   return candidate.channel == channel && candidate.sends == sends;
@@ -93,7 +87,8 @@ class Extraction {
       case net::Operation::Kind::none:
         return {};
       case net::Operation::Kind::transition_function:
-        return fmt::format("tessera::calls({})", quoted(subsystem_.behaviours[place.operation.subject].name));
+        return fmt::format("tessera::calls({})",
+                           quoted(subsystem_.behaviours[place.operation.behaviour.value].name));
       case net::Operation::Kind::next_iteration:
         return "tessera::counts()";
       case net::Operation::Kind::write:
@@ -107,13 +102,13 @@ class Extraction {
   [[nodiscard]] std::string transfer(std::string_view what, const net::Operation& operation,
                                      bool sends) const {
     const std::string slot = operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
-    return fmt::format("tessera::{}({}{})", what, quoted(port(operation.subject, sends)), slot);
+    return fmt::format("tessera::{}({}{})", what, quoted(port(operation.channel, sends)), slot);
   }
 
   void add_transition(TransitionId id) {
     const net::Transition& transition = net_[id];
     LocalNet::Transition row{std::string(local(transition.name)), transition.behaviour};
-    const bool sends = transition.block != net::no_index && net_.parts().blocks[transition.block].sends;
+    const bool sends = transition.block.valid() && net_.parts()[transition.block].sends;
     row.guard = guard(id, sends);
     for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
     for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
@@ -124,7 +119,7 @@ class Extraction {
   [[nodiscard]] std::string arc_end(PlaceId id, bool sends) const {
     const net::Place& place = net_[id];
     if (!place.fused()) return std::string(local(place.name));
-    const std::size_t state = net_.parts().channels[place.channel].size() + 1;
+    const std::size_t state = net_.parts()[place.channel].size() + 1;
     return fmt::format("{}/{}", port(place.channel, sends), std::string_view(place.name).substr(state));
   }
 
@@ -140,10 +135,10 @@ class Extraction {
       case net::Condition::Kind::error:
         return "tessera::if_error";
       case net::Condition::Kind::next:
-        return fmt::format("tessera::if_next({})", condition.subject);
+        return fmt::format("tessera::if_next({})", condition.entry.value());
       case net::Condition::Kind::elapsed:
-        if (channel_of(id) != spec::none) return "tessera::if_elapsed";
-        return fmt::format("tessera::if_elapsed_at({})", quoted(port(condition.subject, sends)));
+        if (net_.channel_of(id).valid()) return "tessera::if_elapsed";
+        return fmt::format("tessera::if_elapsed_at({})", quoted(port(condition.channel, sends)));
     }
     return {};
   }
@@ -160,7 +155,7 @@ class Extraction {
       const auto found = std::ranges::lower_bound(places_, arc.place);
       LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
       place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes",
-                               quoted(subsystem_.behaviours[place.behaviour].name));
+                               quoted(subsystem_.behaviours[place.behaviour.value].name));
     }
   }
 
@@ -200,8 +195,10 @@ LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model,
     std::unordered_map<std::string, std::uint32_t> known;
     for (const spec::Index instance : unit.instances) {
       LocalNet local = Extraction(net.net(), model, parts, instance).result();
-      for (const LocalNet::Port& port : local.ports)
-        (port.sends ? all.of_channel[port.channel].from : all.of_channel[port.channel].to) = port.name;
+      for (const LocalNet::Port& port : local.ports) {
+        ChannelPorts& ends = all.of_channel[port.channel.value];
+        (port.sends ? ends.from : ends.to) = port.name;
+      }
       const auto [variant, is_new] =
           known.emplace(identity(local), static_cast<std::uint32_t>(variants.nets.size()));
       if (is_new) variants.nets.push_back(std::move(local));

@@ -15,17 +15,17 @@ struct LocalNet {
   struct Port {
     std::string name, buffer;
     bool sends = false;
-    spec::Index channel = spec::none;
+    net::ChannelId channel{};
     bool operator==(const Port&) const = default;
   };
   struct Place {
     std::string name;
-    std::uint32_t behaviour = net::no_index;  ///< its behaviour; no_index: the subsystem itself
-    std::string does{};                       ///< C++: "tessera::calls(\"follow\")"; empty: nothing
+    net::BehaviourId behaviour{};  ///< none: it belongs to the subsystem itself
+    std::string does{};            ///< C++: "tessera::calls(\"follow\")"; empty: nothing
   };
   struct Transition {
     std::string name;
-    std::uint32_t behaviour = net::no_index;
+    net::BehaviourId behaviour{};
     std::vector<std::string> inputs{}, outputs{};
     std::string guard{};  ///< C++: "tessera::if_next(1)"; empty: none
   };

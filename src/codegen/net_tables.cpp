@@ -13,7 +13,7 @@ namespace {
 
 /// One row of a table, cell by cell; empty cells at the end are left out.
 struct Row {
-  std::uint32_t behaviour = net::no_index;  ///< that it belongs to; none: the subsystem itself
+  net::BehaviourId behaviour{};  ///< that it belongs to; none: the subsystem itself
   std::vector<std::string> cells;
 };
 
@@ -31,7 +31,7 @@ Row row(const LocalNet::Transition& transition) {
 }
 
 Row row(const LocalNet::Port& port) {
-  return {net::no_index,
+  return {{},
           {quoted(port.name), port.sends ? "tessera::Side::send" : "tessera::Side::receive",
            quoted(port.buffer)}};
 }
@@ -42,7 +42,7 @@ std::vector<Row> grouped(const std::vector<Element>& elements, const spec::Subsy
   std::vector<std::vector<Row>> groups(1 + subsystem.behaviours.size());
   for (const Element& element : elements) {
     Row made = row(element);
-    groups[made.behaviour == net::no_index ? 0 : made.behaviour + 1].push_back(std::move(made));
+    groups[made.behaviour.valid() ? made.behaviour.value + 1 : 0].push_back(std::move(made));
   }
   std::vector<Row> rows;
   for (std::vector<Row>& group : groups) std::ranges::move(group, std::back_inserter(rows));
@@ -106,11 +106,11 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
   if (rows.empty()) return {};
   std::string out = fmt::format("{}[] = {{\n", head);
   for (std::size_t begin = 0; begin < rows.size();) {
-    const std::uint32_t number = rows[begin].behaviour;
+    const net::BehaviourId id = rows[begin].behaviour;
     std::size_t end = begin;
-    while (end < rows.size() && rows[end].behaviour == number) ++end;
-    if (number != net::no_index) {
-      const spec::Behaviour& behaviour = subsystem.behaviours[number];
+    while (end < rows.size() && rows[end].behaviour == id) ++end;
+    if (id.valid()) {
+      const spec::Behaviour& behaviour = subsystem.behaviours[id.value];
       out += fmt::format("    // {}, {}\n", behaviour.name, project.at(behaviour.span));
     }
     out += group_lines(rows.subspan(begin, end - begin));
@@ -122,8 +122,8 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
 std::string behaviours_table(const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
-    rows.push_back({net::no_index,
-                    {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+    rows.push_back(
+        {{}, {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);

@@ -42,13 +42,13 @@ class DotPen {
         "         style=rounded, color=\"#9aa5b1\", labeljust=l];\n"
         "  node [fontname=\"Helvetica\", fontsize=10];\n"
         "  edge [arrowsize=0.6, color=\"#52606d\"];\n";
-    add_frame(no_frame, "  ");
+    add_frame({}, "  ");
     for (const Arrow& arrow : picture_.arrows) add_arrow(arrow);
     return std::move(text_) + "}\n";
   }
 
  private:
-  void add_frame(std::uint32_t frame, const std::string& indent) {
+  void add_frame(FrameId frame, const std::string& indent) {
     for (std::uint32_t index = 0; index < picture_.circles.size(); ++index)
       if (picture_.circles[index].frame == frame) add_circle(index, indent);
     for (std::uint32_t index = 0; index < picture_.bars.size(); ++index)
@@ -57,7 +57,7 @@ class DotPen {
       if (picture_.frames[index].parent != frame) continue;
       text_ += indent + "subgraph cluster_" + std::to_string(index) + " {\n" + indent + "  label=<" +
                html(picture_.frames[index].name) + ">;\n";
-      add_frame(index, indent + "  ");
+      add_frame({index}, indent + "  ");
       text_ += indent + "}\n";
     }
   }

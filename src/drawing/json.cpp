@@ -26,7 +26,10 @@ class NetWriter : public JsonWriter {
     if (operation.kind == net::Operation::Kind::none) return null();
     object([&] {
       member("kind", kinds[static_cast<std::size_t>(operation.kind)]);
-      member("subject", operation.subject);
+      if (operation.behaviour.valid())
+        member("subject", operation.behaviour);
+      else
+        member("subject", operation.channel);
     });
   }
 
@@ -38,7 +41,10 @@ class NetWriter : public JsonWriter {
       member("kind", kinds[static_cast<std::size_t>(condition.kind)]);
       member("truth", truths[static_cast<std::size_t>(condition.truth)]);
       member("truth_with_failures", truths[static_cast<std::size_t>(condition.known(true).truth)]);
-      member("subject", condition.subject);
+      if (condition.entry)
+        member("subject", *condition.entry);
+      else
+        member("subject", condition.channel);
       member("text", std::string_view(condition.text));
     });
   }
@@ -49,7 +55,7 @@ class NetWriter : public JsonWriter {
       member("path", std::string_view(net.path(id)));
       member("name", std::string_view(page.name));
       member("layer", net::name_of(page.layer));
-      member("parent", page.parent.value);
+      member("parent", page.parent);
       member("subsystem", page.subsystem);
       member("input", page.input);
       member("output", page.output);
@@ -75,7 +81,7 @@ class NetWriter : public JsonWriter {
       member("tokens", place.tokens);
       member("operation", [&] { operation(place.operation); });
       member("layer", net::name_of(place.layer));
-      member("page", place.page.value);
+      member("page", place.page);
       member("subsystem", place.subsystem);
       member("channel", place.channel);
       member("span", [&] { span(place.span); });
@@ -90,7 +96,7 @@ class NetWriter : public JsonWriter {
       member("outputs", [&] { arcs(net.postset(id)); });
       member("condition", [&] { condition(transition.condition); });
       member("layer", net::name_of(transition.layer));
-      member("page", transition.page.value);
+      member("page", transition.page);
       member("subsystem", transition.subsystem);
       member("span", [&] { span(transition.span); });
     });
@@ -100,8 +106,8 @@ class NetWriter : public JsonWriter {
   void node(const net::Node& node) {
     object([&] {
       member("name", std::string_view(node.name));
-      member("page", node.page.value);
-      member("fusion", node.fusion.value);
+      member("page", node.page);
+      member("fusion", node.fusion);
       member("tokens", node.tokens);
       member("operation", [&] { operation(node.operation); });
     });
@@ -123,7 +129,7 @@ class NetWriter : public JsonWriter {
   void arcs(std::span<const net::Arc> arcs) {
     list(arcs, [&](const net::Arc& arc) {
       object([&] {
-        member("place", arc.place.value);
+        member("place", arc.place);
         member("weight", arc.weight);
       });
     });

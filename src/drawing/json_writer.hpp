@@ -10,18 +10,23 @@
 #include <type_traits>
 #include <utility>
 
+#include "net/ids.hpp"
+
 namespace tessera::drawing {
 
 /// Appends JSON to a text, on one line, without a tree in between: the net of a thousand
 /// agents has tens of megabytes.
 class JsonWriter {
  public:
-  /// An invalid number is written as null.
   void value(std::uint32_t number) {
-    if (number == UINT32_MAX) return null();
     std::array<char, 10> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
     text_.append(digits.data(), end);
+  }
+  /// No element is written as null.
+  template <class Tag>
+  void value(net::Id<Tag> id) {
+    id.valid() ? value(id.value) : null();
   }
   void value(std::string_view text) {
     const auto plain = [](char one) { return one >= ' ' && one != '"' && one != '\\' && one != '\x7f'; };

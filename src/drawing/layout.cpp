@@ -42,13 +42,13 @@ class Graph {
         "margin=12];\n"
         "node [shape=plain];\n"
         "edge [dir=none, headclip=false, tailclip=false];\n";
-    add_frame(no_frame);
+    add_frame({});
     for (std::size_t index = 0; index < picture_.arrows.size(); ++index) add_arrow(index);
     return std::move(text_) + "}\n";
   }
 
  private:
-  void add_frame(std::uint32_t frame) {
+  void add_frame(FrameId frame) {
     for (std::size_t index = 0; index < picture_.circles.size(); ++index)
       if (const Circle& circle = picture_.circles[index]; circle.frame == frame)
         add_node("p" + std::to_string(index), Sizes::cell, text_size(circle.name, circle.details));
@@ -59,7 +59,7 @@ class Graph {
       if (picture_.frames[index].parent != frame) continue;
       text_ += "subgraph cluster_" + std::to_string(index) + " { label=\"" +
                std::string(picture_.frames[index].name.plain().size(), 'n') + "\";\n";
-      add_frame(index);
+      add_frame({index});
       text_ += "}\n";
     }
   }

@@ -61,7 +61,7 @@ class PaperLabels : public Labels {
     const net::FusionSet& set = net_.fusions[id.value];
     Label label = buffer(set.channel, true);
     label.add(" \u2192 ").add(buffer(set.channel, false));
-    return label.add(" " + set.name.substr(net_.parts.channels[set.channel].size() + 1));
+    return label.add(" " + set.name.substr(net_.parts[set.channel].size() + 1));
   }
 
   [[nodiscard]] std::vector<Label> operation(net::PageId id, const net::Operation& operation) const override {
@@ -74,9 +74,9 @@ class PaperLabels : public Labels {
       case Kind::next_iteration:
         return {Label("i := i + 1")};
       case Kind::write:
-        return {Label("write ").add(buffer(operation.subject, true))};
+        return {Label("write ").add(buffer(operation.channel, true))};
       case Kind::read:
-        return {Label("read ").add(buffer(operation.subject, false))};
+        return {Label("read ").add(buffer(operation.channel, false))};
     }
     return {};
   }
@@ -127,8 +127,8 @@ class PaperLabels : public Labels {
     return std::to_string(number);
   }
 
-  [[nodiscard]] Symbol symbol(spec::Index instance) const {
-    const spec::Instance& given = model_.instances[instance];
+  [[nodiscard]] Symbol symbol(net::SubsystemId id) const {
+    const spec::Instance& given = model_.instances[id.value];
     const auto& subsystems = model_.definition_of(model_.agents[given.agent]).subsystems;
     const spec::SubsystemKind kind = subsystems[given.subsystem].kind;
     const auto before = std::count_if(subsystems.begin(), subsystems.begin() + given.subsystem + 1,
@@ -137,14 +137,14 @@ class PaperLabels : public Labels {
             kind == spec::SubsystemKind::control ? "" : std::to_string(before)};
   }
 
-  [[nodiscard]] Label subsystem(spec::Index instance) const {
-    const Symbol is = symbol(instance);
+  [[nodiscard]] Label subsystem(net::SubsystemId id) const {
+    const Symbol is = symbol(id);
     return Label().add(is.letter, Level::base, true).add(is.indices(), Level::lowered);
   }
 
   [[nodiscard]] Label raised_letter(const net::Page& page) const {
     Label label;
-    if (page.subsystem != net::no_subsystem) label.add(symbol(page.subsystem).letter, Level::raised);
+    if (page.subsystem.valid()) label.add(symbol(page.subsystem).letter, Level::raised);
     return label;
   }
 
@@ -167,7 +167,7 @@ class PaperLabels : public Labels {
   }
 
   [[nodiscard]] std::string behaviour_number(net::PageId id) const {
-    const auto& behaviours = model_.subsystem(net_.pages[id.value].subsystem).behaviours;
+    const auto& behaviours = model_.subsystem(net_.pages[id.value].subsystem.value).behaviours;
     const auto found = std::ranges::find(behaviours, net_.pages[id.value].name, &spec::Behaviour::name);
     return std::to_string(found - behaviours.begin() + 1);
   }
@@ -178,11 +178,11 @@ class PaperLabels : public Labels {
   }
 
   /// The buffer at one end of a channel.
-  [[nodiscard]] Label buffer(spec::Index index, bool output) const {
-    const spec::Channel& channel = model_.channels[index];
+  [[nodiscard]] Label buffer(net::ChannelId id, bool output) const {
+    const spec::Channel& channel = model_.channels[id.value];
     const spec::ChannelEnd& own = output ? channel.from : channel.to;
     const spec::ChannelEnd& other = output ? channel.to : channel.from;
-    const Symbol here = symbol(own.instance), there = symbol(other.instance);
+    const Symbol here = symbol({own.instance}), there = symbol({other.instance});
     const bool transmission = here.letter == "c" && there.letter == "c";
     const std::string& far = there.own.empty() || here.agent != there.agent ? there.agent : there.own;
     // A receptor has only one control subsystem as a partner.
@@ -191,17 +191,17 @@ class PaperLabels : public Labels {
     label.add(transmission ? "T" : there.letter, Level::raised).add(output ? "y" : "x", Level::lowered);
     label.add(here.letter, Level::base, true)
         .add(implied ? here.indices() : here.indices() + "," + far, Level::lowered);
-    if (neighbours(own.instance, other.instance) > 1) {
+    if (neighbours({own.instance}, {other.instance}) > 1) {
       const spec::Subsystem& owner = model_.subsystem(own.instance);
       label.add(" (" + (output ? owner.outputs : owner.inputs)[own.buffer].name + ")");
     }
     return label;
   }
 
-  [[nodiscard]] std::ptrdiff_t neighbours(spec::Index a, spec::Index b) const {
+  [[nodiscard]] std::ptrdiff_t neighbours(net::SubsystemId a, net::SubsystemId b) const {
     return std::ranges::count_if(model_.channels, [&](const spec::Channel& channel) {
-      return (channel.from.instance == a && channel.to.instance == b) ||
-             (channel.from.instance == b && channel.to.instance == a);
+      return (channel.from.instance == a.value && channel.to.instance == b.value) ||
+             (channel.from.instance == b.value && channel.to.instance == a.value);
     });
   }
 

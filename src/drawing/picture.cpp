@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -18,7 +19,7 @@ class Sketch {
   Picture result(net::PageId root, unsigned levels) {
     picture_.title = Label(root.value == 0 ? "multi-agent system" : net_.path(root));
     picture_.layer = net_.pages[root.value].layer;
-    add_nodes(root, levels, no_frame);
+    add_nodes(root, levels, {});
     for (const net::PageId page : drawn_) add_transitions(page);
     mark_back();
     return std::move(picture_);
@@ -26,20 +27,20 @@ class Sketch {
 
  private:
   struct Drawn {
-    std::uint32_t circle = UINT32_MAX;
-    bool opened = false;  ///< the page is replaced by its net
+    std::uint32_t circle = 0;
+    bool opened = false;  ///< the page is replaced by its net, and there is no circle
   };
 
-  void add_nodes(net::PageId id, unsigned levels, std::uint32_t frame) {
+  void add_nodes(net::PageId id, unsigned levels, FrameId frame) {
     drawn_.push_back(id);
     frame_of_[id.value] = frame;
     const net::Page& page = net_.pages[id.value];
     for (std::uint32_t node = 0; node < page.nodes.size(); ++node) {
       const net::Node& drawn = page.nodes[node];
       if (drawn.page.valid() && levels > 0) {
-        nodes_[id.value].push_back({UINT32_MAX, true});
+        nodes_[id.value].push_back({0, true});
         picture_.frames.push_back({labels_.page(drawn.page), net_.pages[drawn.page.value].layer, frame});
-        add_nodes(drawn.page, levels - 1, static_cast<std::uint32_t>(picture_.frames.size() - 1));
+        add_nodes(drawn.page, levels - 1, {static_cast<std::uint32_t>(picture_.frames.size() - 1)});
       } else {
         nodes_[id.value].push_back(
             {drawn.fusion.valid() ? fused(id, node, frame) : circle(id, node, frame), false});
@@ -47,7 +48,7 @@ class Sketch {
     }
   }
 
-  std::uint32_t circle(net::PageId id, std::uint32_t node, std::uint32_t frame) {
+  std::uint32_t circle(net::PageId id, std::uint32_t node, FrameId frame) {
     const net::Node& drawn = net_.pages[id.value].nodes[node];
     const std::string above = net_.path(id);
     Circle made;
@@ -65,7 +66,7 @@ class Sketch {
 
   /// Draws the members of one set in one picture as one circle, outside the frames that
   /// do not contain all of them.
-  std::uint32_t fused(net::PageId id, std::uint32_t node, std::uint32_t frame) {
+  std::uint32_t fused(net::PageId id, std::uint32_t node, FrameId frame) {
     const net::FusionId set = net_.pages[id.value].nodes[node].fusion;
     const auto known = fused_.find(set.value);
     if (known == fused_.end()) return fused_[set.value] = circle(id, node, frame);
@@ -77,13 +78,13 @@ class Sketch {
     return known->second;
   }
 
-  [[nodiscard]] std::uint32_t common(std::uint32_t a, std::uint32_t b) const {
+  [[nodiscard]] FrameId common(FrameId a, FrameId b) const {
     // A frame comes after those that contain it, so the later one of two different
     // frames is never the common one.
     while (a != b) {
-      if (a == no_frame || b == no_frame) return no_frame;
-      std::uint32_t& later = a > b ? a : b;
-      later = picture_.frames[later].parent;
+      if (!a.valid() || !b.valid()) return {};
+      FrameId& later = a > b ? a : b;
+      later = picture_.frames[later.value].parent;
     }
     return a;
   }
@@ -131,28 +132,28 @@ class Sketch {
 
   void mark_back() {
     std::vector<bool> taken(picture_.circles.size(), false);
-    std::vector<std::uint32_t> first_input(picture_.bars.size(), UINT32_MAX);
+    std::vector<std::optional<std::uint32_t>> first_input(picture_.bars.size());
     for (const Arrow& arrow : picture_.arrows) {
       if (!arrow.to_bar) continue;
       taken[arrow.circle] = true;
       if (!picture_.circles[arrow.circle].fused)
-        first_input[arrow.bar] = std::min(first_input[arrow.bar], arrow.circle);
+        first_input[arrow.bar] = std::min(first_input[arrow.bar].value_or(arrow.circle), arrow.circle);
     }
     for (Arrow& arrow : picture_.arrows) {
       if (arrow.to_bar) continue;
       const bool fused = picture_.circles[arrow.circle].fused;
-      const std::uint32_t from = first_input[arrow.bar];
-      arrow.back = fused ? taken[arrow.circle] : from != UINT32_MAX && arrow.circle <= from;
+      const std::optional<std::uint32_t> from = first_input[arrow.bar];
+      arrow.back = fused ? taken[arrow.circle] : from && arrow.circle <= *from;
     }
   }
 
   const net::HierarchicalNet& net_;
   const Labels& labels_;
   Picture picture_;
-  std::vector<std::vector<Drawn>> nodes_;                      // per page of the net, once it is drawn
-  std::vector<net::PageId> drawn_;                             // in the order of the pages
-  std::unordered_map<std::uint32_t, std::uint32_t> frame_of_;  // per drawn page
-  std::unordered_map<std::uint32_t, std::uint32_t> fused_;     // circle per fusion set
+  std::vector<std::vector<Drawn>> nodes_;                   // per page of the net, once it is drawn
+  std::vector<net::PageId> drawn_;                          // in the order of the pages
+  std::unordered_map<std::uint32_t, FrameId> frame_of_;     // per drawn page
+  std::unordered_map<std::uint32_t, std::uint32_t> fused_;  // circle per fusion set
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace tessera::drawing {
 
-inline constexpr std::uint32_t no_frame = UINT32_MAX;
+using FrameId = net::Id<struct FrameTag>;  ///< into Picture::frames
 
 /// A place or page.
 struct Circle {
@@ -19,7 +19,7 @@ struct Circle {
   std::string path;            ///< shown when the pointer rests on the circle
   std::uint32_t tokens = 0;
   bool page = false, fused = false;
-  std::uint32_t frame = no_frame;
+  FrameId frame{};
 };
 
 /// When a transition can fire, as far as this is known before run time.
@@ -35,7 +35,7 @@ struct Bar {
   std::vector<Label> details;  ///< the condition, in square brackets
   std::string path;
   Fires fires = Fires::by_condition;
-  std::uint32_t frame = no_frame;
+  FrameId frame{};
 };
 
 struct Arrow {
@@ -50,7 +50,7 @@ struct Arrow {
 struct Frame {
   Label name;
   net::Layer layer = net::Layer::system;
-  std::uint32_t parent = no_frame;  ///< an earlier frame
+  FrameId parent{};  ///< an earlier frame
 };
 
 /// The elements of a drawing, before they have positions.

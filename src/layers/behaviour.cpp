@@ -40,7 +40,7 @@ Condition condition(Condition::Kind kind, Truth truth, std::string free_text) {
   std::string text;
   if (truth == Truth::free) text = std::move(free_text);
   if (truth == Truth::never) text = "never";
-  return {kind, truth, UINT32_MAX, std::move(text)};
+  return {.kind = kind, .truth = truth, .text = std::move(text)};
 }
 
 /// The conditions of t4, t5 and t6, which exclude each other and of which one always holds.
@@ -71,16 +71,16 @@ Ending ending(const spec::Behaviour& behaviour) {
 }  // namespace
 
 /// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
-net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index) {
-  const spec::Behaviour& behaviour = draft.model.subsystem(instance).behaviours[index];
-  Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, instance, behaviour.span);
-  sheet.drawn().behaviour = index;
-  const std::uint32_t in = sheet.input({net::Operation::Kind::transition_function, index});
-  const std::uint32_t snd =
-      sheet.page(draw_communication(draft, sheet.id(), instance, index, Direction::send));
-  const std::uint32_t step = sheet.place(words::step, {net::Operation::Kind::next_iteration, UINT32_MAX});
+net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
+                           net::BehaviourId id) {
+  const spec::Behaviour& behaviour = draft.model.subsystem(subsystem.value).behaviours[id.value];
+  Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, subsystem, behaviour.span);
+  sheet.drawn().behaviour = id;
+  const std::uint32_t in = sheet.input({.kind = net::Operation::Kind::transition_function, .behaviour = id});
+  const std::uint32_t snd = sheet.page(draw_communication(draft, sheet.id(), subsystem, id, Direction::send));
+  const std::uint32_t step = sheet.place(words::step, {.kind = net::Operation::Kind::next_iteration});
   const std::uint32_t rcv =
-      sheet.page(draw_communication(draft, sheet.id(), instance, index, Direction::receive));
+      sheet.page(draw_communication(draft, sheet.id(), subsystem, id, Direction::receive));
   const std::uint32_t out = sheet.output();
 
   auto [go_on, terminal, error] = ending(behaviour);

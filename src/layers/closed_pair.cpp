@@ -20,7 +20,8 @@ net::TransitionId add_side(net::Net& net, const ModelSide& side, const std::stri
                      .tokens = places.size() == ModelSide::in ? 1U : 0U,
                      .layer = net::Layer::communication,
                      .span = place.span};
-    if (place.slot != ModelSide::no_slot) added.operation = {kind, 0, place.slot};
+    if (place.slot != ModelSide::no_slot)
+      added.operation = {.kind = kind, .channel = {0}, .slot = place.slot};
     places.push_back(net.add(std::move(added)));
   }
   const auto arcs = [&](std::uint32_t own, const std::vector<std::uint32_t>& shared) {
@@ -32,7 +33,8 @@ net::TransitionId add_side(net::Net& net, const ModelSide& side, const std::stri
     net::Transition added{
         .name = name + "." + transition.name, .layer = net::Layer::communication, .span = transition.span};
     if (transition.elapsed)
-      added.condition = {net::Condition::Kind::elapsed, net::Condition::Truth::free, 0, ""};
+      added.condition = {
+          .kind = net::Condition::Kind::elapsed, .truth = net::Condition::Truth::free, .channel = {0}};
     net.add(std::move(added), arcs(transition.from, transition.takes), arcs(transition.to, transition.gives));
   }
   return net.add({.name = name + " again", .layer = net::Layer::communication}, arcs(ModelSide::out, {}),
@@ -47,7 +49,7 @@ ClosedPair closed_pair(const spec::CommunicationModel& model) {
     pair.net.add({.name = place.name,
                   .tokens = place.tokens,
                   .layer = net::Layer::communication,
-                  .channel = 0,
+                  .channel = {0},
                   .span = place.span});
   pair.sends_again = add_side(pair.net, model.send, "send", Operation::Kind::write);
   pair.receives_again = add_side(pair.net, model.receive, "receive", Operation::Kind::read);

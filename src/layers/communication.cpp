@@ -9,9 +9,9 @@ namespace {
 
 /// One channel of a snd or rcv page.
 struct Block {
-  spec::Index channel = 0;
+  net::ChannelId channel;
   std::string name;
-  std::uint32_t index = net::no_index;  ///< into net::Parts::blocks
+  net::BlockId id{};
 };
 
 /// Blocks are named after their buffers; those of an output that feeds several channels are numbered.
@@ -27,17 +27,17 @@ std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::I
     const spec::Index buffer = buffer_of(channel);
     std::string name = buffers[buffer].name;
     if (count[buffer] > 1) name += "#" + std::to_string(++number[buffer]);
-    blocks.push_back({channel, std::move(name)});
+    blocks.push_back({{channel}, std::move(name)});
   }
   return blocks;
 }
 
 /// Numbers the blocks of a page.
-void enlist(std::vector<Block>& blocks, net::Parts& parts, spec::Index instance, spec::Index behaviour,
-            Direction direction) {
+void enlist(std::vector<Block>& blocks, net::Parts& parts, net::SubsystemId subsystem,
+            net::BehaviourId behaviour, Direction direction) {
   for (Block& block : blocks) {
-    block.index = static_cast<std::uint32_t>(parts.blocks.size());
-    parts.blocks.push_back({instance, behaviour, block.channel, direction == Direction::send, block.name});
+    block.id = {static_cast<std::uint32_t>(parts.blocks.size())};
+    parts.blocks.push_back({subsystem, behaviour, block.channel, direction == Direction::send, block.name});
   }
 }
 
@@ -58,8 +58,8 @@ class BlockPen {
   /// Draws the side of the channel's model between the given input place and the output place it returns.
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name,
                      net::PlaceRole out_role) {
-    sheet_.in_block(block.index);
-    const spec::Channel& channel = draft_.model.channels[block.channel];
+    sheet_.in_block(block.id);
+    const spec::Channel& channel = draft_.model.channels[block.channel.value];
     const spec::CommunicationModel& model = model_of(draft_.model, channel);
     const spec::ModelSide& side = direction_ == Direction::send ? model.send : model.receive;
     const auto local = [&](const std::string& part) { return block.name + "." + part; };
@@ -70,7 +70,8 @@ class BlockPen {
     nodes[ModelSide::in] = in;
     nodes[ModelSide::out] = sheet_.place(out_name, {}, out_role);
     for (std::size_t place = 0; place < model.shared.size(); ++place)
-      shared.push_back(sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel][place]));
+      shared.push_back(
+          sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel.value][place]));
     for (const ModelSide::Transition& transition : side.transitions) {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
@@ -80,7 +81,7 @@ class BlockPen {
                       transition.elapsed ? elapsed(channel, block) : net::Condition{})
           .role = role_of(transition);
     }
-    sheet_.in_block(net::no_index);
+    sheet_.in_block({});
     return nodes[ModelSide::out];
   }
 
@@ -91,12 +92,15 @@ class BlockPen {
     if (place.slot == ModelSide::no_slot) return {};
     const auto kind =
         direction_ == Direction::send ? net::Operation::Kind::write : net::Operation::Kind::read;
-    return {kind, block.channel, place.slot};
+    return {.kind = kind, .channel = block.channel, .slot = place.slot};
   }
 
   [[nodiscard]] net::Condition elapsed(const spec::Channel& channel, const Block& block) const {
     const auto timeout = direction_ == Direction::send ? channel.send_timeout : channel.receive_timeout;
-    return {net::Condition::Kind::elapsed, net::Condition::Truth::free, block.channel, in_words(*timeout)};
+    return {.kind = net::Condition::Kind::elapsed,
+            .truth = net::Condition::Truth::free,
+            .channel = block.channel,
+            .text = in_words(*timeout)};
   }
 
   const Draft& draft_;
@@ -142,18 +146,18 @@ net::PageId draw_nothing(Sheet& sheet) {
 
 /// Layer 5, communication (paper, sec. IV-E): the snd or rcv page of a behaviour, one block per
 /// channel it uses.
-net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance, spec::Index index,
-                               Direction direction) {
+net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemId id,
+                               net::BehaviourId behaviour_id, Direction direction) {
   const bool sends = direction == Direction::send;
-  const spec::Subsystem& subsystem = draft.model.subsystem(instance);
-  const spec::Behaviour& behaviour = subsystem.behaviours[index];
+  const spec::Subsystem& subsystem = draft.model.subsystem(id.value);
+  const spec::Behaviour& behaviour = subsystem.behaviours[behaviour_id.value];
   Sheet sheet(draft, parent, net::Layer::communication,
-              std::string(sends ? words::send_page : words::receive_page), instance, behaviour.span);
-  sheet.drawn().behaviour = index;
-  std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(instance, behaviour, direction),
+              std::string(sends ? words::send_page : words::receive_page), id, behaviour.span);
+  sheet.drawn().behaviour = behaviour_id;
+  std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(id.value, behaviour, direction),
                                         sends ? subsystem.outputs : subsystem.inputs, direction);
   if (blocks.empty()) return draw_nothing(sheet);
-  enlist(blocks, draft.net.parts, instance, index, direction);
+  enlist(blocks, draft.net.parts, id, behaviour_id, direction);
   BlockPen pen(draft, sheet, direction);
   if (behaviour.transfer == spec::Transfer::parallel && blocks.size() > 1)
     return draw_side_by_side(sheet, pen, blocks);

@@ -98,7 +98,7 @@ class Subsystems {
 
   std::vector<Invariant> result() {
     for (std::uint32_t page = 0; page < pages_.pages.size(); ++page)
-      if (pages_.pages[page].subsystem != net::no_subsystem) gather(net::PageId{page});
+      if (pages_.pages[page].subsystem.valid()) gather(net::PageId{page});
     std::vector<Invariant> all = std::move(tokens_);
     for (Invariant& branch : branches_) all.push_back(std::move(branch));
     return all;
@@ -107,7 +107,7 @@ class Subsystems {
  private:
   void gather(net::PageId id) {
     const net::Page& page = pages_.pages[id.value];
-    Invariant& token = tokens_[page.subsystem];
+    Invariant& token = tokens_[page.subsystem.value];
     if (page.layer == net::Layer::subsystem) begin(id, token);
     const auto places = places_.of(id);
     const Branches found = branches_of(page);
@@ -170,14 +170,15 @@ class Channels {
     std::uint32_t shared = 0;           // places gathered
   };
 
-  Gathered& at(std::uint32_t channel) {
-    Gathered& gathered = of_channel_[channel];
+  Gathered& at(net::ChannelId id) {
+    Gathered& gathered = of_channel_[id.value];
     if (gathered.model != nullptr) return gathered;
-    gathered.model = &model_of(model_, model_.channels[channel]);
+    const spec::Channel& channel = model_.channels[id.value];
+    gathered.model = &model_of(model_, channel);
     const auto [known, added] = known_.try_emplace(gathered.model);
     if (added) known->second = pair_invariants(*gathered.model);
     gathered.known = &known->second;
-    const std::string name = model_.channel_name(model_.channels[channel]);
+    const std::string name = model_.channel_name(channel);
     for (const PairInvariant& invariant : known->second)
       gathered.invariants.push_back(
           {in_words(invariant, *gathered.model) + " in " + name, {}, invariant.total});
@@ -214,13 +215,13 @@ class Channels {
   void gather(net::PageId id) {
     const std::vector<net::Node>& nodes = pages_.pages[id.value].nodes;
     const auto places = places_.of(id);
-    std::uint32_t drawn = net::no_index;
+    net::BlockId drawn;
     std::size_t number = 0;
     for (std::uint32_t node = 0; node < nodes.size(); ++node) {
-      if (nodes[node].fusion.valid() || nodes[node].block == net::no_index) continue;
+      if (nodes[node].fusion.valid() || !nodes[node].block.valid()) continue;
       // A block draws the places of its side in their order, and its output last.
       if (std::exchange(drawn, nodes[node].block) != nodes[node].block) number = spec::ModelSide::out + 1;
-      const net::Parts::Block& block = pages_.parts.blocks[drawn];
+      const net::Parts::Block& block = pages_.parts[drawn];
       gather_own(at(block.channel), block.sends, number++, places[node]);
     }
   }

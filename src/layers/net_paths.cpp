@@ -67,10 +67,10 @@ NetPaths::NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, 
     below_[page.parent.value].push_back({index});
     if (page.layer == net::Layer::agent) agents_.emplace(page.name, PageId{index});
   }
-  for (std::uint32_t channel = 0; channel < model.channels.size(); ++channel) {
-    channels_[model.channels[channel].from.instance].push_back(channel);
-    if (model.channels[channel].to.instance != model.channels[channel].from.instance)
-      channels_[model.channels[channel].to.instance].push_back(channel);
+  for (std::uint32_t index = 0; index < model.channels.size(); ++index) {
+    const spec::Channel& channel = model.channels[index];
+    channels_[channel.from.instance].push_back({index});
+    if (channel.to.instance != channel.from.instance) channels_[channel.to.instance].push_back({index});
   }
 }
 
@@ -89,24 +89,24 @@ Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part
     if (pages_.pages[below.value].name == path.parts[part].name) return in_page(below, path, part + 1, out);
   if (const auto place = own_place(page, joined(path.parts, part))) return marked(*place);
   if (pages_.pages[page.value].layer == net::Layer::subsystem) {
-    const std::uint32_t instance = pages_.pages[page.value].subsystem;
-    const spec::Subsystem& subsystem = model_.subsystem(instance);
+    const net::SubsystemId id = pages_.pages[page.value].subsystem;
+    const spec::Subsystem& subsystem = model_.subsystem(id.value);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       if (std::ranges::count(*buffers, path.parts[part].name, &spec::Field::name) > 0)
-        return of_buffer(instance, path, out);
+        return of_buffer(id, path, out);
   }
   complain(page, path.parts[part], out);
   return std::nullopt;
 }
 
 /// AGENT.SUBSYSTEM.BUFFER.STATE
-Found NetPaths::of_buffer(std::uint32_t instance, const spec::NetPath& path, Diagnostics& out) const {
+Found NetPaths::of_buffer(net::SubsystemId subsystem, const spec::NetPath& path, Diagnostics& out) const {
   const spec::PathPart& buffer = path.parts[1];
   std::vector<std::string> names;
-  for (const std::uint32_t index : channels_[instance]) {
-    const spec::Channel& channel = model_.channels[index];
+  for (const net::ChannelId id : channels_[subsystem.value]) {
+    const spec::Channel& channel = model_.channels[id.value];
     const auto is = [&](const spec::ChannelEnd& end, const std::vector<spec::Field>& buffers) {
-      return end.instance == instance && buffers[end.buffer].name == buffer.name;
+      return end.instance == subsystem.value && buffers[end.buffer].name == buffer.name;
     };
     if (is(channel.to, model_.subsystem(channel.to.instance).inputs) ||
         is(channel.from, model_.subsystem(channel.from.instance).outputs))
@@ -185,7 +185,7 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
     if (!node.page.valid()) names.push_back(node.name);
   const net::Layer layer = pages_.pages[page.value].layer;
   if (layer == net::Layer::subsystem) {
-    const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem);
+    const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem.value);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);
   }

@@ -27,7 +27,7 @@ class NetPaths {
 
   [[nodiscard]] std::optional<net::Statement> in_page(net::PageId page, const spec::NetPath& path,
                                                       std::size_t part, diagnostics::Diagnostics& out) const;
-  [[nodiscard]] std::optional<net::Statement> of_buffer(std::uint32_t instance, const spec::NetPath& path,
+  [[nodiscard]] std::optional<net::Statement> of_buffer(net::SubsystemId subsystem, const spec::NetPath& path,
                                                         diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_channel(const spec::NetPath& from, const spec::NetPath& to,
                                                          diagnostics::Diagnostics& out) const;
@@ -41,9 +41,9 @@ class NetPaths {
   const net::HierarchicalNet& pages_;
   std::unordered_map<std::string, net::PlaceId> places_;
   std::unordered_map<std::string, net::PageId> agents_;
-  std::vector<std::vector<net::PlaceId>> own_;        // per page
-  std::vector<std::vector<net::PageId>> below_;       // per page
-  std::vector<std::vector<std::uint32_t>> channels_;  // per instance: those that begin or end there
+  std::vector<std::vector<net::PlaceId>> own_;         // per page
+  std::vector<std::vector<net::PageId>> below_;        // per page
+  std::vector<std::vector<net::ChannelId>> channels_;  // per subsystem: those that begin or end there
 };
 
 }  // namespace tessera::layers

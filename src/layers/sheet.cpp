@@ -13,7 +13,7 @@ Draft::Draft(const spec::Model& specification)
   for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
     net::Parts::Subsystem& part = net.parts.subsystems.emplace_back();
     part.path = model.instance_path(instance);
-    part.agent = model.instances[instance].agent;
+    part.agent = {model.instances[instance].agent};
     for (const spec::Behaviour& behaviour : model.subsystem(instance).behaviours)
       part.behaviours.push_back(behaviour.name);
   }
@@ -26,12 +26,12 @@ Draft::Draft(const spec::Model& specification)
     const std::string& name = net.parts.channels[index];
     for (const spec::SharedPlace& place : model_of(model, channel).shared) {
       memory[index].push_back({static_cast<std::uint32_t>(net.fusions.size())});
-      net.fusions.push_back({name + "." + place.name, place.tokens, index, channel.span, role_of(place)});
+      net.fusions.push_back({name + "." + place.name, place.tokens, {index}, channel.span, role_of(place)});
     }
   }
 }
 
-Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
+Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, net::SubsystemId subsystem,
              net::Span span)
     : draft_(draft), id_{static_cast<std::uint32_t>(draft.net.pages.size())} {
   draft_.net.pages.emplace_back();
@@ -39,7 +39,7 @@ Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string nam
   page_.layer = layer;
   page_.parent = parent;
   page_.subsystem = subsystem;
-  if (subsystem != net::no_subsystem) page_.agent = draft.model.instances[subsystem].agent;
+  if (subsystem.valid()) page_.agent = draft.net.parts[subsystem].agent;
   page_.span = span;
 }
 

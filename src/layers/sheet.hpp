@@ -26,7 +26,7 @@ struct Draft {
 /// as their parent.
 class Sheet {
  public:
-  Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, std::uint32_t subsystem,
+  Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, net::SubsystemId subsystem,
         net::Span span);
 
   /// Each returns the index of the new node.
@@ -41,8 +41,8 @@ class Sheet {
   net::PageTransition& transition(std::string_view name, std::vector<std::uint32_t> inputs,
                                   std::vector<std::uint32_t> outputs, net::Condition condition = {});
 
-  /// What is drawn from here on belongs to this block, an index into net::Parts::blocks. net::no_index: none.
-  void in_block(std::uint32_t block) { block_ = block; }
+  /// What is drawn from here on belongs to this block.
+  void in_block(net::BlockId block) { block_ = block; }
 
   [[nodiscard]] net::PageId id() const { return id_; }
   [[nodiscard]] net::Page& drawn() { return page_; }
@@ -53,15 +53,16 @@ class Sheet {
   Draft& draft_;
   net::PageId id_;
   net::Page page_;
-  std::uint32_t block_ = net::no_index;
+  net::BlockId block_;
 };
 
 /// One function per layer of the paper: draws the page and all pages below it.
 net::PageId draw_system(Draft& draft);
-net::PageId draw_agent(Draft& draft, net::PageId parent, spec::Index agent);
-net::PageId draw_subsystem(Draft& draft, net::PageId parent, spec::Index instance);
-net::PageId draw_behaviour(Draft& draft, net::PageId parent, spec::Index instance, spec::Index behaviour);
-net::PageId draw_communication(Draft& draft, net::PageId parent, spec::Index instance, spec::Index behaviour,
-                               Direction direction);
+net::PageId draw_agent(Draft& draft, net::PageId parent, net::AgentId agent);
+net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId subsystem);
+net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
+                           net::BehaviourId behaviour);
+net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
+                               net::BehaviourId behaviour, Direction direction);
 
 }  // namespace tessera::layers

@@ -61,8 +61,11 @@ std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
   const spec::Endings endings(behaviour);
   for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
     const Known now = known(endings, entry, false);
-    Condition made{Condition::Kind::next, now.truth, entry, text_of(behaviour.next[entry].when, behaviour),
-                   now.exhaustive};
+    Condition made{.kind = Condition::Kind::next,
+                   .truth = now.truth,
+                   .entry = entry,
+                   .text = text_of(behaviour.next[entry].when, behaviour),
+                   .exhaustive = now.exhaustive};
     made.set_with_failures(known(endings, entry, true));
     made.follows =
         after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
@@ -75,13 +78,13 @@ std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
 }  // namespace
 
 /// Layer 3, a subsystem (paper, sec. IV-C): a graph of behaviours, of which one is active.
-net::PageId draw_subsystem(Draft& draft, net::PageId parent, spec::Index instance) {
-  const spec::Subsystem& subsystem = draft.model.subsystem(instance);
-  Sheet sheet(draft, parent, net::Layer::subsystem, subsystem.name, instance, subsystem.span);
+net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id) {
+  const spec::Subsystem& subsystem = draft.model.subsystem(id.value);
+  Sheet sheet(draft, parent, net::Layer::subsystem, subsystem.name, id, subsystem.span);
   const std::uint32_t in = sheet.input();
   std::vector<std::uint32_t> behaviours;
   for (spec::Index behaviour = 0; behaviour < subsystem.behaviours.size(); ++behaviour)
-    behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), instance, behaviour)));
+    behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, {behaviour})));
   const std::uint32_t out = sheet.output();
 
   sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = net::TransitionRole::start;

@@ -114,7 +114,6 @@ class Flattening {
                                                                 .layer = page.layer,
                                                                 .page = id,
                                                                 .subsystem = page.subsystem,
-                                                                .channel = UINT32_MAX,
                                                                 .span = page.span,
                                                                 .role = drawn.role,
                                                                 .agent = page.agent,
@@ -142,7 +141,6 @@ class Flattening {
                                             .operation = operations[set],
                                             .layer = Layer::communication,
                                             .page = {},
-                                            .subsystem = no_subsystem,
                                             .channel = fusion.channel,
                                             .span = fusion.span,
                                             .role = fusion.role});

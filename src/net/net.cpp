@@ -56,4 +56,11 @@ std::span<const Arc> Net::postset(TransitionId id) const {
   return {arcs_.data() + starts_[at], arcs_.data() + end};
 }
 
+ChannelId Net::channel_of(TransitionId id) const {
+  for (const auto& arcs : {preset(id), postset(id)})
+    for (const Arc& arc : arcs)
+      if ((*this)[arc.place].fused()) return (*this)[arc.place].channel;
+  return {};
+}
+
 }  // namespace tessera::net

@@ -9,22 +9,12 @@
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
+#include "net/ids.hpp"
 
 /// Petri nets: the hierarchical net of the five layers, and the flat net it stands for.
 namespace tessera::net {
 
 using diagnostics::Span;
-
-template <class Tag>
-struct Id {
-  std::uint32_t value = UINT32_MAX;
-  auto operator<=>(const Id&) const = default;
-  [[nodiscard]] bool valid() const { return value != UINT32_MAX; }
-};
-using PlaceId = Id<struct PlaceTag>;            ///< a place of a flat net
-using TransitionId = Id<struct TransitionTag>;  ///< a transition of a flat net
-using PageId = Id<struct PageTag>;              ///< a page (one net) of a hierarchical net
-using FusionId = Id<struct FusionTag>;          ///< a fusion set of a hierarchical net
 
 /// The five layers of the paper (sec. IV).
 enum class Layer : std::uint8_t { system, agent, subsystem, behaviour, communication };
@@ -34,13 +24,14 @@ inline constexpr std::size_t layer_count = 5;
 struct Operation {
   enum class Kind : std::uint8_t {
     none,
-    transition_function,  ///< eq. (1) of behaviour `subject` of the place's subsystem
+    transition_function,  ///< eq. (1) of `behaviour` of the place's subsystem
     next_iteration,       ///< i := i + 1
-    write,                ///< output buffer into the memory of channel `subject`
-    read                  ///< memory of channel `subject` into the input buffer
+    write,                ///< output buffer into the memory of `channel`
+    read                  ///< memory of `channel` into the input buffer
   } kind = Kind::none;
-  std::uint32_t subject = UINT32_MAX;
-  std::uint32_t slot = 0;  ///< of the channel's memory, that is written or read
+  BehaviourId behaviour{};  ///< transition_function
+  ChannelId channel{};      ///< write, read
+  std::uint32_t slot = 0;   ///< of the channel's memory, that is written or read
   bool operator==(const Operation&) const = default;
 };
 
@@ -51,13 +42,14 @@ struct Condition {
     go_on,     ///< t4: no error, not terminal
     terminal,  ///< t5: terminal, no error
     error,     ///< t6: error
-    next,      ///< entry `subject` of `next` of the behaviour that is left is the first whose condition holds
-    elapsed    ///< the timeout of channel `subject` has passed since the token's arrival
+    next,      ///< `entry` of `next` of the behaviour that is left is the first whose condition holds
+    elapsed    ///< the timeout of `channel` has passed since the token's arrival
   } kind = Kind::none;
   /// What is known before run time: `always` and `never` for constants, `free` for the rest.
   enum class Truth : std::uint8_t { free, always, never } truth = Truth::always;
-  std::uint32_t subject = UINT32_MAX;
-  std::string text;  ///< as drawn, without the brackets; empty: nothing to draw
+  std::optional<std::uint32_t> entry{};  ///< next; nullopt: that no entry holds
+  ChannelId channel{};                   ///< elapsed
+  std::string text{};                    ///< as drawn, without the brackets; empty: nothing to draw
   /// next: however the behaviour ended, one of its entries holds ("none holds" cannot happen).
   bool exhaustive = false;
   struct Known {
@@ -83,9 +75,6 @@ struct Condition {
     if (what != known(false)) with_failures = what;
   }
 };
-
-inline constexpr std::uint32_t no_subsystem = UINT32_MAX;
-inline constexpr std::uint32_t no_index = UINT32_MAX;  ///< no behaviour, no block
 
 // ------------------------------------------------------------------------------------------ roles
 
@@ -117,13 +106,15 @@ enum class TransitionRole : std::uint8_t {
 /// Empty for a net that was not made from a specification.
 struct Parts {
   struct Subsystem {
-    std::string path;         ///< "robot.control"
-    std::uint32_t agent = 0;  ///< into agents
+    std::string path;  ///< "robot.control"
+    AgentId agent{};
     std::vector<std::string> behaviours{};
   };
   /// One side of one channel in one behaviour.
   struct Block {
-    std::uint32_t subsystem = 0, behaviour = 0, channel = 0;
+    SubsystemId subsystem{};
+    BehaviourId behaviour{};
+    ChannelId channel{};
     bool sends = false;
     std::string name{};  ///< of its buffer; numbered if the buffer has several channels: "motion", "motion#2"
   };
@@ -132,10 +123,15 @@ struct Parts {
   std::vector<std::string> channels{};  ///< "robot.control.motion->robot.motor.velocity"
   std::vector<Block> blocks{};
 
+  [[nodiscard]] const std::string& operator[](AgentId id) const { return agents[id.value]; }
+  [[nodiscard]] const Subsystem& operator[](SubsystemId id) const { return subsystems[id.value]; }
+  [[nodiscard]] const std::string& operator[](ChannelId id) const { return channels[id.value]; }
+  [[nodiscard]] const Block& operator[](BlockId id) const { return blocks[id.value]; }
+
   /// "robot.control.follow"
-  [[nodiscard]] std::string behaviour_path(std::uint32_t subsystem, std::uint32_t behaviour) const {
-    const Subsystem& owner = subsystems[subsystem];
-    return owner.path + '.' + owner.behaviours[behaviour];
+  [[nodiscard]] std::string behaviour_path(SubsystemId subsystem, BehaviourId behaviour) const {
+    const Subsystem& owner = (*this)[subsystem];
+    return owner.path + '.' + owner.behaviours[behaviour.value];
   }
 };
 
@@ -149,7 +145,7 @@ struct Node {
   std::uint32_t tokens = 0;  ///< initial marking
   Operation operation{};
   PlaceRole role = PlaceRole::none;  ///< of a fused place: as its fusion set
-  std::uint32_t block = no_index;    ///< into Parts::blocks
+  BlockId block{};
 };
 
 struct PageTransition {
@@ -159,18 +155,18 @@ struct PageTransition {
   Condition condition{};
   Span span{};  ///< of the specification
   TransitionRole role = TransitionRole::none;
-  std::uint32_t block = no_index;  ///< into Parts::blocks
+  BlockId block{};
 };
 
 /// One net of the hierarchy: what one sheet of the drawing shows.
 struct Page {
   std::string name{};  ///< last part of the path: "follow"; empty for the root
   Layer layer = Layer::system;
-  PageId parent{};                         ///< invalid for the root
-  std::uint32_t subsystem = no_subsystem;  ///< instance of the model that executes it, if one does
-  std::uint32_t agent = no_index;          ///< in the layers below the system
-  std::uint32_t behaviour = no_index;      ///< in the subsystem; from the behaviour layer down
-  std::uint32_t input = 0, output = 0;     ///< indices into nodes
+  PageId parent{};                      ///< invalid for the root
+  SubsystemId subsystem{};              ///< instance of the model that executes it, if one does
+  AgentId agent{};                      ///< in the layers below the system
+  BehaviourId behaviour{};              ///< in the subsystem; from the behaviour layer down
+  std::uint32_t input = 0, output = 0;  ///< indices into nodes
   std::vector<Node> nodes{};
   std::vector<PageTransition> transitions{};
   Span span{};
@@ -180,7 +176,7 @@ struct Page {
 struct FusionSet {
   std::string name{};  ///< "robot.control.motion->robot.motor.velocity.full"
   std::uint32_t tokens = 0;
-  std::uint32_t channel = UINT32_MAX;  ///< of the model
+  ChannelId channel{};  ///< of the model
   Span span{};
   PlaceRole role = PlaceRole::none;
 };
@@ -205,18 +201,18 @@ struct Place {
   Operation operation{};
   Layer layer = Layer::system;  ///< of the page that drew it (communication for fused places)
   PageId page{};                ///< invalid for fused places
-  std::uint32_t subsystem = no_subsystem;
-  std::uint32_t channel = UINT32_MAX;  ///< of a fused place
+  SubsystemId subsystem{};
+  ChannelId channel{};  ///< of a fused place
   Span span{};
   PlaceRole role = PlaceRole::none;
-  std::uint32_t agent = no_index;      ///< in the layers below the system
-  std::uint32_t behaviour = no_index;  ///< in the subsystem; from the behaviour layer down
-  std::uint32_t block = no_index;      ///< into Parts::blocks
+  AgentId agent{};          ///< in the layers below the system
+  BehaviourId behaviour{};  ///< in the subsystem; from the behaviour layer down
+  BlockId block{};
 
   [[nodiscard]] bool is(Layer of_layer, PlaceRole of_role) const {
     return layer == of_layer && role == of_role;
   }
-  [[nodiscard]] bool fused() const { return channel != UINT32_MAX; }
+  [[nodiscard]] bool fused() const { return channel.valid(); }
 };
 
 struct Transition {
@@ -224,12 +220,12 @@ struct Transition {
   Condition condition{};
   Layer layer = Layer::system;
   PageId page{};
-  std::uint32_t subsystem = no_subsystem;
+  SubsystemId subsystem{};
   Span span{};
   TransitionRole role = TransitionRole::none;
-  std::uint32_t agent = no_index;      ///< in the layers below the system
-  std::uint32_t behaviour = no_index;  ///< in the subsystem; from the behaviour layer down
-  std::uint32_t block = no_index;      ///< into Parts::blocks
+  AgentId agent{};          ///< in the layers below the system
+  BehaviourId behaviour{};  ///< in the subsystem; from the behaviour layer down
+  BlockId block{};
 };
 
 /// An arc end: a place and a weight. The nets of the five layers only have weight 1; imported ones
@@ -263,6 +259,8 @@ class Net {
   [[nodiscard]] const Transition& operator[](TransitionId id) const { return transitions_[id.value]; }
   [[nodiscard]] std::span<const Arc> preset(TransitionId id) const;
   [[nodiscard]] std::span<const Arc> postset(TransitionId id) const;
+  /// The channel whose memory the transition uses, by its first arc to a fused place; none: it uses none.
+  [[nodiscard]] ChannelId channel_of(TransitionId id) const;
   [[nodiscard]] std::size_t arc_count() const { return arcs_.size(); }
 
  private:

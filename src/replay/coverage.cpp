@@ -119,6 +119,9 @@ const char* meaning_of(net::TransitionRole role) {
   }
 }
 
+/// In the order of `next`; that no entry holds comes last.
+std::uint32_t rank(const Condition& condition) { return condition.entry.value_or(UINT32_MAX); }
+
 /// Which transition fires only if the condition of another one does not hold.
 bool fires_instead(const Condition& condition, const Condition& other) {
   using Kind = Condition::Kind;
@@ -128,7 +131,7 @@ bool fires_instead(const Condition& condition, const Condition& other) {
     case Kind::error:
       return other.kind == Kind::go_on || other.kind == Kind::terminal;
     case Kind::next:  // the entries are tried in their order
-      return other.kind == Kind::next && other.subject > condition.subject;
+      return other.kind == Kind::next && rank(other) > rank(condition);
     case Kind::elapsed:
       return other.kind != Kind::elapsed;
     case Kind::go_on:
@@ -171,7 +174,7 @@ class Measure {
   }
 
  private:
-  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // agent, subsystem, behaviour
+  using Key = std::tuple<net::AgentId, net::SubsystemId, net::BehaviourId>;
 
   void find_users() {
     users_.resize(net_.places().size());
@@ -187,15 +190,15 @@ class Measure {
       const Key key{page.agent, page.subsystem, page.behaviour};
       if (!groups_.emplace(key, coverage_.groups.size()).second) continue;
       Group group{.path = {}, .kind = Group::Kind::system, .span = page.span};
-      if (page.behaviour != net::no_index) {
+      if (page.behaviour.valid()) {
         group.kind = Group::Kind::behaviour;
         group.path = parts.behaviour_path(page.subsystem, page.behaviour);
-      } else if (page.subsystem != net::no_subsystem) {
+      } else if (page.subsystem.valid()) {
         group.kind = Group::Kind::subsystem;
-        group.path = parts.subsystems[page.subsystem].path;
-      } else if (page.agent != net::no_index) {
+        group.path = parts[page.subsystem].path;
+      } else if (page.agent.valid()) {
         group.kind = Group::Kind::agent;
-        group.path = parts.agents[page.agent];
+        group.path = parts[page.agent];
       }
       coverage_.groups.push_back(std::move(group));
     }

@@ -72,12 +72,12 @@ class Play {
     std::string wrong;
     const auto marking = net_.read_marking(entry, wrong);
     if (!marking) return illegal(wrong);
-    const std::uint32_t place = net_.difference(*marking);
-    if (place == NetPlay::none) return {};
+    const net::PlaceId place = net_.difference(*marking);
+    if (!place.valid()) return {};
     return illegal(fmt::format(
         "{}: a segment begins with another marking than the one before it ends with: '{}' holds {} tokens "
         "there",
-        seconds_text(entry.event.time_ns), net_.place_name(place), (*marking)[place]));
+        seconds_text(entry.event.time_ns), net_.place_name(place), (*marking)[place.value]));
   }
 
   [[nodiscard]] Player& lane_of(const Event& event) {
@@ -218,8 +218,8 @@ class AnyOrder : Play {
       if (moved && number + 1 == lanes_.size())
         for (std::size_t other = 0; other + 1 < lanes_.size(); ++other) ready.push_back(other);
       if (lanes_[number].firings.empty()) continue;
-      const std::uint32_t channel = net_.channel_of(*lanes_[number].firings.front());
-      if (channel != NetPlay::none) waiting[channel].push_back(number);
+      const net::ChannelId channel = net_.channel_of(*lanes_[number].firings.front());
+      if (channel.valid()) waiting[channel.value].push_back(number);
     }
     return judge_rest(is_cut);
   }
@@ -232,9 +232,9 @@ class AnyOrder : Play {
       if (std::string wrong = net_.fire(event); !wrong.empty()) return illegal(std::move(wrong));
       lane.firings.pop_front();
       moved = true;
-      if (const std::uint32_t channel = net_.channel_of(event); channel != NetPlay::none) {
-        std::ranges::copy(waiting[channel], std::back_inserter(ready));
-        waiting[channel].clear();
+      if (const net::ChannelId channel = net_.channel_of(event); channel.valid()) {
+        std::ranges::copy(waiting[channel.value], std::back_inserter(ready));
+        waiting[channel.value].clear();
       }
     }
     return {};
@@ -245,13 +245,13 @@ class AnyOrder : Play {
     std::vector<std::uint32_t> lowest(net_.channels(), 0);  // 0: none
     for (const Player& lane : lanes_)
       for (const Event* event : lane.firings) {
-        const std::uint32_t channel = net_.channel_of(*event);
-        if (channel == NetPlay::none || net_.knows_version(channel) || event->version == 0) continue;
-        if (lowest[channel] == 0 || is_before(event->version, lowest[channel]))
-          lowest[channel] = event->version;
+        const net::ChannelId channel = net_.channel_of(*event);
+        if (!channel.valid() || net_.knows_version(channel) || event->version == 0) continue;
+        if (std::uint32_t& first = lowest[channel.value]; first == 0 || is_before(event->version, first))
+          first = event->version;
       }
     for (std::uint32_t channel = 0; channel < lowest.size(); ++channel)
-      if (lowest[channel] != 0) net_.guess_version(channel, lowest[channel]);
+      if (lowest[channel] != 0) net_.guess_version({channel}, lowest[channel]);
   }
 
   /// A firing that could not be played is illegal, unless what it waits for may be among what is missing.

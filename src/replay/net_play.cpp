@@ -31,37 +31,33 @@ bool NetPlay::match_transitions() {
       return false;
     }
     transitions_.push_back({found->second});
-    channels_.push_back(channel_of(transitions_.back()));
-    if (channels_.back() != none) count = std::max(count, channels_.back() + 1);
+    channels_.push_back(net_.channel_of(transitions_.back()));
+    if (channels_.back().valid()) count = std::max(count, channels_.back().value + 1);
   }
   versions_.resize(count);
   return true;
 }
 
-std::uint32_t NetPlay::channel_of(TransitionId id) const {
-  for (const auto& arcs : {net_.preset(id), net_.postset(id)})
-    for (const Arc& arc : arcs)
-      if (net_[arc.place].fused()) return net_[arc.place].channel;
-  return none;
-}
-
 void NetPlay::find_makers() {
   std::vector<bool> seen(marking_.size(), false);
-  makers_.assign(marking_.size(), none);
+  makers_.assign(marking_.size(), std::nullopt);
   for (std::uint32_t index = 0; index < transitions_.size(); ++index)
     for (const Arc& arc : net_.postset(transitions_[index])) {
       const std::uint32_t instance = recording_.transitions[index].instance;
-      std::uint32_t& maker = makers_[arc.place.value];
-      maker = !seen[arc.place.value] || maker == instance ? instance : none;
+      std::optional<std::uint32_t>& maker = makers_[arc.place.value];
+      if (seen[arc.place.value] && maker != instance)
+        maker.reset();
+      else
+        maker = instance;
       seen[arc.place.value] = true;
     }
 }
 
 NetPlay::Obstacle NetPlay::obstacle(const Event& firing) const {
-  const std::uint32_t channel = channels_[firing.subject];
-  if ((firing.version != 0) != (channel != none)) return {.kind = Obstacle::Kind::never};
-  if (channel != none && knows_version(channel)) {
-    const std::uint32_t due = versions_[channel].due();
+  const net::ChannelId channel = channels_[firing.subject];
+  if ((firing.version != 0) != channel.valid()) return {.kind = Obstacle::Kind::never};
+  if (channel.valid() && knows_version(channel)) {
+    const std::uint32_t due = versions_[channel.value].due();
     if (firing.version != due)
       return {.kind = is_before(firing.version, due) ? Obstacle::Kind::never : Obstacle::Kind::version,
               .due = due};
@@ -69,16 +65,17 @@ NetPlay::Obstacle NetPlay::obstacle(const Event& firing) const {
   for (const Arc& arc : net_.preset(transitions_[firing.subject])) {
     if (net::suffices(marking_, arc)) continue;
     // All firings of the channel up to this one have been played, and so have those of its own subsystem.
-    const bool own = net_[arc.place].fused() ? channel != none && versions_[channel].is == Version::known
-                                             : makers_[arc.place.value] == firing.instance();
-    return {.kind = own ? Obstacle::Kind::never : Obstacle::Kind::token, .place = arc.place.value};
+    const bool own = net_[arc.place].fused()
+                         ? channel.valid() && versions_[channel.value].is == Version::known
+                         : makers_[arc.place.value] == firing.instance();
+    return {.kind = own ? Obstacle::Kind::never : Obstacle::Kind::token, .place = arc.place};
   }
   return {};
 }
 
 std::string NetPlay::complaint(const Event& firing, const Obstacle& obstacle) const {
   const std::string lacks =
-      obstacle.place != none ? fmt::format("'{}' holds no token", place_name(obstacle.place))
+      obstacle.place.valid() ? fmt::format("'{}' holds no token", place_name(obstacle.place))
       : obstacle.due != 0
           ? fmt::format("it is version {} of its channel, of which {} is due", firing.version, obstacle.due)
           : "it is recorded with the wrong kind of version";
@@ -88,9 +85,9 @@ std::string NetPlay::complaint(const Event& firing, const Obstacle& obstacle) co
 
 std::string NetPlay::fire(const Event& firing) {
   const TransitionId id = transitions_[firing.subject];
-  if (const std::uint32_t channel = channels_[firing.subject]; channel != none) {
-    versions_[channel].last = firing.version;
-    if (!knows_version(channel)) versions_[channel].is = Version::guessed;
+  if (const net::ChannelId channel = channels_[firing.subject]; channel.valid()) {
+    versions_[channel.value].last = firing.version;
+    if (!knows_version(channel)) versions_[channel.value].is = Version::guessed;
   }
   net::fire(net_, id, marking_);
   for (const Arc& arc : net_.postset(id))
@@ -126,13 +123,14 @@ void NetPlay::start_from(std::vector<std::uint32_t> marking) {
   versions_.assign(versions_.size(), {.last = 0, .is = Version::unknown});
 }
 
-std::uint32_t NetPlay::difference(const std::vector<std::uint32_t>& marking) const {
+net::PlaceId NetPlay::difference(const std::vector<std::uint32_t>& marking) const {
   const auto [ours, other] = std::ranges::mismatch(marking_, marking);
-  return ours == marking_.end() ? none : static_cast<std::uint32_t>(ours - marking_.begin());
+  if (ours == marking_.end()) return {};
+  return {static_cast<std::uint32_t>(ours - marking_.begin())};
 }
 
-void NetPlay::guess_version(std::uint32_t channel, std::uint32_t version) {
-  versions_[channel] = {.last = version == 1 ? UINT32_MAX : version - 1, .is = Version::guessed};
+void NetPlay::guess_version(net::ChannelId channel, std::uint32_t version) {
+  versions_[channel.value] = {.last = version == 1 ? UINT32_MAX : version - 1, .is = Version::guessed};
 }
 
 void NetPlay::confirm_versions() {

@@ -19,8 +19,6 @@ namespace tessera::replay {
 /// Threads: one at a time.
 class NetPlay {
  public:
-  static constexpr std::uint32_t none = UINT32_MAX;
-
   NetPlay(const Recording& recording, const net::Net& net);
   /// Why the recording does not belong to this net; empty: every transition was found. If it is not empty,
   /// nothing else may be called.
@@ -34,8 +32,8 @@ class NetPlay {
       version,  ///< version `due` of its channel comes first
       token     ///< it lacks a token that another subsystem or the upper layers give
     } kind = Kind::no;
-    std::uint32_t place = none;  ///< the place without a token
-    std::uint32_t due = 0;       ///< the version that comes first
+    net::PlaceId place{};   ///< the place without a token
+    std::uint32_t due = 0;  ///< the version that comes first
   };
   [[nodiscard]] Obstacle obstacle(const Event& firing) const;
   /// "2.500000 s: 'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
@@ -51,26 +49,25 @@ class NetPlay {
   /// Continues from this marking. The versions of the channels are then unknown.
   void start_from(std::vector<std::uint32_t> marking);
   /// The first place that holds another number of tokens; none: they are the same.
-  [[nodiscard]] std::uint32_t difference(const std::vector<std::uint32_t>& marking) const;
+  [[nodiscard]] net::PlaceId difference(const std::vector<std::uint32_t>& marking) const;
 
   [[nodiscard]] std::uint32_t channels() const { return static_cast<std::uint32_t>(versions_.size()); }
   /// The channel that a firing touches, or none.
-  [[nodiscard]] std::uint32_t channel_of(const Event& firing) const { return channels_[firing.subject]; }
-  [[nodiscard]] bool knows_version(std::uint32_t channel) const {
-    return versions_[channel].is != Version::unknown;
+  [[nodiscard]] net::ChannelId channel_of(const Event& firing) const { return channels_[firing.subject]; }
+  [[nodiscard]] bool knows_version(net::ChannelId channel) const {
+    return versions_[channel.value].is != Version::unknown;
   }
   /// The next firing of the channel carries this version, if none is missing.
-  void guess_version(std::uint32_t channel, std::uint32_t version);
+  void guess_version(net::ChannelId channel, std::uint32_t version);
   /// No firing was missing: the guessed versions are right.
   void confirm_versions();
 
   [[nodiscard]] const std::vector<std::uint32_t>& marking() const { return marking_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
-  [[nodiscard]] const std::string& place_name(std::uint32_t place) const { return net_.places()[place].name; }
+  [[nodiscard]] const std::string& place_name(net::PlaceId place) const { return net_[place].name; }
 
  private:
   [[nodiscard]] bool match_transitions();
-  [[nodiscard]] std::uint32_t channel_of(net::TransitionId id) const;
   void find_makers();
   struct Version {
     std::uint32_t last = 0;
@@ -84,9 +81,10 @@ class NetPlay {
   net::Marking marking_;
   std::uint64_t firings_ = 0;
   std::vector<net::TransitionId> transitions_;  // per transition of the recording
-  std::vector<std::uint32_t> channels_;         // per transition of the recording; none
-  std::vector<std::uint32_t> makers_;           // per place: the one instance that fills it, or none
-  std::vector<Version> versions_;               // per channel
+  std::vector<net::ChannelId> channels_;        // per transition of the recording
+  /// Per place: the instance of the recording that fills it; nullopt: none, or several.
+  std::vector<std::optional<std::uint32_t>> makers_;
+  std::vector<Version> versions_;                               // per channel
   std::unordered_map<std::string_view, std::uint32_t> places_;  // by name; empty: not needed yet
 };
 

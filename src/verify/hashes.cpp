@@ -22,7 +22,8 @@ std::string guard_of(const net::Condition& condition) {
     case Kind::error:
       return "error";
     case Kind::next:
-      return "next:" + std::to_string(condition.subject);
+      // No entry: the number that hashes have had for it from the start.
+      return "next:" + std::to_string(condition.entry.value_or(UINT32_MAX));
     case Kind::elapsed:
       return "elapsed";
   }
@@ -56,7 +57,9 @@ void fact(NetHash& hash, const std::string& text, std::uint64_t number = 0) {
 }
 
 std::uint64_t number_of(const net::Operation& operation) {
-  return static_cast<std::uint64_t>(operation.kind) << 24U | (operation.subject & 0xffffffU);
+  const std::uint32_t subject =
+      operation.behaviour.valid() ? operation.behaviour.value : operation.channel.value;
+  return static_cast<std::uint64_t>(operation.kind) << 24U | (subject & 0xffffffU);
 }
 
 }  // namespace
@@ -74,7 +77,7 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
     fact(hash, "place " + place.name, index);
     if (place.operation.kind != net::Operation::Kind::none)
       fact(hash, "operation at " + place.name, number_of(place.operation));
-    fact(hash, "owner of " + place.name, place.fused() ? place.channel : place.subsystem);
+    fact(hash, "owner of " + place.name, place.fused() ? place.channel.value : place.subsystem.value);
   }
   for (std::uint32_t index = 0; index < subject.net.transitions().size(); ++index) {
     const net::Transition& transition = subject.net.transitions()[index];

@@ -60,7 +60,8 @@ TEST_F(PaperLabels, NameBuffersByBothEnds) {
 
 TEST_F(PaperLabels, NameFunctionsAndConditions) {
   EXPECT_EQ(operation("robot[0].control.follow", 0), "^{c}f_{1,2}");
-  net::Condition condition{net::Condition::Kind::go_on, net::Condition::Truth::free, UINT32_MAX, "no error"};
+  net::Condition condition{
+      .kind = net::Condition::Kind::go_on, .truth = net::Condition::Truth::free, .text = "no error"};
   const auto text = [&] { return tex(labels_->condition(at("robot[0].control.follow"), condition).at(0)); };
   EXPECT_EQ(text(), "¬^{c}f^{τ}_{1,2} ∧ ¬^{c}f^{ε}_{1,2}");
   condition.kind = net::Condition::Kind::error;

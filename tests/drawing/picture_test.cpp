@@ -109,7 +109,7 @@ TEST(Picture, PutsAFusedPlaceOutsideTheFramesThatShareIt) {
   const auto frame_of = [&](const char* root, const char* path) {
     const Picture drawn = picture(built, root, Options::all);
     const auto found = std::ranges::find(drawn.circles, path, &Circle::path);
-    return found->frame == no_frame ? "outside" : drawn.frames[found->frame].name.plain();
+    return found->frame.valid() ? drawn.frames[found->frame.value].name.plain() : "outside";
   };
   EXPECT_EQ(frame_of("", "robot.control.motion->robot.motor.velocity.full"), "robot");
   EXPECT_EQ(frame_of("robot", "robot.control.motion->robot.motor.velocity.full"), "outside");

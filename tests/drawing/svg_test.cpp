@@ -80,8 +80,9 @@ TEST_F(SvgLayout, KeepsSymbolsApart) {
 TEST_F(SvgLayout, KeepsSymbolsInTheirFrames) {
   lay("", Options::all);
   for (std::size_t index = 0; index < picture_.circles.size(); ++index) {
-    if (picture_.circles[index].frame == no_frame) continue;
-    const Box& box = layout_.frames[picture_.circles[index].frame];
+    const FrameId frame = picture_.circles[index].frame;
+    if (!frame.valid()) continue;
+    const Box& box = layout_.frames[frame.value];
     EXPECT_GT(layout_.circles[index].x, box.left);
     EXPECT_LT(layout_.circles[index].x, box.right);
     EXPECT_GT(layout_.circles[index].y, box.top);

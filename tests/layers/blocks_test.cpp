@@ -129,7 +129,7 @@ TEST(Blocks, CarryTheirOperationsAndChannels) {
   for (const net::Place& place : built.net.places())
     if (place.operation.kind == net::Operation::Kind::write ||
         place.operation.kind == net::Operation::Kind::read)
-      operations.push_back(place.name + " " + std::to_string(place.operation.subject));
+      operations.push_back(place.name + " " + std::to_string(place.operation.channel.value));
   EXPECT_THAT(operations, ElementsAre("a.control.give.snd.y1.2 0", "a.control.give.snd.y2.2 1",
                                       "a.motor.take.rcv.x1.2 0", "a.motor.take.rcv.x2.2 1"));
 }

@@ -49,13 +49,13 @@ TEST(NamedTransition, AgreesWithTheRolesOfWhatTheLayersDraw) {
       if (!net) continue;  // not every valid file has a net
       for (std::uint32_t index = 0; index < net->transitions().size(); ++index) {
         const net::Transition& transition = net->transitions()[index];
-        if (transition.subsystem == net::no_subsystem) continue;
-        const net::Parts::Subsystem& owner = net->parts().subsystems[transition.subsystem];
+        if (!transition.subsystem.valid()) continue;
+        const net::Parts::Subsystem& owner = net->parts()[transition.subsystem];
         const NamedTransition read = named_transition(transition.name, owner.path);
         EXPECT_EQ(read.kind, drawn_as(*net, {index})) << transition.name;
         met.insert(read.kind);
-        if (transition.behaviour != net::no_index) {
-          EXPECT_EQ(read.behaviour, owner.behaviours[transition.behaviour]) << transition.name;
+        if (transition.behaviour.valid()) {
+          EXPECT_EQ(read.behaviour, owner.behaviours[transition.behaviour.value]) << transition.name;
         }
         EXPECT_EQ(read.overwrite, transition.role == net::TransitionRole::overwrite) << transition.name;
         EXPECT_EQ(read.skip, transition.role == net::TransitionRole::skip) << transition.name;

@@ -32,18 +32,18 @@ TEST(Pages, NameTheInstanceThatExecutesThem) {
   const auto instance = [&](const char* path) {
     return built.pages.pages[built.pages.find(path).value].subsystem;
   };
-  EXPECT_EQ(instance(""), net::no_subsystem);
-  EXPECT_EQ(instance("robot[1]"), net::no_subsystem);
-  EXPECT_EQ(instance("robot[0].motor"), 2U);
-  EXPECT_EQ(instance("robot[1].control"), 3U);
-  EXPECT_EQ(instance("robot[1].sensor.watch.snd"), 4U);
+  EXPECT_EQ(instance(""), net::SubsystemId{});
+  EXPECT_EQ(instance("robot[1]"), net::SubsystemId{});
+  EXPECT_EQ(instance("robot[0].motor"), net::SubsystemId{2});
+  EXPECT_EQ(instance("robot[1].control"), net::SubsystemId{3});
+  EXPECT_EQ(instance("robot[1].sensor.watch.snd"), net::SubsystemId{4});
 }
 
 TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {
   const Built built = build(line_follower());
   const net::Page& follow = built.pages.pages[built.pages.find("robot.control.follow").value];
   EXPECT_EQ(follow.nodes[follow.input].operation,
-            (net::Operation{net::Operation::Kind::transition_function, 1}));
+            (net::Operation{net::Operation::Kind::transition_function, {1}}));
   EXPECT_EQ(follow.nodes[2].operation.kind, net::Operation::Kind::next_iteration);
 }
 

@@ -24,7 +24,7 @@ HierarchicalNet nested() {
   net.pages.push_back({.name = "work",
                        .layer = Layer::agent,
                        .parent = PageId{0},
-                       .subsystem = 7,
+                       .subsystem = {7},
                        .input = 0,
                        .output = 1,
                        .nodes = {Node{.name = "in"}, Node{.name = "out"}},
@@ -72,7 +72,7 @@ TEST(Flatten, KeepsTheOriginOfEveryElement) {
   ASSERT_TRUE(net);
   EXPECT_EQ(net->places()[2].page, PageId{1});
   EXPECT_EQ(net->places()[2].layer, Layer::agent);
-  EXPECT_EQ(net->places()[2].subsystem, 7U);
+  EXPECT_EQ(net->places()[2].subsystem, SubsystemId{7});
   EXPECT_EQ(net->places()[2].span, (Span{4, 2, 1}));
   EXPECT_EQ(net->transitions()[2].page, PageId{1});
   EXPECT_FALSE(net->places()[2].fused());
@@ -118,7 +118,7 @@ TEST(Flatten, MergesAFusionSetIntoOnePlaceAtTheEnd) {
                                          "work.t: work.in + lock -> work.out"));
   const Place& lock = net->places().back();
   EXPECT_TRUE(lock.fused());
-  EXPECT_EQ(lock.channel, 3U);
+  EXPECT_EQ(lock.channel, ChannelId{3});
   EXPECT_EQ(lock.operation.kind, Operation::Kind::write);
   EXPECT_FALSE(lock.page.valid());
 }

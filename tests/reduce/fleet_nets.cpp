@@ -20,10 +20,10 @@ net::Net fleet_net(const Fleet& fleet) {
 std::vector<std::vector<net::TransitionId>> per_subsystem(const net::Net& net) {
   std::vector<std::vector<net::TransitionId>> sets;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
-    const std::uint32_t subsystem = net.transitions()[index].subsystem;
-    if (subsystem == net::no_subsystem) continue;
-    if (sets.size() <= subsystem) sets.resize(subsystem + 1);
-    sets[subsystem].push_back({index});
+    const net::SubsystemId subsystem = net.transitions()[index].subsystem;
+    if (!subsystem.valid()) continue;
+    if (sets.size() <= subsystem.value) sets.resize(subsystem.value + 1);
+    sets[subsystem.value].push_back({index});
   }
   return sets;
 }

@@ -128,7 +128,7 @@ TEST(Coverage, AnEntryOfNextIsFalseOnlyWhenALaterOneIsTaken) {
                      to = net.add(net::Place{.name = "to"});
   for (std::uint32_t entry = 0; entry < 3; ++entry) {
     net::Condition condition{.kind = net::Condition::Kind::next, .truth = net::Condition::Truth::free};
-    condition.subject = entry;
+    condition.entry = entry;
     const net::Arc in{from}, out{to};
     net.add(net::Transition{.name = "entry" + std::to_string(entry), .condition = condition}, {&in, 1},
             {&out, 1});

@@ -23,14 +23,15 @@ inline Recording random_run(const net::Net& net, std::size_t firings, Random& ra
   recording.clock = "simulated";
   std::uint32_t instances = 0;
   for (const net::Transition& transition : net.transitions()) {
-    recording.transitions.push_back({transition.name, transition.subsystem});
-    if (transition.subsystem != net::no_subsystem) instances = std::max(instances, transition.subsystem + 1);
+    recording.transitions.push_back({transition.name, transition.subsystem.value});
+    if (transition.subsystem.valid()) instances = std::max(instances, transition.subsystem.value + 1);
   }
   for (std::uint32_t index = 0; index < instances; ++index)
     recording.instances.push_back("s" + std::to_string(index));
   std::vector<std::uint32_t> marking;
   for (const net::Place& place : net.places()) marking.push_back(place.tokens);
-  std::map<std::uint32_t, std::uint32_t> versions, sequences;
+  std::map<net::ChannelId, std::uint32_t> versions;
+  std::map<std::uint32_t, std::uint32_t> sequences;
   for (std::size_t step = 0; step < firings; ++step) {
     std::vector<std::uint32_t> enabled;
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
@@ -46,7 +47,7 @@ inline Recording random_run(const net::Net& net, std::size_t firings, Random& ra
         marking[arc.place.value] += static_cast<std::uint32_t>(change);
         if (net[arc.place].fused() && event.version == 0) event.version = ++versions[net[arc.place].channel];
       }
-    const std::uint32_t instance = net[id].subsystem == net::no_subsystem ? upper_layers : net[id].subsystem;
+    const std::uint32_t instance = net[id].subsystem.valid() ? net[id].subsystem.value : upper_layers;
     event.sequence = sequences[instance]++;
     event.origin = instance << 8 | static_cast<std::uint32_t>(Event::Kind::firing);
     recording.entries.push_back({event, {}});

@@ -119,7 +119,7 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
   const json part = get("/api/recordings/run.tsr?from=40&to=60").json();
   EXPECT_EQ(part.at("firings"), json({{40, second}}));
   server::MarkingTracker tokens(*analysis_.net);
-  tokens.fire(first);
+  tokens.fire({first});
   EXPECT_EQ(part.at("marking"), json(tokens.marked()));
   EXPECT_EQ(part.at("values").at("robot.control.line.left"), json({{40, true}}));
   for (const json& one : {whole, part}) {

@@ -98,9 +98,8 @@ class RunEnd {
  public:
   RunEnd(const net::Net& net, std::set<std::uint32_t> can_fire) : net_(net), can_fire_(std::move(can_fire)) {
     for (const std::uint32_t transition : can_fire_)
-      if (const std::uint32_t subsystem = net.transitions()[transition].subsystem;
-          subsystem != net::no_subsystem)
-        moving_.insert(net.parts().subsystems[subsystem].path);
+      if (const net::SubsystemId subsystem = net.transitions()[transition].subsystem; subsystem.valid())
+        moving_.insert(net.parts()[subsystem].path);
   }
 
   void expect_true(const std::string& wait) const {
@@ -146,8 +145,8 @@ class RunEnd {
   [[nodiscard]] bool gives(const std::string& who, const std::string& place) const {
     const auto there = [&](const net::Arc& arc) { return net_[arc.place].name == place; };
     return std::ranges::any_of(can_fire_, [&](std::uint32_t transition) {
-      const std::uint32_t subsystem = net_.transitions()[transition].subsystem;
-      return subsystem != net::no_subsystem && net_.parts().subsystems[subsystem].path == who &&
+      const net::SubsystemId subsystem = net_.transitions()[transition].subsystem;
+      return subsystem.valid() && net_.parts()[subsystem].path == who &&
              std::ranges::any_of(net_.postset({transition}), there) &&
              std::ranges::none_of(net_.preset({transition}), there);
     });
@@ -162,7 +161,7 @@ class RunEnd {
 void expect_fitting_endings(const spec::Model& model, const net::Net& net,
                             const std::vector<net::TransitionId>& run, bool failures) {
   using Kind = net::Condition::Kind;
-  std::map<std::uint32_t, std::pair<const spec::Behaviour*, bool>> ended;  // per subsystem: terminal?
+  std::map<net::SubsystemId, std::pair<const spec::Behaviour*, bool>> ended;  // terminal?
   for (const net::TransitionId id : run) {
     const net::Transition& fired = net[id];
     const Kind kind = fired.condition.kind;
@@ -170,7 +169,7 @@ void expect_fitting_endings(const spec::Model& model, const net::Net& net,
       ended[fired.subsystem] = {test::behaviour_of(model, fired), kind == Kind::terminal};
     if (kind != Kind::next) continue;
     const auto [behaviour, terminal] = ended.at(fired.subsystem);
-    const int entry = fired.name.ends_with(" none") ? -1 : static_cast<int>(fired.condition.subject);
+    const int entry = fired.condition.entry ? static_cast<int>(*fired.condition.entry) : -1;
     const test::NaiveEndings endings = test::try_endings(*behaviour);
     const bool fits = terminal ? endings.after(spec::Ending::terminal).contains(entry)
                                : endings.after(spec::Ending::error).contains(entry) ||

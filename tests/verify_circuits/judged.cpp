@@ -30,7 +30,7 @@ namespace {
 
 std::string text_of(const verify::Communication& communication) {
   std::string text = communication.side == verify::Side::send ? "send " : "receive ";
-  text += std::to_string(communication.channel);
+  text += std::to_string(communication.flow.value);
   if (communication.blocking) text += "!";
   if (communication.timeout) text += "~";
   return text;

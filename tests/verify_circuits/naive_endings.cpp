@@ -136,7 +136,7 @@ bool possible(const net::Condition& condition, const NaiveEndings& endings, bool
     case net::Condition::Kind::error:
       return failures || endings.ends(Ending::error);
     case net::Condition::Kind::next:
-      return taken(endings, static_cast<int>(condition.subject), failures);
+      return taken(endings, static_cast<int>(condition.entry.value()), failures);
     default:
       return true;
   }
@@ -168,10 +168,11 @@ const Behaviour* behaviour_of(const spec::Model& model, const net::Transition& t
   const Kind kind = transition.condition.kind;
   if (kind != Kind::go_on && kind != Kind::terminal && kind != Kind::error && kind != Kind::next)
     return nullptr;
-  const std::string local = transition.name.substr(model.instance_path(transition.subsystem).size() + 1);
+  const std::string local =
+      transition.name.substr(model.instance_path(transition.subsystem.value).size() + 1);
   const std::string name =
       kind == Kind::next ? local.substr(2, local.rfind('_') - 2) : local.substr(0, local.find('.'));
-  for (const Behaviour& behaviour : model.subsystem(transition.subsystem).behaviours)
+  for (const Behaviour& behaviour : model.subsystem(transition.subsystem.value).behaviours)
     if (behaviour.name == name) return &behaviour;
   return nullptr;
 }

@@ -22,14 +22,14 @@ json names_of(const net::Net& net, std::span<const net::Arc> arcs) {
 
 json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
                   const std::vector<net::TransitionId>& run) {
-  const std::vector<net::Parts::Subsystem>& subsystems = net.parts().subsystems;
   json firings = json::array();
   for (const net::TransitionId id : run) {
     const net::Transition& transition = net[id];
     json firing{{"transition", transition.name},
                 {"takes", names_of(net, net.preset(id))},
                 {"gives", names_of(net, net.postset(id))}};
-    if (transition.subsystem < subsystems.size()) firing["subsystem"] = subsystems[transition.subsystem].path;
+    if (transition.subsystem.value < net.parts().subsystems.size())
+      firing["subsystem"] = net.parts()[transition.subsystem].path;
     if (pages != nullptr && transition.page.valid()) firing["page"] = pages->path(transition.page);
     if (transition.span.line > 0) firing["line"] = transition.span.line;
     firings.push_back(std::move(firing));

@@ -47,8 +47,7 @@ std::string listed(const net::Net& net, const std::vector<net::TransitionId>& ru
 }
 
 bool of_layers(const net::Net& net) {
-  return std::ranges::any_of(net.places(),
-                             [](const net::Place& place) { return place.subsystem != net::no_subsystem; });
+  return std::ranges::any_of(net.places(), [](const net::Place& place) { return place.subsystem.valid(); });
 }
 
 }  // namespace
@@ -73,20 +72,21 @@ namespace {
 
 /// The marked places of channels at the end of a run, for the channels that a subsystem in it uses.
 std::vector<std::string> channels_after(const net::Net& net, const std::vector<net::TransitionId>& run) {
-  std::set<std::uint32_t> acting, used;
+  std::set<net::SubsystemId> acting;
+  std::set<net::PlaceId> used;
   for (const net::TransitionId id : run) acting.insert(net[id].subsystem);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
-    if (net[id].subsystem == net::no_subsystem || !acting.contains(net[id].subsystem)) continue;
+    if (!net[id].subsystem.valid() || !acting.contains(net[id].subsystem)) continue;
     for (const auto arcs : {net.preset(id), net.postset(id)})
       for (const net::Arc& arc : arcs)
-        if (net[arc.place].fused()) used.insert(arc.place.value);
+        if (net[arc.place].fused()) used.insert(arc.place);
   }
   std::vector<std::string> names;
   const std::optional<explore::Marking> end = explore::replay(explore::PtNet(net), run);
   if (!end) return names;
-  for (const std::uint32_t place : used)
-    if ((*end)[place] > 0) names.push_back(net.places()[place].name);
+  for (const net::PlaceId place : used)
+    if ((*end)[place.value] > 0) names.push_back(net[place].name);
   return names;
 }
 

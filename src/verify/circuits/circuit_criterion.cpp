@@ -12,7 +12,6 @@ namespace tessera::verify {
 namespace {
 
 using Edge = EventGraph::Edge;
-constexpr std::uint32_t absent = UINT32_MAX;
 
 /// The numbers of the groups of subsystems that are joined by channels at which one of them may have to wait.
 std::vector<std::uint32_t> groups_of(const CommunicationStructure& structure) {
@@ -23,8 +22,8 @@ std::vector<std::uint32_t> groups_of(const CommunicationStructure& structure) {
     return at;
   };
   for (const ChannelFlow& channel : structure.channels)
-    if (channel.sender && channel.receiver && holds_up(channel)) {
-      const std::uint32_t a = find(*channel.sender), b = find(*channel.receiver);
+    if (channel.sender.valid() && channel.receiver.valid() && holds_up(channel)) {
+      const std::uint32_t a = find(channel.sender.value), b = find(channel.receiver.value);
       leader[std::max(a, b)] = std::min(a, b);
     }
   std::vector<std::uint32_t> number(leader.size());
@@ -36,7 +35,7 @@ std::vector<std::uint32_t> groups_of(const CommunicationStructure& structure) {
 
 /// The events of one channel in the rounds of its two subsystems.
 struct ChannelEvents {
-  std::uint32_t send = absent, wait = absent, receive = absent;
+  std::optional<std::uint32_t> send, wait, receive;
   bool primed = false;
 };
 
@@ -46,8 +45,8 @@ class Drawing {
   Drawing(const CommunicationStructure& structure, const std::vector<Folded>& folded)
       : structure_(structure), events(structure.channels.size()) {
     for (std::uint32_t subsystem = 0; subsystem < folded.size(); ++subsystem)
-      if (folded[subsystem].why_not.empty()) draw_round(subsystem, folded[subsystem]);
-    for (std::uint32_t channel = 0; channel < events.size(); ++channel) draw_channel(channel);
+      if (folded[subsystem].why_not.empty()) draw_round({subsystem}, folded[subsystem]);
+    for (std::uint32_t channel = 0; channel < events.size(); ++channel) draw_channel({channel});
     graph.close();
   }
 
@@ -59,31 +58,31 @@ class Drawing {
   std::vector<ChannelEvents> events;  // per channel
 
  private:
-  void draw_round(std::uint32_t subsystem, const Folded& folded) {
+  void draw_round(SubsystemFlowId subsystem, const Folded& folded) {
     const std::uint32_t start = graph.node(subsystem);
     std::uint32_t at = start;
     for (const Stage& stage : folded.cycle) at = draw_stage(subsystem, stage, at);
     graph.edge({.from = at, .to = start, .token = true});
-    for (const std::uint32_t channel : folded.primed) events[channel].primed = true;
+    for (const ChannelFlowId channel : folded.primed) events[channel.value].primed = true;
   }
 
   /// Returns the event after which the stage is over.
-  std::uint32_t draw_stage(std::uint32_t subsystem, const Stage& stage, std::uint32_t before) {
+  std::uint32_t draw_stage(SubsystemFlowId subsystem, const Stage& stage, std::uint32_t before) {
     std::vector<std::uint32_t> ends;
     for (const Communication& communication : stage) {
       const std::uint32_t event = graph.node(subsystem);
       graph.edge({.from = before, .to = event});
-      ChannelEvents& channel = events[communication.channel];
+      ChannelEvents& channel = events[communication.flow.value];
       if (communication.side == Side::receive) {
         channel.receive = event;
       } else {
         channel.send = event;
-        if (waits_to_send(structure_.channels[communication.channel])) {
+        if (waits_to_send(structure_[communication.flow])) {
           channel.wait = graph.node(subsystem);
-          graph.edge({.from = event, .to = channel.wait});
+          graph.edge({.from = event, .to = *channel.wait});
         }
       }
-      ends.push_back(communication.side == Side::send && channel.wait != absent ? channel.wait : event);
+      ends.push_back(communication.side == Side::send ? channel.wait.value_or(event) : event);
     }
     if (ends.size() == 1) return ends.front();
     const std::uint32_t join = graph.node(subsystem);
@@ -91,13 +90,12 @@ class Drawing {
     return join;
   }
 
-  void draw_channel(std::uint32_t index) {
-    const ChannelFlow& channel = structure_.channels[index];
-    const ChannelEvents& at = events[index];
-    if (at.send != absent && at.receive != absent && waits_to_receive(channel))
-      graph.edge({at.send, at.receive, at.primed, channel.send_timeout, index});
-    if (at.wait != absent && at.receive != absent)
-      graph.edge({at.receive, at.wait, false, !waits_to_receive(channel), index});
+  void draw_channel(ChannelFlowId id) {
+    const ChannelFlow& channel = structure_[id];
+    const ChannelEvents& at = events[id.value];
+    if (at.send && at.receive && waits_to_receive(channel))
+      graph.edge({*at.send, *at.receive, at.primed, channel.send_timeout, id});
+    if (at.wait && at.receive) graph.edge({*at.receive, *at.wait, false, !waits_to_receive(channel), id});
   }
 };
 
@@ -116,7 +114,7 @@ class Judgement {
     report_.groups.resize(groups);
     for (std::uint32_t subsystem = 0; subsystem < group_of_.size(); ++subsystem) {
       CircuitGroup& group = report_.groups[group_of_[subsystem]];
-      group.subsystems.push_back(subsystem);
+      group.subsystems.push_back({subsystem});
       if (group.why_not.empty()) group.why_not = folded_[subsystem].why_not;
     }
     find_free_of_tokens();
@@ -133,7 +131,7 @@ class Judgement {
     std::vector<Folded> all;
     std::vector<std::string> refused(structure_.subsystems.size());  // per group
     for (std::uint32_t subsystem = 0; subsystem < structure_.subsystems.size(); ++subsystem) {
-      all.push_back(fold(structure_.subsystems[subsystem], structure_.channels));
+      all.push_back(fold(structure_.subsystems[subsystem], structure_));
       if (!all.back().why_not.empty()) refused[group_of_[subsystem]] = all.back().why_not;
     }
     for (std::uint32_t subsystem = 0; subsystem < all.size(); ++subsystem)
@@ -141,8 +139,14 @@ class Judgement {
     return all;
   }
 
+  [[nodiscard]] CircuitGroup& group_of(SubsystemFlowId subsystem) {
+    return report_.groups[group_of_[subsystem.value]];
+  }
+  [[nodiscard]] const CircuitGroup& group_of(SubsystemFlowId subsystem) const {
+    return report_.groups[group_of_[subsystem.value]];
+  }
   [[nodiscard]] CircuitGroup& group_of_event(std::uint32_t event) {
-    return report_.groups[group_of_[drawing_.graph.subsystem(event)]];
+    return group_of(drawing_.graph.subsystem(event));
   }
 
   void find_free_of_tokens() {
@@ -165,23 +169,22 @@ class Judgement {
     for (std::uint32_t index = 0; index < structure_.channels.size(); ++index) {
       const ChannelFlow& channel = structure_.channels[index];
       const ChannelEvents& events = drawing_.events[index];
-      if (events.receive != absent && waits_to_receive(channel))
-        examine_peer(index, Side::receive, events.receive, channel.sender, events.send == absent);
-      if (events.wait != absent)
-        examine_peer(index, Side::send, events.wait, channel.receiver, events.receive == absent);
+      if (events.receive && waits_to_receive(channel))
+        examine_peer({index}, Side::receive, *events.receive, channel.sender, !events.send);
+      if (events.wait) examine_peer({index}, Side::send, *events.wait, channel.receiver, !events.receive);
     }
   }
 
-  void examine_peer(std::uint32_t channel, Side side, std::uint32_t event, std::optional<std::uint32_t> peer,
+  void examine_peer(ChannelFlowId channel, Side side, std::uint32_t event, SubsystemFlowId peer,
                     bool peer_absent) {
-    const std::uint32_t subsystem = drawing_.graph.subsystem(event);
-    const bool may_end = peer && *peer != subsystem && folded_[*peer].can_end;
+    const SubsystemFlowId subsystem = drawing_.graph.subsystem(event);
+    const bool may_end = peer.valid() && peer != subsystem && folded_[peer.value].can_end;
     if (!peer_absent && !may_end) return;
     if (peer_absent) sources_.push_back(event);
-    CircuitGroup& group = report_.groups[group_of_[subsystem]];
+    CircuitGroup& group = group_of(subsystem);
     if (group.cause != CircuitGroup::Cause::none) return;
     group.cause = peer_absent ? CircuitGroup::Cause::peer_absent : CircuitGroup::Cause::peer_ended;
-    group.circuit = {{subsystem, channel, side, peer.value_or(absent)}};
+    group.circuit = {{subsystem, channel, side, peer}};
   }
 
   /// The edge lies on a circuit of edges that pass the filter. The first circuit of a group is kept.
@@ -195,10 +198,10 @@ class Judgement {
     // An edge leads from what is waited for to who waits; told from the one who waits.
     std::ranges::reverse(circuit);
     for (const Edge& step : circuit)
-      if (step.channel != absent)
+      if (step.channel.valid())
         group.circuit.push_back(
             {drawing_.graph.subsystem(step.to), step.channel,
-             drawing_.events[step.channel].receive == step.to ? Side::receive : Side::send,
+             drawing_.events[step.channel.value].receive == step.to ? Side::receive : Side::send,
              drawing_.graph.subsystem(step.from)});
   }
 
@@ -207,35 +210,36 @@ class Judgement {
     stuck_.assign(structure_.subsystems.size(), false);
     const std::vector<bool> reached = drawing_.graph.reached(sources_);
     for (std::uint32_t event = 0; event < reached.size(); ++event)
-      if (reached[event]) stuck_[drawing_.graph.subsystem(event)] = true;
+      if (reached[event]) stuck_[drawing_.graph.subsystem(event).value] = true;
     spread_endings();
     for (std::uint32_t subsystem = 0; subsystem < stuck_.size(); ++subsystem)
-      if (stuck_[subsystem]) report_.groups[group_of_[subsystem]].stuck.push_back(subsystem);
+      if (stuck_[subsystem]) group_of({subsystem}).stuck.push_back({subsystem});
   }
 
   /// A subsystem that depends on another one which may end can get stuck; its own end does not count. So it
   /// is enough to remember two that may end for each event.
   void spread_endings() {
     const EventGraph& graph = drawing_.graph;
-    std::vector<std::array<std::uint32_t, 2>> endings(graph.size(), {absent, absent});
+    std::vector<std::array<SubsystemFlowId, 2>> endings(graph.size());
     std::vector<std::uint32_t> open;
-    const auto note = [&](std::uint32_t event, std::uint32_t subsystem) {
+    const auto note = [&](std::uint32_t event, SubsystemFlowId subsystem) {
       auto& [first, second] = endings[event];
-      if (subsystem == absent || first == subsystem || second != absent) return;
-      (first == absent ? first : second) = subsystem;
+      if (!subsystem.valid() || first == subsystem || second.valid()) return;
+      (first.valid() ? second : first) = subsystem;
       open.push_back(event);
     };
     for (std::uint32_t event = 0; event < graph.size(); ++event)
-      if (folded_[graph.subsystem(event)].can_end) note(event, graph.subsystem(event));
+      if (folded_[graph.subsystem(event).value].can_end) note(event, graph.subsystem(event));
     while (!open.empty()) {
       const std::uint32_t event = open.back();
       open.pop_back();
       for (const Edge& edge : graph.from(event))
-        for (const std::uint32_t subsystem : endings[event]) note(edge.to, subsystem);
+        for (const SubsystemFlowId subsystem : endings[event]) note(edge.to, subsystem);
     }
     for (std::uint32_t event = 0; event < graph.size(); ++event)
-      for (const std::uint32_t subsystem : endings[event])
-        if (subsystem != absent && subsystem != graph.subsystem(event)) stuck_[graph.subsystem(event)] = true;
+      for (const SubsystemFlowId subsystem : endings[event])
+        if (subsystem.valid() && subsystem != graph.subsystem(event))
+          stuck_[graph.subsystem(event).value] = true;
   }
 
   void decide() {
@@ -244,8 +248,9 @@ class Judgement {
       all_apply = all_apply && group.applies();
       if (!group.applies()) continue;
       some_stuck = some_stuck || !group.stuck.empty();
-      for (const std::uint32_t subsystem : group.subsystems)
-        some_run_for_ever = some_run_for_ever || (!stuck_[subsystem] && !folded_[subsystem].can_end);
+      for (const SubsystemFlowId subsystem : group.subsystems)
+        some_run_for_ever =
+            some_run_for_ever || (!stuck_[subsystem.value] && !folded_[subsystem.value].can_end);
     }
     const auto otherwise = [](bool known, Answer answer) { return known ? answer : Answer::unknown; };
     report_.goes_on = some_stuck ? Answer::no : otherwise(all_apply, Answer::yes);
@@ -254,7 +259,8 @@ class Judgement {
   }
 
   void decide_channels() {
-    for (std::uint32_t channel = 0; channel < structure_.channels.size(); ++channel) {
+    for (std::uint32_t index = 0; index < structure_.channels.size(); ++index) {
+      const ChannelFlowId channel{index};
       const Answer answer = flows(channel);
       if (answer == Answer::no) report_.dry.push_back(channel);
       if (answer == Answer::unknown) report_.unclear.push_back(channel);
@@ -265,36 +271,36 @@ class Judgement {
   }
 
   /// Does the subsystem for ever come back to its side of the channel?
-  [[nodiscard]] Answer comes_back(std::uint32_t subsystem, std::uint32_t channel, Side side) const {
-    if (!report_.groups[group_of_[subsystem]].applies() || folded_[subsystem].can_end) return Answer::unknown;
-    if (stuck_[subsystem]) return Answer::no;
-    return always_uses_again(structure_.subsystems[subsystem], channel, side) ? Answer::yes : Answer::no;
+  [[nodiscard]] Answer comes_back(SubsystemFlowId subsystem, ChannelFlowId channel, Side side) const {
+    if (!group_of(subsystem).applies() || folded_[subsystem.value].can_end) return Answer::unknown;
+    if (stuck_[subsystem.value]) return Answer::no;
+    return always_uses_again(structure_[subsystem], channel, side) ? Answer::yes : Answer::no;
   }
 
-  [[nodiscard]] Answer flows(std::uint32_t index) const {
-    const ChannelFlow& channel = structure_.channels[index];
-    if (!channel.receiver) return Answer::unknown;
-    const Answer received = comes_back(*channel.receiver, index, Side::receive);
+  [[nodiscard]] Answer flows(ChannelFlowId id) const {
+    const ChannelFlow& channel = structure_[id];
+    if (!channel.receiver.valid()) return Answer::unknown;
+    const Answer received = comes_back(channel.receiver, id, Side::receive);
     if (received != Answer::yes) return received;
-    if (!channel.always_readable && !channel.sender) return Answer::no;
+    if (!channel.always_readable && !channel.sender.valid()) return Answer::no;
     if (channel.always_readable) return Answer::yes;
-    const Answer sent = comes_back(*channel.sender, index, Side::send);
-    if (sent == Answer::unknown && folded_[*channel.sender].can_end &&
-        report_.groups[group_of_[*channel.sender]].applies())
+    const Answer sent = comes_back(channel.sender, id, Side::send);
+    if (sent == Answer::unknown && folded_[channel.sender.value].can_end &&
+        group_of(channel.sender).applies())
       return Answer::no;  // it may end while the receiver goes on
     if (sent != Answer::yes) return sent;
     // A value stays until it is read, unless its sender may take it back while its receiver passes by.
     if (!channel.send_timeout || waits_to_receive(channel)) return Answer::yes;
-    return meet(*channel.sender, *channel.receiver) ? Answer::yes : Answer::unknown;
+    return meet(channel.sender, channel.receiver) ? Answer::yes : Answer::unknown;
   }
 
   /// If one of them never depends on the other, it can wait at the channel until the other comes.
-  [[nodiscard]] bool meet(std::uint32_t a, std::uint32_t b) const {
-    if (group_of_[a] != group_of_[b]) return true;
+  [[nodiscard]] bool meet(SubsystemFlowId a, SubsystemFlowId b) const {
+    if (group_of_[a.value] != group_of_[b.value]) return true;
     return !depends(a, b) || !depends(b, a);
   }
 
-  [[nodiscard]] bool depends(std::uint32_t subsystem, std::uint32_t on) const {
+  [[nodiscard]] bool depends(SubsystemFlowId subsystem, SubsystemFlowId on) const {
     std::vector<std::uint32_t> events;
     for (std::uint32_t event = 0; event < drawing_.graph.size(); ++event)
       if (drawing_.graph.subsystem(event) == on) events.push_back(event);
@@ -323,11 +329,10 @@ std::string in_words(const CommunicationStructure& structure, const CircuitGroup
   std::string text;
   for (const Wait& wait : group.circuit) {
     if (!text.empty()) text += "; ";
-    const std::string peer =
-        wait.waiting_for == absent ? "nobody" : structure.subsystems[wait.waiting_for].name;
-    text += structure.subsystems[wait.subsystem].name +
+    const std::string peer = wait.waiting_for.valid() ? structure[wait.waiting_for].name : "nobody";
+    text += structure[wait.subsystem].name +
             (wait.side == Side::send ? " waits for the acknowledgement of " : " waits for a value of ") +
-            structure.channels[wait.channel].name + " from " + peer;
+            structure[wait.channel].name + " from " + peer;
   }
   return text;
 }

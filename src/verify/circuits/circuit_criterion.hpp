@@ -8,13 +8,12 @@
 
 namespace tessera::verify {
 
-/// One subsystem waits at a channel for what another one has to do there first. All numbers are indices
-/// into the structure.
+/// One subsystem waits at a channel for what another one has to do there first.
 struct Wait {
-  std::uint32_t subsystem = 0;
-  std::uint32_t channel = 0;
-  Side side = Side::receive;  ///< send: waits for the acknowledgement; receive: for a value
-  std::uint32_t waiting_for = 0;
+  SubsystemFlowId subsystem;
+  ChannelFlowId channel;
+  Side side = Side::receive;    ///< send: waits for the acknowledgement; receive: for a value
+  SubsystemFlowId waiting_for;  ///< none: nobody uses the other end
 };
 
 /// Subsystems that are joined by channels at which one of them may have to wait.
@@ -27,11 +26,11 @@ struct CircuitGroup {
     peer_absent  ///< a subsystem waits for one that never uses the channel (again)
   };
 
-  std::vector<std::uint32_t> subsystems;
+  std::vector<SubsystemFlowId> subsystems;
   std::string why_not;  ///< why the criterion does not apply to the group; empty: it applies
   Cause cause = Cause::none;
-  std::vector<Wait> circuit;         ///< each waits for the next; in a circuit, the last waits for the first
-  std::vector<std::uint32_t> stuck;  ///< those that can get stuck for ever, in some reachable marking
+  std::vector<Wait> circuit;  ///< each waits for the next; in a circuit, the last waits for the first
+  std::vector<SubsystemFlowId> stuck;  ///< those that can get stuck for ever, in some reachable marking
 
   [[nodiscard]] bool applies() const { return why_not.empty(); }
 };
@@ -43,8 +42,8 @@ struct CircuitReport {
   Answer goes_on = Answer::unknown;
   Answer deadlock_free = Answer::unknown;
   Answer channels_flow = Answer::unknown;
-  std::vector<std::uint32_t> dry;  ///< channels that can reach a state from which nothing is received again
-  std::vector<std::uint32_t> unclear;  ///< channels that this analysis cannot decide
+  std::vector<ChannelFlowId> dry;  ///< channels that can reach a state from which nothing is received again
+  std::vector<ChannelFlowId> unclear;  ///< channels that this analysis cannot decide
 };
 
 /// Decides goes_on, deadlock_free and channels_flow where every subsystem repeats one cyclic sequence of

@@ -77,7 +77,7 @@ class Tarjan {
 
 }  // namespace
 
-std::uint32_t EventGraph::node(std::uint32_t subsystem) {
+std::uint32_t EventGraph::node(SubsystemFlowId subsystem) {
   subsystem_.push_back(subsystem);
   return static_cast<std::uint32_t>(subsystem_.size() - 1);
 }

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "verify/communication/communication.hpp"
+
 namespace tessera::verify {
 
 /// A marked graph, as a directed graph whose edges may hold tokens. Some of its edges may lose tokens
@@ -15,16 +17,16 @@ class EventGraph {
     std::uint32_t from = 0, to = 0;
     bool token = false;  ///< initially
     bool lossy = false;
-    std::uint32_t channel = UINT32_MAX;  ///< UINT32_MAX: two events of one subsystem, in its order
+    ChannelFlowId channel{};  ///< none: two events of one subsystem, in its order
   };
 
-  std::uint32_t node(std::uint32_t subsystem);
+  std::uint32_t node(SubsystemFlowId subsystem);
   void edge(Edge edge) { edges_.push_back(edge); }
   /// Sorts the edges by their origin; edge numbers are valid from here on.
   void close();
 
   [[nodiscard]] std::size_t size() const { return subsystem_.size(); }
-  [[nodiscard]] std::uint32_t subsystem(std::uint32_t node) const { return subsystem_[node]; }
+  [[nodiscard]] SubsystemFlowId subsystem(std::uint32_t node) const { return subsystem_[node]; }
   [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
   [[nodiscard]] std::span<const Edge> from(std::uint32_t node) const {
     return std::span(edges_).subspan(starts_[node], starts_[node + 1] - starts_[node]);
@@ -40,7 +42,7 @@ class EventGraph {
   [[nodiscard]] std::vector<Edge> path(std::uint32_t from, std::uint32_t to, const Filter& filter) const;
 
  private:
-  std::vector<std::uint32_t> subsystem_;  // per node
+  std::vector<SubsystemFlowId> subsystem_;  // per node
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> starts_;
 };

@@ -28,15 +28,15 @@ Flags followers(const SubsystemFlow& subsystem, std::uint32_t start) {
 }
 
 /// The stages of a behaviour, without the channels at which no subsystem may have to wait (holds_up).
-std::vector<Stage> essence(const BehaviourFlow& behaviour, const std::vector<ChannelFlow>& channels) {
+std::vector<Stage> essence(const BehaviourFlow& behaviour, const CommunicationStructure& structure) {
   std::vector<Stage> stages;
   for (const Stage& stage : behaviour.stages) {
     Stage kept;
     std::ranges::copy_if(stage, std::back_inserter(kept), [&](const Communication& communication) {
-      return holds_up(channels[communication.channel]);
+      return holds_up(structure[communication.flow]);
     });
     std::ranges::sort(kept, {}, [](const Communication& communication) {
-      return std::tuple(communication.channel, communication.side);
+      return std::tuple(communication.flow, communication.side);
     });
     if (!kept.empty()) stages.push_back(std::move(kept));
   }
@@ -45,10 +45,10 @@ std::vector<Stage> essence(const BehaviourFlow& behaviour, const std::vector<Cha
 
 class Folding {
  public:
-  Folding(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels)
-      : subsystem_(subsystem), channels_(channels), rest_(subsystem.behaviours.size(), true) {
+  Folding(const SubsystemFlow& subsystem, const CommunicationStructure& structure)
+      : subsystem_(subsystem), structure_(structure), rest_(subsystem.behaviours.size(), true) {
     for (const BehaviourFlow& behaviour : subsystem.behaviours) {
-      stages_.push_back(essence(behaviour, channels));
+      stages_.push_back(essence(behaviour, structure));
       folded_.can_end = folded_.can_end || behaviour.ends;
     }
   }
@@ -81,7 +81,7 @@ class Folding {
     for (const BehaviourFlow& behaviour : subsystem_.behaviours)
       for (const Stage& stage : behaviour.stages)
         for (const Communication& communication : stage)
-          if (channels_[communication.channel].own_model) return channels_[communication.channel].name;
+          if (structure_[communication.flow].own_model) return structure_[communication.flow].name;
     return {};
   }
 
@@ -103,7 +103,7 @@ class Folding {
     for (const Stage& stage : stages_[at])
       for (const Communication& communication : stage) {
         if (communication.side == Side::receive || communication.blocking) return false;
-        folded_.primed.push_back(communication.channel);
+        folded_.primed.push_back(communication.flow);
       }
     rest_[at] = false;
     at = next;
@@ -119,7 +119,7 @@ class Folding {
   }
 
   const SubsystemFlow& subsystem_;
-  const std::vector<ChannelFlow>& channels_;
+  const CommunicationStructure& structure_;
   Flags rest_;                              // per behaviour: not taken off as a start-up
   std::vector<std::vector<Stage>> stages_;  // per behaviour
   Folded folded_;
@@ -128,24 +128,24 @@ class Folding {
 }  // namespace
 
 bool waits_to_send(const ChannelFlow& channel) {
-  return channel.sender && channel.send_blocks && !channel.send_timeout;
+  return channel.sender.valid() && channel.send_blocks && !channel.send_timeout;
 }
 bool waits_to_receive(const ChannelFlow& channel) {
-  return channel.receiver && channel.receive_blocks && !channel.receive_timeout;
+  return channel.receiver.valid() && channel.receive_blocks && !channel.receive_timeout;
 }
 bool holds_up(const ChannelFlow& channel) {
   return channel.own_model || waits_to_send(channel) || waits_to_receive(channel);
 }
 
-Folded fold(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels) {
-  return Folding(subsystem, channels).result();
+Folded fold(const SubsystemFlow& subsystem, const CommunicationStructure& structure) {
+  return Folding(subsystem, structure).result();
 }
 
-bool always_uses_again(const SubsystemFlow& subsystem, std::uint32_t channel, Side side) {
+bool always_uses_again(const SubsystemFlow& subsystem, ChannelFlowId channel, Side side) {
   const auto uses = [&](const BehaviourFlow& behaviour) {
     return std::ranges::any_of(behaviour.stages, [&](const Stage& stage) {
       return std::ranges::any_of(stage, [&](const Communication& communication) {
-        return communication.channel == channel && communication.side == side;
+        return communication.flow == channel && communication.side == side;
       });
     });
   };

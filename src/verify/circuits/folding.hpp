@@ -19,8 +19,8 @@ namespace tessera::verify {
 struct Folded {
   std::string why_not;       ///< why it is no such sequence; empty: it is one
   std::vector<Stage> cycle;  ///< stages of parallel blocks are sorted by channel
-  std::vector<std::uint32_t>
-      primed;  ///< channels to which a start-up sends before the first round, without waiting
+  /// Channels to which a start-up sends before the first round, without waiting.
+  std::vector<ChannelFlowId> primed;
   bool can_end = false;
 };
 
@@ -29,9 +29,9 @@ struct Folded {
 /// not wait for another subsystem.
 ///
 /// Linear in the subsystem for a given number of behaviours.
-[[nodiscard]] Folded fold(const SubsystemFlow& subsystem, const std::vector<ChannelFlow>& channels);
+[[nodiscard]] Folded fold(const SubsystemFlow& subsystem, const CommunicationStructure& structure);
 
 /// From each behaviour, may one follow (it itself again included) that uses this side of the channel?
-[[nodiscard]] bool always_uses_again(const SubsystemFlow& subsystem, std::uint32_t channel, Side side);
+[[nodiscard]] bool always_uses_again(const SubsystemFlow& subsystem, ChannelFlowId channel, Side side);
 
 }  // namespace tessera::verify

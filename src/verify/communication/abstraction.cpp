@@ -55,7 +55,7 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   none.role = net::TransitionRole::no_successor;
   none.agent = from.agent;
   none.behaviour = from.behaviour;
-  none.condition = {Condition::Kind::next, Condition::Truth::free, UINT32_MAX, "none holds"};
+  none.condition = {.kind = Condition::Kind::next, .truth = Condition::Truth::free, .text = "none holds"};
   none.condition.follows = none_follows;
   none.layer = net::Layer::subsystem;
   none.page = from.page;
@@ -83,12 +83,12 @@ net::Net copied(const net::Net& net, Assume assume) {
 std::vector<bool> last_transitions(const net::Net& net) {
   std::vector<bool> left(net.places().size(), false);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-    if (net.transitions()[index].subsystem != net::no_subsystem)
+    if (net.transitions()[index].subsystem.valid())
       for (const Arc& arc : net.preset(TransitionId{index})) left[arc.place.value] = true;
   std::vector<bool> last(net.transitions().size(), false);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
-    if (net[id].subsystem == net::no_subsystem || !possible(net, id)) continue;
+    if (!net[id].subsystem.valid() || !possible(net, id)) continue;
     last[index] = std::ranges::any_of(net.postset(id), [&](const Arc& arc) {
       const net::Place& place = net[arc.place];
       return place.is(net::Layer::subsystem, net::PlaceRole::output) && !left[arc.place.value];
@@ -124,7 +124,7 @@ net::Net possible_part(const net::Net& net, std::vector<TransitionId>* fires) {
 
 ProbedNet probed_net(const net::Net& abstract) {
   const std::vector<bool> last = last_transitions(abstract);
-  std::map<std::uint32_t, PlaceId> ended;  // per subsystem that may end
+  std::map<net::SubsystemId, PlaceId> ended;  // per subsystem that may end
   std::vector<PlaceId> more(abstract.transitions().size());
   auto next = static_cast<std::uint32_t>(abstract.places().size());
   for (std::uint32_t index = 0; index < more.size(); ++index) {
@@ -136,39 +136,40 @@ ProbedNet probed_net(const net::Net& abstract) {
   // The places that the arcs above speak of have to be there first.
   net::Net places(abstract.shared_parts());
   for (const net::Place& place : abstract.places()) places.add(place);
-  std::map<PlaceId, std::uint32_t> in_order;
+  std::map<PlaceId, net::SubsystemId> in_order;
   for (const auto& [subsystem, place] : ended) in_order.emplace(place, subsystem);
   for (const auto& [place, subsystem] : in_order) {
     net::Place mark;
-    mark.name = "ended " + std::to_string(subsystem);
+    mark.name = "ended " + std::to_string(subsystem.value);
     mark.layer = net::Layer::subsystem;
     mark.subsystem = subsystem;
     places.add(std::move(mark));
   }
   ProbedNet probed;
   probed.net = std::move(places);
-  std::map<std::uint32_t, std::vector<TransitionId>> subsystems, channels;
-  std::map<std::uint32_t, std::uint32_t> reader;
+  std::map<net::SubsystemId, std::vector<TransitionId>> subsystems;
+  std::map<net::ChannelId, std::vector<TransitionId>> channels;
+  std::map<net::ChannelId, net::SubsystemId> reader;
   for (std::uint32_t index = 0; index < abstract.transitions().size(); ++index) {
     const TransitionId id{index};
     std::vector<Arc> outputs(abstract.postset(id).begin(), abstract.postset(id).end());
     if (more[index].valid()) outputs.push_back({more[index], 1});
     probed.net.add(abstract[id], abstract.preset(id), outputs);
-    if (abstract[id].subsystem == net::no_subsystem) continue;
+    if (!abstract[id].subsystem.valid()) continue;
     std::vector<TransitionId>& of_subsystem = subsystems[abstract[id].subsystem];
     if (possible(abstract, id)) of_subsystem.push_back(id);
     for (const Arc& arc : abstract.postset(id)) {
       const net::Operation& operation = abstract[arc.place].operation;
       if (operation.kind != net::Operation::Kind::read) continue;
-      channels[operation.subject].push_back(id);
-      reader[operation.subject] = abstract[id].subsystem;
+      channels[operation.channel].push_back(id);
+      reader[operation.channel] = abstract[id].subsystem;
     }
   }
   probed.transitions = abstract.transitions().size();
-  std::map<std::uint32_t, TransitionId> probes;
+  std::map<net::SubsystemId, TransitionId> probes;
   for (const auto& [place, subsystem] : in_order) {
     net::Transition probe;
-    probe.name = "ended " + std::to_string(subsystem) + "?";
+    probe.name = "ended " + std::to_string(subsystem.value) + "?";
     const std::vector<Arc> loop{{place, 1}};
     probes[subsystem] = probed.net.add(std::move(probe), loop, loop);
   }

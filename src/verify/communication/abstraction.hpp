@@ -29,14 +29,15 @@ struct ProbedNet {
   /// and a probe: a transition without effect that needs this place. Added transitions come last.
   net::Net net;
   std::size_t transitions = 0;  ///< of the abstract net; the transitions after them are probes
+  template <class Id>
   struct Set {
-    std::uint32_t id = 0;  ///< subsystem or channel of the model
+    Id id;
     std::vector<net::TransitionId> any_of;
   };
   /// From every marking, one of any_of can be fired at some time: then the subsystem goes on or has ended.
-  std::vector<Set> subsystems;
+  std::vector<Set<net::SubsystemId>> subsystems;
   /// The same for a channel: it is received from again, or its receiver has ended.
-  std::vector<Set> channels;
+  std::vector<Set<net::ChannelId>> channels;
 };
 [[nodiscard]] ProbedNet probed_net(const net::Net& abstract);
 

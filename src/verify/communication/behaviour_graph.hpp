@@ -11,7 +11,7 @@ namespace tessera::verify {
 
 /// Behaviours of one subsystem, of which one is to run.
 struct Running {
-  std::uint32_t subsystem = 0;  ///< Page::subsystem
+  net::SubsystemId subsystem;
   std::vector<std::string> behaviours;
 };
 

@@ -34,7 +34,7 @@ struct Move {
 };
 
 /// Do exactly these moves of one channel start at the place?
-bool moves_are(const Steps& steps, PlaceId from, std::uint32_t channel, std::span<const Move> expected) {
+bool moves_are(const Steps& steps, PlaceId from, net::ChannelId channel, std::span<const Move> expected) {
   const auto found = steps.from(from);
   if (found.size() != expected.size()) return false;
   return std::ranges::all_of(found, [&](const Step& step) {
@@ -59,11 +59,11 @@ class Match {
       const Operation::Kind kind = steps_.net()[step.to].operation.kind;
       return kind == Operation::Kind::write || kind == Operation::Kind::read;
     });
-    if (start == starts.end() || start->channel == UINT32_MAX) return std::nullopt;
+    if (start == starts.end() || !start->channel.valid()) return std::nullopt;
     work_ = start->to;
     channel_ = start->channel;
     const Operation& operation = steps_.net()[work_].operation;
-    if (operation.subject != channel_ || steps_.from(work_).size() != 1) return std::nullopt;
+    if (operation.channel != channel_ || steps_.from(work_).size() != 1) return std::nullopt;
     after_work_ = steps_.from(work_).front().to;
     if (!after_work_.valid()) return std::nullopt;
     const bool sends = operation.kind == Operation::Kind::write;
@@ -108,26 +108,26 @@ class Match {
   }
 
   [[nodiscard]] Block block(Side side, bool blocking, bool timeout, PlaceId out) const {
-    return {{channel_, side, blocking, timeout}, out};
+    return {{.channel = channel_, .side = side, .blocking = blocking, .timeout = timeout}, out};
   }
 
   const Steps& steps_;
   PlaceId in_, work_, after_work_;
-  std::uint32_t channel_ = 0;
+  net::ChannelId channel_;
 };
 
 /// Follows the transitions of one block from `in` to the only place that none of them leaves.
 std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
   const auto starts = steps.from(in);
-  if (starts.empty() || starts.front().channel == UINT32_MAX) return std::nullopt;
+  if (starts.empty() || !starts.front().channel.valid()) return std::nullopt;
   Block block{.communication = {.channel = starts.front().channel, .own_model = true}, .out = {}};
-  const std::uint32_t number = steps.net()[starts.front().id].block;
+  const net::BlockId id = steps.net()[starts.front().id].block;
   std::vector<PlaceId> reached{in};
   for (std::size_t at = 0; at < reached.size(); ++at) {
     bool left = false;
     for (const Step& step : steps.from(reached[at])) {
-      if (steps.net()[step.id].block != number) continue;
-      const bool foreign = step.channel != UINT32_MAX && step.channel != block.communication.channel;
+      if (steps.net()[step.id].block != id) continue;
+      const bool foreign = step.channel.valid() && step.channel != block.communication.channel;
       if (foreign || !step.from.valid() || !step.to.valid()) return std::nullopt;
       left = true;
       if (std::ranges::find(reached, step.to) == reached.end()) reached.push_back(step.to);
@@ -145,13 +145,13 @@ std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
 Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 0) {
   for (const net::Place& place : net.places()) {
     if (!place.fused()) continue;
-    if (acknowledges_.size() <= place.channel) acknowledges_.resize(place.channel + 1, false);
-    if (memory_of(place) == acknowledged) acknowledges_[place.channel] = true;
+    if (acknowledges_.size() <= place.channel.value) acknowledges_.resize(place.channel.value + 1, false);
+    if (memory_of(place) == acknowledged) acknowledges_[place.channel.value] = true;
   }
   std::vector<std::pair<PlaceId, Step>> found;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
-    if (net[id].subsystem == net::no_subsystem) continue;
+    if (!net[id].subsystem.valid()) continue;
     const std::optional<Step> step = read(id);
     if (!step) {
       stray_ = id;
@@ -180,7 +180,7 @@ std::optional<Step> Steps::read(net::TransitionId id) {
         continue;
       }
       const std::uint8_t part = memory_of(place);
-      if (step.channel != UINT32_MAX && step.channel != place.channel) return false;
+      if (step.channel.valid() && step.channel != place.channel) return false;
       step.own_model = step.own_model || part == 0;
       step.channel = place.channel;
       memory |= part;

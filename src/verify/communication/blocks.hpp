@@ -15,8 +15,8 @@ enum Memory : std::uint8_t { free_to_use = 1, empty = 2, full = 4, acknowledged 
 /// A transition of one subsystem. It uses places of this subsystem, and of the memory of at most one channel.
 struct Step {
   net::TransitionId id;
-  net::PlaceId from, to;  ///< invalid if there are several: a fork or a join
-  std::uint32_t channel = UINT32_MAX;
+  net::PlaceId from, to;              ///< invalid if there are several: a fork or a join
+  net::ChannelId channel{};           ///< none: it uses no memory
   std::uint8_t takes = 0, gives = 0;  ///< Memory
   bool own_model = false;             ///< it uses fused places that no built-in block has
 };
@@ -33,7 +33,7 @@ class Steps {
   /// A transition that is neither a step of one subsystem nor a transition of the upper layers.
   [[nodiscard]] std::optional<net::TransitionId> stray() const { return stray_; }
   /// Does the memory of the channel include acknowledgements?
-  [[nodiscard]] bool acknowledges(std::uint32_t channel) const { return acknowledges_[channel]; }
+  [[nodiscard]] bool acknowledges(net::ChannelId channel) const { return acknowledges_[channel.value]; }
   [[nodiscard]] std::uint32_t channel_count() const {
     return static_cast<std::uint32_t>(acknowledges_.size());
   }
@@ -50,7 +50,7 @@ class Steps {
 
 /// A block of the communication layer, the fifth.
 struct Block {
-  Communication communication;  ///< its channel is Place::channel
+  Communication communication;  ///< without its flow
   net::PlaceId out;
 };
 

@@ -22,13 +22,13 @@ class SubsystemReader {
   /// entry: the place at which the upper layers start the subsystem.
   std::optional<SubsystemFlow> read(PlaceId entry) {
     flow_.id = net_[entry].subsystem;
-    flow_.name = net_.parts().subsystems[flow_.id].path;
+    flow_.name = net_.parts()[flow_.id].path;
     const std::optional<PlaceId> start = silent_step(entry);
     if (!start || !behaviour_at(*start)) return fail("does not start with a behaviour", entry);
     for (std::size_t index = 0; index < entries_.size(); ++index) {
       flow_.behaviours.emplace_back();
       flow_.behaviours[index].name =
-          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].operation.subject);
+          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].operation.behaviour);
       if (!read_behaviour(static_cast<std::uint32_t>(index))) return std::nullopt;
     }
     return std::move(flow_);
@@ -54,7 +54,7 @@ class SubsystemReader {
   [[nodiscard]] std::optional<PlaceId> silent_step(PlaceId from) const {
     const auto steps = steps_.from(from);
     if (steps.size() != 1 || !steps.front().from.valid() || !steps.front().to.valid()) return std::nullopt;
-    if (steps.front().channel != UINT32_MAX) return std::nullopt;
+    if (steps.front().channel.valid()) return std::nullopt;
     if (net_[steps.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
     return steps.front().to;
   }
@@ -86,8 +86,7 @@ class SubsystemReader {
 
   std::optional<PlaceId> parallel_transfer(PlaceId at, std::vector<Stage>& stages) const {
     const auto fork = steps_.from(at);
-    if (fork.size() != 1 || !fork.front().from.valid() || fork.front().channel != UINT32_MAX)
-      return std::nullopt;
+    if (fork.size() != 1 || !fork.front().from.valid() || fork.front().channel.valid()) return std::nullopt;
     if (net_[fork.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
     Stage stage;
     std::optional<Step> join;
@@ -99,7 +98,7 @@ class SubsystemReader {
       join = end.front();
       stage.push_back(block->communication);
     }
-    if (!join || !join->to.valid() || join->channel != UINT32_MAX ||
+    if (!join || !join->to.valid() || join->channel.valid() ||
         net_[join->id].condition.kind != Condition::Kind::none ||
         net_.preset(join->id).size() != stage.size())
       return std::nullopt;
@@ -127,7 +126,7 @@ class SubsystemReader {
     std::optional<PlaceId> left;
     for (const Step& step : steps_.from(at)) {
       const Condition& condition = net_[step.id].condition;
-      if (!step.from.valid() || !step.to.valid() || step.channel != UINT32_MAX)
+      if (!step.from.valid() || !step.to.valid() || step.channel.valid())
         return fail("ends in an unknown way", at), false;
       BehaviourFlow& behaviour = flow_.behaviours[number];
       if (condition.kind == Condition::Kind::go_on) {
@@ -151,7 +150,7 @@ class SubsystemReader {
     behaviour.complete = false;
     for (const Step& step : steps_.from(out)) {
       const Condition& condition = net_[step.id].condition;
-      if (!step.from.valid() || !step.to.valid() || step.channel != UINT32_MAX ||
+      if (!step.from.valid() || !step.to.valid() || step.channel.valid() ||
           (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))
         return fail("is left in an unknown way", out), false;
       behaviour.complete = behaviour.complete || known(condition).truth == Condition::Truth::always ||
@@ -183,7 +182,7 @@ class Start {
     for (std::uint32_t place = 0; place < tokens_.size(); ++place)
       if (!net.places()[place].fused()) tokens_[place] = net.places()[place].tokens;
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-      if (net.transitions()[index].subsystem == net::no_subsystem) upper_.push_back({index});
+      if (!net.transitions()[index].subsystem.valid()) upper_.push_back({index});
     // Parents come before children, so one pass in order starts everything.
     for (const net::TransitionId id : upper_)
       if (net::enabled(net_, id, tokens_)) net::fire(net_, id, tokens_);
@@ -197,7 +196,7 @@ class Start {
     for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
       if (tokens_[place] == 0) continue;
       const PlaceId id{place};
-      if (tokens_[place] > 1 || net_[id].subsystem == net::no_subsystem)
+      if (tokens_[place] > 1 || !net_[id].subsystem.valid())
         why_not = "'" + net_[id].name + "' holds a token once all has started";
       if (!marked.empty() && net_[marked.back()].subsystem == net_[id].subsystem)
         why_not = "'" + net_[id].name + "' is a second start of its subsystem";
@@ -216,60 +215,61 @@ class Start {
 class Channels {
  public:
   explicit Channels(const net::Net& net, std::uint32_t count)
-      : names_(net.parts().channels), numbers_(count, UINT32_MAX), exchanges_(count, false) {
+      : parts_(net.parts()), flows_(count), exchanges_(count, false) {
     for (const net::Place& place : net.places())
-      if (place.role == net::PlaceRole::lock) exchanges_[place.channel] = true;
+      if (place.role == net::PlaceRole::lock) exchanges_[place.channel.value] = true;
   }
 
-  /// Renumbers the communication; false if another subsystem or another mode holds the same end.
-  bool enlist(std::uint32_t subsystem, Communication& communication) {
-    std::uint32_t& number = numbers_[communication.channel];
-    if (number == UINT32_MAX) {
-      number = static_cast<std::uint32_t>(all.size());
-      all.push_back({.id = communication.channel,
-                     .name = names_[communication.channel],
+  /// Sets the flow of the communication; false if another subsystem or another mode holds the same end.
+  bool enlist(SubsystemFlowId subsystem, Communication& communication) {
+    const net::ChannelId id = communication.channel;
+    ChannelFlowId& flow = flows_[id.value];
+    if (!flow.valid()) {
+      flow = {static_cast<std::uint32_t>(all.size())};
+      all.push_back({.id = id,
+                     .name = parts_[id],
                      .sender = {},
                      .receiver = {},
-                     .always_readable = exchanges_[communication.channel]});
+                     .always_readable = exchanges_[id.value]});
     }
-    communication.channel = number;
-    ChannelFlow& channel = all[number];
+    communication.flow = flow;
+    ChannelFlow& channel = all[flow.value];
     channel.own_model = channel.own_model || communication.own_model;
     const bool sends = communication.side == Side::send;
-    std::optional<std::uint32_t>& end = sends ? channel.sender : channel.receiver;
+    SubsystemFlowId& end = sends ? channel.sender : channel.receiver;
     bool& blocks = sends ? channel.send_blocks : channel.receive_blocks;
     bool& timeout = sends ? channel.send_timeout : channel.receive_timeout;
-    if (!end) {
+    if (!end.valid()) {
       end = subsystem;
       blocks = communication.blocking;
       timeout = communication.timeout;
     }
-    return *end == subsystem && blocks == communication.blocking && timeout == communication.timeout;
+    return end == subsystem && blocks == communication.blocking && timeout == communication.timeout;
   }
 
   std::vector<ChannelFlow> all;
 
  private:
-  const std::vector<std::string>& names_;  // per channel of the net
-  std::vector<std::uint32_t> numbers_;
-  std::vector<bool> exchanges_;
+  const net::Parts& parts_;
+  std::vector<ChannelFlowId> flows_;  // per channel of the net
+  std::vector<bool> exchanges_;       // the same
 };
 
 /// Transitions that would move tokens behind the back of the readers.
 std::string stray_transition(const net::Net& net, const Steps& steps) {
   for (const net::Place& place : net.places())
-    if (place.subsystem != net::no_subsystem && place.subsystem >= net.parts().subsystems.size())
+    if (place.subsystem.valid() && place.subsystem.value >= net.parts().subsystems.size())
       return "'" + place.name + "' is of a subsystem that the net does not name";
   if (steps.stray()) return "'" + net[*steps.stray()].name + "' joins more than a subsystem and a channel";
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
-    if (net[id].subsystem != net::no_subsystem) continue;
+    if (net[id].subsystem.valid()) continue;
     if (net.preset(id).empty()) return "'" + net[id].name + "' needs no token";
     for (const auto& arcs : {net.preset(id), net.postset(id)})
       for (const net::Arc& arc : arcs)
         if (net[arc.place].fused()) return "'" + net[id].name + "' of the upper layers uses a channel";
     for (const net::Arc& arc : net.preset(id))
-      if (net[arc.place].subsystem != net::no_subsystem && !steps.from(arc.place).empty())
+      if (net[arc.place].subsystem.valid() && !steps.from(arc.place).empty())
         return "'" + net[id].name + "' takes a token out of a subsystem";
   }
   return {};
@@ -291,11 +291,11 @@ CommunicationResult communication_structure(const net::Net& net, Assume assume) 
     SubsystemReader reader(steps, assume);
     std::optional<SubsystemFlow> flow = reader.read(entry);
     if (!flow) return {std::nullopt, reader.why_not()};
-    const auto number = static_cast<std::uint32_t>(structure.subsystems.size());
+    const SubsystemFlowId id{static_cast<std::uint32_t>(structure.subsystems.size())};
     for (BehaviourFlow& behaviour : flow->behaviours)
       for (Stage& stage : behaviour.stages)
         for (Communication& communication : stage)
-          if (!channels.enlist(number, communication))
+          if (!channels.enlist(id, communication))
             return {std::nullopt, "two subsystems or two modes at one end of a channel of " + flow->name};
     structure.subsystems.push_back(std::move(*flow));
   }

@@ -12,9 +12,13 @@ namespace tessera::verify {
 
 enum class Side : std::uint8_t { send, receive };
 
+using SubsystemFlowId = net::Id<struct SubsystemFlowTag>;  ///< into CommunicationStructure::subsystems
+using ChannelFlowId = net::Id<struct ChannelFlowTag>;      ///< into CommunicationStructure::channels
+
 /// One block: one side of one channel in one behaviour.
 struct Communication {
-  std::uint32_t channel = 0;
+  net::ChannelId channel;
+  ChannelFlowId flow{};  ///< the same channel in the communication structure
   Side side = Side::send;
   bool blocking = false;
   bool timeout = false;    ///< only of a blocking side
@@ -38,18 +42,17 @@ struct BehaviourFlow {
 };
 
 struct SubsystemFlow {
-  std::uint32_t id = 0;  ///< Place::subsystem
-  std::string name;      ///< "robot.control"
+  net::SubsystemId id;
+  std::string name;  ///< "robot.control"
   /// Those that can be reached, given the conditions that are known to be constant. The first is the start.
   std::vector<BehaviourFlow> behaviours;
 };
 
 /// The two ends of a channel that some reachable behaviour uses.
 struct ChannelFlow {
-  std::uint32_t id = 0;  ///< Place::channel
-  std::string name;      ///< "robot.control.motion->robot.motor.velocity"
-  /// Index into CommunicationStructure::subsystems; nullopt: no reachable behaviour uses this end.
-  std::optional<std::uint32_t> sender, receiver;
+  net::ChannelId id;
+  std::string name;                  ///< "robot.control.motion->robot.motor.velocity"
+  SubsystemFlowId sender, receiver;  ///< none: no reachable behaviour uses this end
   bool send_blocks = false, send_timeout = false;
   bool receive_blocks = false, receive_timeout = false;
   bool own_model = false;  ///< a model of the author, at one end at least
@@ -57,10 +60,12 @@ struct ChannelFlow {
       false;  ///< both sides non-blocking: reading never depends on a value having been sent
 };
 
-/// Communication::channel is an index into channels.
 struct CommunicationStructure {
   std::vector<SubsystemFlow> subsystems;
   std::vector<ChannelFlow> channels;
+
+  [[nodiscard]] const SubsystemFlow& operator[](SubsystemFlowId id) const { return subsystems[id.value]; }
+  [[nodiscard]] const ChannelFlow& operator[](ChannelFlowId id) const { return channels[id.value]; }
 };
 
 /// Which conditions may hold.

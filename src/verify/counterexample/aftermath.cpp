@@ -14,20 +14,20 @@ using net::PlaceId;
 using net::TransitionId;
 
 /// The subsystems and those that use a channel with one of them.
-std::set<std::uint32_t> that_exchange(const net::Net& net, std::set<std::uint32_t> subsystems) {
-  std::map<std::uint32_t, std::set<std::uint32_t>> users;  // per place of a channel
+std::set<net::SubsystemId> that_exchange(const net::Net& net, std::set<net::SubsystemId> subsystems) {
+  std::map<PlaceId, std::set<net::SubsystemId>> users;  // per place of a channel
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
     for (const auto arcs : {net.preset({index}), net.postset({index})})
       for (const Arc& arc : arcs)
-        if (net[arc.place].fused()) users[arc.place.value].insert(net.transitions()[index].subsystem);
-  std::map<std::uint32_t, std::set<std::uint32_t>> peers;
+        if (net[arc.place].fused()) users[arc.place].insert(net.transitions()[index].subsystem);
+  std::map<net::SubsystemId, std::set<net::SubsystemId>> peers;
   for (const auto& [place, all] : users)
-    for (const std::uint32_t one : all) peers[one].insert(all.begin(), all.end());
-  std::vector<std::uint32_t> open(subsystems.begin(), subsystems.end());
+    for (const net::SubsystemId one : all) peers[one].insert(all.begin(), all.end());
+  std::vector<net::SubsystemId> open(subsystems.begin(), subsystems.end());
   while (!open.empty()) {
-    const std::uint32_t one = open.back();
+    const net::SubsystemId one = open.back();
     open.pop_back();
-    for (const std::uint32_t peer : peers[one])
+    for (const net::SubsystemId peer : peers[one])
       if (subsystems.insert(peer).second) open.push_back(peer);
   }
   return subsystems;
@@ -49,7 +49,7 @@ net::Marking unpacked(const std::string& bytes) {
 }  // namespace
 
 std::optional<Aftermath> Aftermath::of(const net::Net& net, const Run& run,
-                                       const std::set<std::uint32_t>& subsystems, std::size_t most) {
+                                       const std::set<net::SubsystemId>& subsystems, std::size_t most) {
   Aftermath all(net);
   all.choose(that_exchange(net, subsystems));
   all.begin_after(run);
@@ -58,7 +58,7 @@ std::optional<Aftermath> Aftermath::of(const net::Net& net, const Run& run,
 }
 
 /// The transitions of the subsystems, and those of the upper layers that start them.
-void Aftermath::choose(const std::set<std::uint32_t>& subsystems) {
+void Aftermath::choose(const std::set<net::SubsystemId>& subsystems) {
   std::vector<bool> wanted(net_->places().size(), false), chosen(net_->transitions().size(), false);
   for (std::uint32_t place = 0; place < wanted.size(); ++place)
     wanted[place] = subsystems.contains(net_->places()[place].subsystem) && !net_->places()[place].fused();
@@ -68,7 +68,7 @@ void Aftermath::choose(const std::set<std::uint32_t>& subsystems) {
       const TransitionId id{index};
       if (chosen[index] || !possible(*net_, id)) continue;
       const bool starts =
-          (*net_)[id].subsystem == net::no_subsystem &&
+          !(*net_)[id].subsystem.valid() &&
           std::ranges::any_of(net_->postset(id), [&](const Arc& arc) { return wanted[arc.place.value]; });
       if (!starts && !subsystems.contains((*net_)[id].subsystem)) continue;
       chosen[index] = grew = true;

@@ -26,7 +26,7 @@ class Aftermath {
   /// nullopt: there are more markings than `most`.
   /// Precondition: the run is one of the net.
   [[nodiscard]] static std::optional<Aftermath> of(const net::Net& net, const Run& run,
-                                                   const std::set<std::uint32_t>& subsystems,
+                                                   const std::set<net::SubsystemId>& subsystems,
                                                    std::size_t most);
 
   /// The markings from which one of the transitions can be fired, at once or later.
@@ -52,7 +52,7 @@ class Aftermath {
     Number to = 0;
   };
   explicit Aftermath(const net::Net& net) : net_(&net), local_(net.places().size()) {}
-  void choose(const std::set<std::uint32_t>& subsystems);
+  void choose(const std::set<net::SubsystemId>& subsystems);
   [[nodiscard]] std::vector<net::Arc> in_part(std::span<const net::Arc> arcs);
   void begin_after(const Run& run);
   [[nodiscard]] bool explored(std::size_t most);

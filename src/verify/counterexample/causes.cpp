@@ -122,10 +122,10 @@ class Concern {
  public:
   explicit Concern(const net::Net& net) : net_(net) {
     for (std::uint32_t place = 0; place < net.places().size(); ++place) {
-      const std::uint32_t subsystem = net.places()[place].subsystem;
-      if (subsystem == net::no_subsystem) continue;
-      if (subsystem >= of_subsystem_.size()) of_subsystem_.resize(subsystem + 1);
-      of_subsystem_[subsystem].push_back(place);
+      const net::SubsystemId subsystem = net.places()[place].subsystem;
+      if (!subsystem.valid()) continue;
+      if (subsystem.value >= of_subsystem_.size()) of_subsystem_.resize(subsystem.value + 1);
+      of_subsystem_[subsystem.value].push_back(place);
     }
   }
 
@@ -134,8 +134,8 @@ class Concern {
     const std::size_t before = places_.size();
     for (const auto arcs : {net_.preset(id), net_.postset(id)})
       for (const Arc& arc : arcs) places_.insert(arc.place.value);
-    if (const std::uint32_t subsystem = net_[id].subsystem; subsystem < of_subsystem_.size())
-      places_.insert(of_subsystem_[subsystem].begin(), of_subsystem_[subsystem].end());
+    if (const net::SubsystemId subsystem = net_[id].subsystem; subsystem.value < of_subsystem_.size())
+      places_.insert(of_subsystem_[subsystem.value].begin(), of_subsystem_[subsystem.value].end());
     return places_.size() > before;
   }
 
@@ -206,7 +206,7 @@ class Continuation {
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
       const TransitionId id{index};
       if (net[id].condition.truth == net::Condition::Truth::never) continue;
-      if (net[id].subsystem == net::no_subsystem) {
+      if (!net[id].subsystem.valid()) {
         for (const Arc& arc : net.postset(id)) of(net[arc.place].subsystem).push_back(id);  // it starts them
         continue;
       }
@@ -219,9 +219,9 @@ class Continuation {
 
   /// False: not everybody came to rest.
   bool bring_to_rest(const std::vector<TransitionId>& stuck) {
-    std::vector<std::uint32_t> concerned;
+    std::vector<net::SubsystemId> concerned;
     for (const TransitionId id : stuck)
-      if (net_[id].subsystem < of_subsystem_.size()) concern(net_[id].subsystem, concerned);
+      if (net_[id].subsystem.value < of_subsystem_.size()) concern(net_[id].subsystem, concerned);
     std::size_t firings = 0;
     for (bool moved = true; moved;) {
       moved = false;
@@ -231,7 +231,7 @@ class Continuation {
           if (++firings > most_firings_each * concerned.size()) return false;
         }
         for (const std::uint32_t place : lacking(concerned[next]))
-          for (const std::uint32_t user : users_[place]) concern(user, concerned);
+          for (const net::SubsystemId user : users_[place]) concern(user, concerned);
       }
     }
     return true;
@@ -242,18 +242,18 @@ class Continuation {
  private:
   static constexpr std::size_t most_firings_each = 64;
 
-  std::vector<TransitionId>& of(std::uint32_t subsystem) {
-    if (subsystem == net::no_subsystem) return nobodys_;
-    if (subsystem >= of_subsystem_.size()) of_subsystem_.resize(subsystem + 1);
-    return of_subsystem_[subsystem];
+  std::vector<TransitionId>& of(net::SubsystemId subsystem) {
+    if (!subsystem.valid()) return nobodys_;
+    if (subsystem.value >= of_subsystem_.size()) of_subsystem_.resize(subsystem.value + 1);
+    return of_subsystem_[subsystem.value];
   }
 
-  void concern(std::uint32_t subsystem, std::vector<std::uint32_t>& concerned) {
+  void concern(net::SubsystemId subsystem, std::vector<net::SubsystemId>& concerned) {
     if (concerned_.insert(subsystem).second) concerned.push_back(subsystem);
   }
 
-  bool fire_one_of(std::uint32_t subsystem) {
-    for (const TransitionId id : of_subsystem_[subsystem]) {
+  bool fire_one_of(net::SubsystemId subsystem) {
+    for (const TransitionId id : of_subsystem_[subsystem.value]) {
       if (!net::enabled(net_, id, tokens_)) continue;
       net::fire(net_, id, tokens_);
       run_.push_back(id);
@@ -263,9 +263,9 @@ class Continuation {
   }
 
   /// The places of channels that a subsystem at rest waits for.
-  [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const {
+  [[nodiscard]] std::set<std::uint32_t> lacking(net::SubsystemId subsystem) const {
     std::set<std::uint32_t> places;
-    for (const TransitionId id : of_subsystem_[subsystem]) {
+    for (const TransitionId id : of_subsystem_[subsystem.value]) {
       const auto inputs = net_.preset(id);
       if (std::ranges::none_of(inputs, [&](const Arc& arc) { return suffices(arc); })) continue;
       for (const Arc& arc : inputs)
@@ -281,8 +281,8 @@ class Continuation {
   net::Marking tokens_;
   std::vector<std::vector<TransitionId>> of_subsystem_;  // those that start it too
   std::vector<TransitionId> nobodys_;
-  std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // per place of a channel
-  std::set<std::uint32_t> concerned_;
+  std::map<std::uint32_t, std::set<net::SubsystemId>> users_;  // per place of a channel
+  std::set<net::SubsystemId> concerned_;
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ class Explainer {
 
   /// false: the transitions do not get stuck.
   bool find_end() {
-    const std::uint32_t owner = net_[stuck_.front()].subsystem;
+    const net::SubsystemId owner = net_[stuck_.front()].subsystem;
     // A subsystem that can still end is not stuck. A channel whose reader can still end is not dry.
     std::vector<TransitionId> any_of = stuck_;
     std::ranges::copy(last_of(owner), std::back_inserter(any_of));
@@ -52,9 +52,9 @@ class Explainer {
   }
 
   /// Goes on until those are settled for whom the ones wait that are stuck for ever already.
-  void settle(const std::set<std::uint32_t>& stopped) {
+  void settle(const std::set<net::SubsystemId>& stopped) {
     const Waits waits = here();
-    for (const std::uint32_t subsystem : stopped)
+    for (const net::SubsystemId subsystem : stopped)
       if (stuck_for_ever(waits, subsystem)) concern(subsystem);
     follow_all();
   }
@@ -63,8 +63,8 @@ class Explainer {
     const Waits waits = here();
     Explanation explanation{std::move(run_), {}};
     std::vector<std::set<std::uint32_t>> lacks;
-    for (const std::uint32_t subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
-    for (const std::uint32_t subsystem : concerned_)
+    for (const net::SubsystemId subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
+    for (const net::SubsystemId subsystem : concerned_)
       add_new(explanation.waits, lines(waits, subsystem, lacks));
     if (explanation.waits.empty() && !stuck_.empty()) explanation.waits = taken_no_more(waits);
     return explanation;
@@ -72,7 +72,7 @@ class Explainer {
 
  private:
   /// The transitions by which a subsystem ends.
-  [[nodiscard]] std::vector<TransitionId> last_of(std::uint32_t subsystem) const {
+  [[nodiscard]] std::vector<TransitionId> last_of(net::SubsystemId subsystem) const {
     const Waits waits = here();
     std::vector<TransitionId> last;
     for (const TransitionId id : waits.transitions(subsystem))
@@ -91,11 +91,11 @@ class Explainer {
     return true;
   }
 
-  void concern(std::uint32_t subsystem) {
+  void concern(net::SubsystemId subsystem) {
     if (std::ranges::count(concerned_, subsystem) == 0) concerned_.push_back(subsystem);
   }
 
-  [[nodiscard]] bool stuck_for_ever(const Waits& waits, std::uint32_t subsystem) const {
+  [[nodiscard]] bool stuck_for_ever(const Waits& waits, net::SubsystemId subsystem) const {
     return !after_.can_fire(waits.transitions(subsystem))[at_];
   }
 
@@ -108,7 +108,7 @@ class Explainer {
   }
 
   /// Brings a subsystem that cannot go on for ever to where it stops, and concerns those whom it waits for.
-  void follow(std::uint32_t subsystem) {
+  void follow(net::SubsystemId subsystem) {
     const std::vector<TransitionId> transitions = here().transitions(subsystem);
     const Aftermath::Markings stops = opposite(after_.can_fire(transitions));
     if (!stops[at_]) {
@@ -117,12 +117,12 @@ class Explainer {
     }
     const Waits waits = here();
     for (const std::uint32_t place : waits_at(waits, subsystem))
-      for (const std::uint32_t giver : waits.givers(place, subsystem)) concern(giver);
+      for (const net::SubsystemId giver : waits.givers(place, subsystem)) concern(giver);
   }
 
   /// The places of channels that it lacks, stuck as a whole or, though it goes on, with the
   /// transitions asked for.
-  [[nodiscard]] std::set<std::uint32_t> waits_at(const Waits& waits, std::uint32_t subsystem) const {
+  [[nodiscard]] std::set<std::uint32_t> waits_at(const Waits& waits, net::SubsystemId subsystem) const {
     if (waits.has_ended(subsystem)) return {};
     if (stuck_for_ever(waits, subsystem)) return waits.lacking(subsystem);
     if (subsystem != concerned_.front()) return {};
@@ -134,7 +134,7 @@ class Explainer {
   }
 
   /// lacks: of each that is concerned.
-  [[nodiscard]] std::vector<std::string> lines(const Waits& waits, std::uint32_t subsystem,
+  [[nodiscard]] std::vector<std::string> lines(const Waits& waits, net::SubsystemId subsystem,
                                                const std::vector<std::set<std::uint32_t>>& lacks) const {
     if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
     if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
@@ -151,7 +151,7 @@ class Explainer {
   /// is taken elsewhere.
   [[nodiscard]] std::vector<std::string> taken_no_more(const Waits& waits) const {
     std::vector<std::string> texts;
-    const std::uint32_t subsystem = concerned_.front();
+    const net::SubsystemId subsystem = concerned_.front();
     if (waits.has_ended(subsystem) || stuck_for_ever(waits, subsystem)) return texts;
     for (const net::Arc& arc : net_.preset(stuck_.front()))
       if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
@@ -163,7 +163,7 @@ class Explainer {
   Run run_;
   std::vector<TransitionId> stuck_;
   Number at_ = Aftermath::start;
-  std::vector<std::uint32_t> concerned_;
+  std::vector<net::SubsystemId> concerned_;
 };
 
 // ---------------------------------------------------------------------------------------------- large nets
@@ -202,11 +202,11 @@ Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& st
 
 /// The waits of subsystems that can be shown to be stuck, found by following the waits from the first one.
 std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
-                                      std::vector<std::uint32_t> concerned) {
+                                      std::vector<net::SubsystemId> concerned) {
   const Waits waits(net, net::marking_after(net, run));
   std::vector<std::string> lines;
   for (std::size_t next = 0; next < concerned.size(); ++next) {
-    const std::uint32_t subsystem = concerned[next];
+    const net::SubsystemId subsystem = concerned[next];
     if (waits.has_ended(subsystem)) {
       add_new(lines, {waits.name(subsystem) + " has ended"});
       continue;
@@ -214,7 +214,7 @@ std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
     if (waits.moves(subsystem) || !never_again(net, run, waits.transitions(subsystem))) continue;
     add_new(lines, waits.lines(subsystem));
     for (const std::uint32_t place : waits.lacking(subsystem))
-      for (const std::uint32_t giver : waits.givers(place, subsystem))
+      for (const net::SubsystemId giver : waits.givers(place, subsystem))
         if (std::ranges::count(concerned, giver) == 0) concerned.push_back(giver);
   }
   return lines;
@@ -241,9 +241,9 @@ Explanation explained(const net::Net& net, Run run, const std::vector<Transition
 
 Explanation explained(const net::Net& net, Run run) {
   const Waits waits(net, net::marking_after(net, run));
-  std::set<std::uint32_t> stopped;
-  for (std::uint32_t subsystem = 0; subsystem < waits.subsystems(); ++subsystem)
-    if (!waits.has_ended(subsystem) && !waits.moves(subsystem)) stopped.insert(subsystem);
+  std::set<net::SubsystemId> stopped;
+  for (std::uint32_t index = 0; index < waits.subsystems(); ++index)
+    if (!waits.has_ended({index}) && !waits.moves({index})) stopped.insert({index});
   if (stopped.empty()) return {std::move(run), {}};
   if (const auto after = Aftermath::of(net, run, stopped, most_markings)) {
     Explainer explainer(net, *after, std::move(run), {});
@@ -251,7 +251,7 @@ Explanation explained(const net::Net& net, Run run) {
     return std::move(explainer).result();
   }
   std::vector<std::string> lines;
-  for (const std::uint32_t subsystem : stopped)
+  for (const net::SubsystemId subsystem : stopped)
     if (never_again(net, run, waits.transitions(subsystem))) add_new(lines, waits.lines(subsystem));
   return {std::move(run), std::move(lines)};
 }

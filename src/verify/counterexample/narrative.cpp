@@ -20,7 +20,7 @@ struct Deed {
   std::string behaviour;  ///< in which it happens; empty: between behaviours
   std::string text;       ///< empty: belongs to the deed before
   std::string done;       ///< replaces text once a deed of the same block without text follows
-  std::uint32_t block = net::no_index;
+  net::BlockId block{};
   std::string transition;   ///< as drawn
   bool then_waits = false;  ///< for an acknowledgement
 };
@@ -35,8 +35,8 @@ class Teller {
   explicit Teller(const net::Net& net) : net_(net) {}
 
   [[nodiscard]] std::string subsystem(TransitionId id) const {
-    const std::uint32_t index = net_[id].subsystem;
-    return index == net::no_subsystem ? std::string() : net_.parts().subsystems[index].path;
+    const net::SubsystemId owner = net_[id].subsystem;
+    return owner.valid() ? net_.parts()[owner].path : std::string();
   }
 
   [[nodiscard]] Deed deed(TransitionId id) const {
@@ -53,8 +53,9 @@ class Teller {
   }
 
  private:
-  [[nodiscard]] const std::string& behaviour_name(std::uint32_t subsystem, std::uint32_t behaviour) const {
-    return net_.parts().subsystems[subsystem].behaviours[behaviour];
+  [[nodiscard]] const std::string& behaviour_name(net::SubsystemId subsystem,
+                                                  net::BehaviourId behaviour) const {
+    return net_.parts()[subsystem].behaviours[behaviour.value];
   }
 
   /// The start of the subsystem and the initial conditions.
@@ -90,8 +91,7 @@ class Teller {
   }
 
   void communicate(TransitionId id, Deed& deed) const {
-    const std::string buffer =
-        deed.block == net::no_index ? std::string() : net_.parts().blocks[deed.block].name;
+    const std::string buffer = deed.block.valid() ? net_.parts()[deed.block].name : std::string();
     const bool overwrites = net_[id].role == net::TransitionRole::overwrite;
     if (net_[id].condition.kind == Condition::Kind::elapsed) {
       deed.text = "waits for " + buffer + " until its timeout";
@@ -157,7 +157,7 @@ class Sentence {
  private:
   struct Clause {
     std::string behaviour, text, done;
-    std::uint32_t block = net::no_index;
+    net::BlockId block{};
     std::vector<std::string> transitions;
   };
 
@@ -177,10 +177,10 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   std::vector<std::string> starts, ends;
   for (const TransitionId id : run) {
     const bool enters = net[id].role == net::TransitionRole::start;
-    if (net[id].agent == net::no_index)
+    if (!net[id].agent.valid())
       system += (system.empty() ? "the system " : " and ") + std::string(enters ? "starts" : "ends");
     else
-      (enters ? starts : ends).push_back(net.parts().agents[net[id].agent]);
+      (enters ? starts : ends).push_back(net.parts()[net[id].agent]);
   }
   std::string text = system;
   const auto tell = [&](const std::vector<std::string>& agents, const char* does) {
@@ -202,7 +202,7 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
   const Teller teller(net);
   std::vector<Act> acts;
   for (std::size_t first = 0, end = 0; first < run.size(); first = end) {
-    const std::uint32_t subsystem = net[run[first]].subsystem;
+    const net::SubsystemId subsystem = net[run[first]].subsystem;
     for (end = first; end < run.size() && net[run[end]].subsystem == subsystem;) ++end;
     const std::span<const TransitionId> part = std::span(run).subspan(first, end - first);
     Act& act = acts.emplace_back();
@@ -210,7 +210,7 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
     act.last = end;
     act.who = teller.subsystem(part.front());
     act.line = net[part.front()].span.line;
-    if (subsystem == net::no_subsystem) {
+    if (!subsystem.valid()) {
       act.text = upper_text(net, part);
       continue;
     }

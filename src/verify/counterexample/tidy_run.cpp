@@ -41,7 +41,7 @@ std::optional<explore::Marking> end_of(const explore::PtNet& net, const Run& run
 
 /// The shortest run to the same end of the net with only the transitions of the run.
 Run searched_again(const net::Net& net, const explore::Marking& end, const Run& run) {
-  std::set<std::uint32_t> subsystems;
+  std::set<net::SubsystemId> subsystems;
   for (const TransitionId id : run) subsystems.insert(net[id].subsystem);
   if (subsystems.size() > most_searched) return run;
   net::Net used(net.shared_parts());
@@ -94,16 +94,16 @@ class RoundRemoval {
  private:
   static constexpr std::size_t most_tries = 400;
   struct Round {
-    std::uint32_t subsystem = 0;
+    net::SubsystemId subsystem;
     std::vector<std::size_t> firings;
     std::map<std::uint32_t, int> effect;  // on fused places
   };
 
   /// The shortest rounds that end with each firing.
   [[nodiscard]] std::vector<Round> rounds_of(const Run& run) const {
-    std::map<std::uint32_t, std::vector<std::size_t>> own;
+    std::map<net::SubsystemId, std::vector<std::size_t>> own;
     for (std::size_t at = 0; at < run.size(); ++at)
-      if (net_[run[at]].subsystem != net::no_subsystem) own[net_[run[at]].subsystem].push_back(at);
+      if (net_[run[at]].subsystem.valid()) own[net_[run[at]].subsystem].push_back(at);
     std::vector<Round> rounds;
     for (const auto& [subsystem, firings] : own) {
       std::set<std::uint32_t> marked;
@@ -136,7 +136,7 @@ class RoundRemoval {
   /// The firings of a round and of those that undo its effect on channels.
   [[nodiscard]] static std::set<std::size_t> closed(const std::vector<Round>& rounds, std::size_t first) {
     std::set<std::size_t> firings(rounds[first].firings.begin(), rounds[first].firings.end());
-    std::set<std::uint32_t> members{rounds[first].subsystem};
+    std::set<net::SubsystemId> members{rounds[first].subsystem};
     std::map<std::uint32_t, int> open = rounds[first].effect;
     for (bool grew = true; grew;) {
       grew = false;
@@ -199,23 +199,23 @@ Run grouped(const net::Net& net, const Run& run) {
   const auto rank = [&](std::size_t at) {
     return net[run[at]].role == net::TransitionRole::no_successor ? 1 : 0;
   };
-  std::map<std::uint32_t, std::set<std::pair<int, std::size_t>>> ready;  // by subsystem
-  std::set<std::tuple<int, std::size_t, std::uint32_t>> order;
+  std::map<net::SubsystemId, std::set<std::pair<int, std::size_t>>> ready;  // by subsystem
+  std::set<std::tuple<int, std::size_t, net::SubsystemId>> order;
   const auto offer = [&](std::size_t at) {
-    const std::uint32_t subsystem = net[run[at]].subsystem;
+    const net::SubsystemId subsystem = net[run[at]].subsystem;
     ready[subsystem].insert({rank(at), at});
-    order.insert({subsystem == net::no_subsystem ? -1 : rank(at), at, subsystem});
+    order.insert({subsystem.valid() ? rank(at) : -1, at, subsystem});
   };
   for (std::size_t at = 0; at < run.size(); ++at)
     if (waiting_for[at] == 0) offer(at);
   Run result;
-  std::uint32_t acting = net::no_subsystem;
+  net::SubsystemId acting;
   while (!order.empty()) {
     const bool goes_on = !ready[acting].empty() && ready[acting].begin()->first == 0;
     if (!goes_on) acting = std::get<2>(*order.begin());
     const auto [its_rank, at] = *ready[acting].begin();
     ready[acting].erase(ready[acting].begin());
-    order.erase({acting == net::no_subsystem ? -1 : its_rank, at, acting});
+    order.erase({acting.valid() ? its_rank : -1, at, acting});
     result.push_back(run[at]);
     for (const std::size_t next : after[at])
       if (--waiting_for[next] == 0) offer(next);

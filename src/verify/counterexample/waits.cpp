@@ -24,19 +24,19 @@ Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
     : net_(net), tokens_(std::move(tokens)), transitions_(net.parts().subsystems.size()) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::Transition& transition = net.transitions()[index];
-    if (transition.subsystem < transitions_.size() &&
+    if (transition.subsystem.value < transitions_.size() &&
         transition.condition.truth != net::Condition::Truth::never)
-      transitions_[transition.subsystem].push_back({index});
+      transitions_[transition.subsystem.value].push_back({index});
   }
 }
 
-bool Waits::moves(std::uint32_t subsystem) const {
-  return std::ranges::any_of(transitions_[subsystem],
+bool Waits::moves(net::SubsystemId subsystem) const {
+  return std::ranges::any_of(transitions_[subsystem.value],
                              [&](TransitionId id) { return net::enabled(net_, id, tokens_); });
 }
 
-bool Waits::has_ended(std::uint32_t subsystem) const {
-  const std::uint32_t agent = net_.parts().subsystems[subsystem].agent;
+bool Waits::has_ended(net::SubsystemId subsystem) const {
+  const net::AgentId agent = net_.parts()[subsystem].agent;
   for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
     if (tokens_[place] == 0) continue;
     const net::Place& given = net_.places()[place];
@@ -50,11 +50,11 @@ bool Waits::has_ended(std::uint32_t subsystem) const {
   return true;
 }
 
-std::set<std::uint32_t> Waits::lacking(std::uint32_t subsystem) const {
-  return verify::lacking(net_, tokens_, transitions_[subsystem]);
+std::set<std::uint32_t> Waits::lacking(net::SubsystemId subsystem) const {
+  return verify::lacking(net_, tokens_, transitions_[subsystem.value]);
 }
 
-std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
+std::vector<std::string> Waits::lines(net::SubsystemId subsystem) const {
   std::vector<std::string> texts;
   const std::set<std::uint32_t> lacks = lacking(subsystem);
   const bool all_own =
@@ -72,44 +72,44 @@ std::vector<std::string> Waits::lines(std::uint32_t subsystem) const {
   return texts;
 }
 
-std::string Waits::line(std::uint32_t subsystem, std::uint32_t missing) const {
+std::string Waits::line(net::SubsystemId subsystem, std::uint32_t missing) const {
   const net::Place& place = net_.places()[missing];
   const Good good = good_of(place);
   std::string what = " waits for the memory of ";
   if (good == Good::value) what = " waits for a value of ";
   if (good == Good::acknowledgement) what = " waits for the acknowledgement of ";
   std::string from;
-  for (const std::uint32_t giver : givers(missing, subsystem))
+  for (const net::SubsystemId giver : givers(missing, subsystem))
     from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : name(giver));
   return name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from);
 }
 
-std::set<std::uint32_t> Waits::givers(std::uint32_t place, std::uint32_t waiting) const {
-  std::set<std::uint32_t> all;
-  for (std::uint32_t subsystem = 0; subsystem < transitions_.size(); ++subsystem)
-    if (!giving(subsystem, place).empty()) all.insert(subsystem);
+std::set<net::SubsystemId> Waits::givers(std::uint32_t place, net::SubsystemId waiting) const {
+  std::set<net::SubsystemId> all;
+  for (std::uint32_t index = 0; index < transitions_.size(); ++index)
+    if (!giving({index}, place).empty()) all.insert({index});
   if (all.size() > 1) all.erase(waiting);
   return all;
 }
 
-std::vector<TransitionId> Waits::giving(std::uint32_t subsystem, std::uint32_t place) const {
+std::vector<TransitionId> Waits::giving(net::SubsystemId subsystem, std::uint32_t place) const {
   const auto here = [&](const net::Arc& arc) { return arc.place.value == place; };
   std::vector<TransitionId> all;
-  for (const TransitionId id : transitions_[subsystem])
+  for (const TransitionId id : transitions_[subsystem.value])
     if (std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here))
       all.push_back(id);
   return all;
 }
 
-bool Waits::is_own_memory(std::uint32_t subsystem, std::uint32_t place) const {
+bool Waits::is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const {
   return good_of(net_.places()[place]) == Good::memory && givers(place, subsystem) == std::set{subsystem};
 }
 
-std::string Waits::takes_no_more(std::uint32_t reader, std::uint32_t place) const {
+std::string Waits::takes_no_more(net::SubsystemId reader, std::uint32_t place) const {
   return name(reader) + " goes on and receives " + channel(net_.places()[place]) + " no more";
 }
 
-std::string Waits::gives_no_more(std::uint32_t giver, std::uint32_t place) const {
+std::string Waits::gives_no_more(net::SubsystemId giver, std::uint32_t place) const {
   const Good good = good_of(net_.places()[place]);
   std::string does = " goes on and gives the memory of ";
   if (good == Good::value) does = " goes on and sends ";

@@ -16,41 +16,41 @@ class Waits {
   Waits(const net::Net& net, std::vector<std::uint32_t> tokens);
 
   /// Can the subsystem fire something at once?
-  [[nodiscard]] bool moves(std::uint32_t subsystem) const;
+  [[nodiscard]] bool moves(net::SubsystemId subsystem) const;
   /// Has the subsystem started and ended?
-  [[nodiscard]] bool has_ended(std::uint32_t subsystem) const;
+  [[nodiscard]] bool has_ended(net::SubsystemId subsystem) const;
   /// What a subsystem without an enabled transition waits for: "a.control waits for a value of
   /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
-  [[nodiscard]] std::vector<std::string> lines(std::uint32_t subsystem) const;
+  [[nodiscard]] std::vector<std::string> lines(net::SubsystemId subsystem) const;
 
   /// The channel places without a token that keep its transitions from firing, if nothing else does.
-  [[nodiscard]] std::set<std::uint32_t> lacking(std::uint32_t subsystem) const;
+  [[nodiscard]] std::set<std::uint32_t> lacking(net::SubsystemId subsystem) const;
   /// The subsystems that can put a token into the place. The waiting one is left out unless it is
   /// the only one.
-  [[nodiscard]] std::set<std::uint32_t> givers(std::uint32_t place, std::uint32_t waiting) const;
+  [[nodiscard]] std::set<net::SubsystemId> givers(std::uint32_t place, net::SubsystemId waiting) const;
   /// The transitions of a subsystem that put a token there and take none from there.
-  [[nodiscard]] std::vector<net::TransitionId> giving(std::uint32_t subsystem, std::uint32_t place) const;
+  [[nodiscard]] std::vector<net::TransitionId> giving(net::SubsystemId subsystem, std::uint32_t place) const;
   /// "a.control goes on and receives ... no more", for a reader and a place that its reads need.
-  [[nodiscard]] std::string takes_no_more(std::uint32_t reader, std::uint32_t place) const;
+  [[nodiscard]] std::string takes_no_more(net::SubsystemId reader, std::uint32_t place) const;
   /// What a subsystem no longer does if it never puts a token into the place: "a.control goes on and sends
   /// ... no more".
-  [[nodiscard]] std::string gives_no_more(std::uint32_t giver, std::uint32_t place) const;
+  [[nodiscard]] std::string gives_no_more(net::SubsystemId giver, std::uint32_t place) const;
 
-  [[nodiscard]] const std::string& name(std::uint32_t subsystem) const {
-    return net_.parts().subsystems[subsystem].path;
+  [[nodiscard]] const std::string& name(net::SubsystemId subsystem) const {
+    return net_.parts()[subsystem].path;
   }
   /// The possible transitions of a subsystem (verify/communication/abstraction.hpp).
-  [[nodiscard]] const std::vector<net::TransitionId>& transitions(std::uint32_t subsystem) const {
-    return transitions_[subsystem];
+  [[nodiscard]] const std::vector<net::TransitionId>& transitions(net::SubsystemId subsystem) const {
+    return transitions_[subsystem.value];
   }
   [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
   /// Is it a place of a channel's memory into which no other subsystem can put a token?
-  [[nodiscard]] bool is_own_memory(std::uint32_t subsystem, std::uint32_t place) const;
-  [[nodiscard]] std::string line(std::uint32_t subsystem, std::uint32_t missing) const;
+  [[nodiscard]] bool is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const;
+  [[nodiscard]] std::string line(net::SubsystemId subsystem, std::uint32_t missing) const;
   [[nodiscard]] const std::string& channel(const net::Place& place) const {
-    return net_.parts().channels[place.channel];
+    return net_.parts()[place.channel];
   }
 
   const net::Net& net_;

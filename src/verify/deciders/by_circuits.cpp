@@ -24,7 +24,7 @@ std::string stuck_in_words(const NetUnderAssumption& given) {
     if (group.stuck.empty()) continue;
     const CommunicationStructure& structure = *given.communication.structure;
     std::string words = in_words(structure, group);
-    if (words.empty()) words = structure.subsystems[group.stuck.front()].name + " can get stuck for ever";
+    if (words.empty()) words = structure[group.stuck.front()].name + " can get stuck for ever";
     return words;
   }
   return {};
@@ -40,10 +40,10 @@ Finding deadlock_free(const NetUnderAssumption& given) {
 std::vector<std::uint32_t> first_stuck(const NetUnderAssumption& given) {
   for (const CircuitGroup& group : given.circuits->groups) {
     if (group.stuck.empty()) continue;
-    std::uint32_t first = group.stuck.front();
+    SubsystemFlowId first = group.stuck.front();
     if (!group.circuit.empty() && std::ranges::count(group.stuck, group.circuit.front().subsystem) > 0)
       first = group.circuit.front().subsystem;
-    return {given.communication.structure->subsystems[first].id};
+    return {(*given.communication.structure)[first].id.value};
   }
   return {};
 }
@@ -54,21 +54,21 @@ Finding goes_on(const NetUnderAssumption& given, std::vector<std::uint32_t> subj
   std::set<std::uint32_t> decided;
   for (const CircuitGroup& group : given.circuits->groups)
     if (group.applies())
-      for (const std::uint32_t subsystem : group.subsystems)
-        decided.insert(given.communication.structure->subsystems[subsystem].id);
+      for (const SubsystemFlowId subsystem : group.subsystems)
+        decided.insert((*given.communication.structure)[subsystem].id.value);
   std::erase_if(subjects, [&](std::uint32_t subsystem) { return decided.contains(subsystem); });
   return open(given, std::move(subjects));
 }
 
 Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
-  const std::vector<ChannelFlow>& channels = given.communication.structure->channels;
+  const CommunicationStructure& structure = *given.communication.structure;
   if (!given.circuits->dry.empty()) {  // the run has to be of the channel that is named
-    const ChannelFlow& dry = channels[given.circuits->dry.front()];
-    return violated(dry.name + " can run dry for ever", {dry.id});
+    const ChannelFlow& dry = structure[given.circuits->dry.front()];
+    return violated(dry.name + " can run dry for ever", {dry.id.value});
   }
   std::set<std::uint32_t> clear;
-  for (const ChannelFlow& channel : channels) clear.insert(channel.id);
-  for (const std::uint32_t channel : given.circuits->unclear) clear.erase(channels[channel].id);
+  for (const ChannelFlow& channel : structure.channels) clear.insert(channel.id.value);
+  for (const ChannelFlowId channel : given.circuits->unclear) clear.erase(structure[channel].id.value);
   std::erase_if(subjects, [&](std::uint32_t channel) { return clear.contains(channel); });
   return subjects.empty() ? holds() : open(given, std::move(subjects));
 }
@@ -90,8 +90,8 @@ std::vector<std::uint32_t> never_following(const NetUnderAssumption& given,
 std::set<std::string> certainly_reached(const NetUnderAssumption& given) {
   std::set<std::string> reached;
   for (const CircuitGroup& group : given.circuits->groups)
-    for (const std::uint32_t subsystem : group.subsystems) {
-      const SubsystemFlow& flow = given.communication.structure->subsystems[subsystem];
+    for (const SubsystemFlowId subsystem : group.subsystems) {
+      const SubsystemFlow& flow = (*given.communication.structure)[subsystem];
       reached.insert(flow.behaviours.front().name);
       if (group.applies() && std::ranges::count(group.stuck, subsystem) == 0)
         for (const BehaviourFlow& behaviour : flow.behaviours) reached.insert(behaviour.name);

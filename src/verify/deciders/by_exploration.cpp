@@ -86,12 +86,13 @@ std::size_t worst_of(const std::vector<Found>& all) {
 }
 
 /// Sets of transitions one of which has to be possible again and again.
-Finding always_possible(const NetUnderAssumption& given, const std::vector<ProbedNet::Set>& all,
+template <class Id>
+Finding always_possible(const NetUnderAssumption& given, const std::vector<ProbedNet::Set<Id>>& all,
                         const Question& question, const Reducing& how, const explore::Limits& limits) {
-  std::vector<const ProbedNet::Set*> sets;
+  std::vector<const ProbedNet::Set<Id>*> sets;
   std::vector<std::vector<TransitionId>> transitions;
-  for (const ProbedNet::Set& set : all) {
-    if (std::ranges::count(question.subjects, set.id) == 0) continue;
+  for (const ProbedNet::Set<Id>& set : all) {
+    if (std::ranges::count(question.subjects, set.id.value) == 0) continue;
     sets.push_back(&set);
     transitions.push_back(set.any_of);
   }
@@ -99,7 +100,7 @@ Finding always_possible(const NetUnderAssumption& given, const std::vector<Probe
   const std::vector<Found> found = find_stuck(given.probed.net, transitions, how, limits);
   const std::size_t worst = worst_of(found);
   Finding finding = judged(found[worst], Found::Kind::yes);
-  finding.subjects = {sets[worst]->id};
+  finding.subjects = {sets[worst]->id.value};
   if (finding.kind != Finding::Kind::violated) return finding;
   std::vector<TransitionId> stuck = sets[worst]->any_of;
   finding.trace = causes_of_standstill(given.probed.net, std::move(finding.trace), stuck);
@@ -117,7 +118,7 @@ Finding goes_on(const NetUnderAssumption& given, const Question& question, const
   Finding finding = always_possible(given, given.probed.subsystems, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why =
-        given.abstract.parts().subsystems[finding.subjects.front()].path + " can get stuck for ever";
+        given.abstract.parts()[net::SubsystemId{finding.subjects.front()}].path + " can get stuck for ever";
   return finding;
 }
 
@@ -125,7 +126,7 @@ Finding channels_flow(const NetUnderAssumption& given, const Question& question,
                       const explore::Limits& limits) {
   Finding finding = always_possible(given, given.probed.channels, question, how, limits);
   if (finding.kind == Finding::Kind::violated)
-    finding.why = given.abstract.parts().channels[finding.subjects.front()] + " can run dry for ever";
+    finding.why = given.abstract.parts()[net::ChannelId{finding.subjects.front()}] + " can run dry for ever";
   return finding;
 }
 
@@ -175,7 +176,7 @@ Finding exclusive_channels(const NetUnderAssumption& given, const Question& ques
   Finding finding = none_reached(given, question, markings, how, limits);
   if (finding.kind != Finding::Kind::violated) return finding;
   const PlaceId place{finding.subjects.front()};
-  finding.why = "the memory of " + given.abstract.parts().channels[given.abstract[place].operation.subject] +
+  finding.why = "the memory of " + given.abstract.parts()[given.abstract[place].operation.channel] +
                 " is used twice at once";
   return finding;
 }

@@ -77,7 +77,7 @@ class ByWaiting final : public Decider {
                                           const std::vector<bool>& goes_on) {
     std::set<std::uint32_t> ids;
     for (std::uint32_t index = 0; index < goes_on.size(); ++index)
-      if (goes_on[index]) ids.insert(structure.subsystems[index].id);
+      if (goes_on[index]) ids.insert(structure.subsystems[index].id.value);
     return ids;
   }
 
@@ -86,7 +86,7 @@ class ByWaiting final : public Decider {
     const std::vector<bool> flows = flowing_channels(structure, goes_on);
     std::set<std::uint32_t> ids;
     for (std::uint32_t index = 0; index < flows.size(); ++index)
-      if (flows[index]) ids.insert(structure.channels[index].id);
+      if (flows[index]) ids.insert(structure.channels[index].id.value);
     return ids;
   }
 };

@@ -58,19 +58,17 @@ const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits
   report = judge_waiting(*given.communication.structure, refused, limits);
   for (const CircuitGroup& group : given.circuits->groups)
     if (group.applies())
-      for (const std::uint32_t subsystem : group.subsystems)
-        report.goes_on[subsystem] = std::ranges::count(group.stuck, subsystem) == 0;
+      for (const SubsystemFlowId subsystem : group.subsystems)
+        report.goes_on[subsystem.value] = std::ranges::count(group.stuck, subsystem) == 0;
   return report;
 }
 
 std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
   std::vector<std::uint32_t> all;
-  const bool of_sets = kind == Question::Kind::goes_on || kind == Question::Kind::channels_flow;
-  if (of_sets) {
-    const ProbedNet& probed = under(assume).probed;
-    for (const ProbedNet::Set& set : kind == Question::Kind::goes_on ? probed.subsystems : probed.channels)
-      all.push_back(set.id);
-  }
+  if (kind == Question::Kind::goes_on)
+    for (const auto& set : under(assume).probed.subsystems) all.push_back(set.id.value);
+  if (kind == Question::Kind::channels_flow)
+    for (const auto& set : under(assume).probed.channels) all.push_back(set.id.value);
   if (kind == Question::Kind::exclusive_channels)
     for (const SharedMemory& memory : shared_memories(subject_.net)) all.push_back(memory.id());
   if (kind == Question::Kind::sound_pages)
@@ -89,7 +87,7 @@ net::PlaceId final_place(const net::Net& net) {
 }
 
 std::string behaviour_of(const net::Net& net, net::PlaceId place) {
-  return net.parts().behaviour_path(net[place].subsystem, net[place].operation.subject);
+  return net.parts().behaviour_path(net[place].subsystem, net[place].operation.behaviour);
 }
 
 }  // namespace tessera::verify

@@ -8,17 +8,17 @@
 namespace tessera::verify {
 namespace {
 
-/// The subsystem with that number, and whether it is known to go on as long as it has not ended.
+/// A subsystem, and whether it is known to go on as long as it has not ended.
 struct Known {
   const SubsystemFlow* flow = nullptr;
   bool goes_on = false;
 };
 
-Known known(const NetUnderAssumption& given, std::uint32_t id) {
+Known known(const NetUnderAssumption& given, net::SubsystemId id) {
   const std::vector<SubsystemFlow>& all = given.communication.structure->subsystems;
   const auto flow = std::ranges::find(all, id, &SubsystemFlow::id);
   if (flow == all.end()) return {};
-  const auto number = static_cast<std::uint32_t>(flow - all.begin());
+  const SubsystemFlowId number{static_cast<std::uint32_t>(flow - all.begin())};
   for (const CircuitGroup& group : given.circuits->groups)
     if (std::ranges::count(group.subsystems, number) > 0)
       return {&*flow, group.applies() && std::ranges::count(group.stuck, number) == 0};

@@ -48,15 +48,15 @@ Formula unsound(const PagePlaces& page) {
 }
 
 std::uint32_t SharedMemory::id() const {
-  const PlaceId none{UINT32_MAX};
+  const PlaceId none;
   return std::min(writes.empty() ? none : writes.front(), reads.empty() ? none : reads.front()).value;
 }
 
 std::vector<SharedMemory> shared_memories(const net::Net& net) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, SharedMemory> memories;  // by channel and slot
+  std::map<std::pair<net::ChannelId, std::uint32_t>, SharedMemory> memories;  // by channel and slot
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     const net::Operation& operation = net.places()[index].operation;
-    const std::pair memory(operation.subject, operation.slot);
+    const std::pair memory(operation.channel, operation.slot);
     if (operation.kind == net::Operation::Kind::write) memories[memory].writes.push_back({index});
     if (operation.kind == net::Operation::Kind::read) memories[memory].reads.push_back({index});
   }

@@ -6,11 +6,11 @@
 
 namespace tessera::verify {
 
-Skeleton::Skeleton(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems)
+Skeleton::Skeleton(const CommunicationStructure& structure, std::span<const SubsystemFlowId> subsystems)
     : structure_(structure), memory_(structure.channels.size()), places_of_(structure.subsystems.size()) {
   for (std::uint32_t channel = 0; channel < memory_.size(); ++channel)
     if (holds_up(structure.channels[channel])) memory_[channel] = {place(), place()};
-  for (const std::uint32_t subsystem : subsystems) draw(subsystem);
+  for (const SubsystemFlowId subsystem : subsystems) draw(subsystem);
 }
 
 std::uint32_t Skeleton::place(std::uint32_t tokens) {
@@ -19,9 +19,9 @@ std::uint32_t Skeleton::place(std::uint32_t tokens) {
   return net_.add(std::move(added)).value;
 }
 
-std::uint32_t Skeleton::point(std::uint32_t subsystem, std::uint32_t tokens) {
-  places_of_[subsystem].push_back(place(tokens));
-  return places_of_[subsystem].back();
+std::uint32_t Skeleton::point(SubsystemFlowId subsystem, std::uint32_t tokens) {
+  places_of_[subsystem.value].push_back(place(tokens));
+  return places_of_[subsystem.value].back();
 }
 
 void Skeleton::step(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to) {
@@ -33,8 +33,8 @@ void Skeleton::step(const std::vector<std::uint32_t>& from, const std::vector<st
   net_.add(net::Transition{}, arcs(from), arcs(to));
 }
 
-void Skeleton::draw(std::uint32_t subsystem) {
-  const std::vector<BehaviourFlow>& behaviours = structure_.subsystems[subsystem].behaviours;
+void Skeleton::draw(SubsystemFlowId subsystem) {
+  const std::vector<BehaviourFlow>& behaviours = structure_[subsystem].behaviours;
   std::vector<std::uint32_t> starts;
   for (std::size_t index = 0; index < behaviours.size(); ++index)
     starts.push_back(point(subsystem, index == 0 ? 1 : 0));
@@ -49,10 +49,10 @@ void Skeleton::draw(std::uint32_t subsystem) {
 }
 
 /// Returns the point after the stage.
-std::uint32_t Skeleton::draw_stage(std::uint32_t subsystem, const Stage& stage, std::uint32_t from) {
+std::uint32_t Skeleton::draw_stage(SubsystemFlowId subsystem, const Stage& stage, std::uint32_t from) {
   std::vector<Communication> kept;
   std::ranges::copy_if(stage, std::back_inserter(kept), [&](const Communication& communication) {
-    return holds_up(structure_.channels[communication.channel]);
+    return holds_up(structure_[communication.flow]);
   });
   if (kept.empty()) return from;
   ++stages_;
@@ -61,7 +61,7 @@ std::uint32_t Skeleton::draw_stage(std::uint32_t subsystem, const Stage& stage, 
     draw_block(subsystem, kept.front(), from, to);
     return to;
   }
-  const std::size_t first_stop = stops_.size(), first_point = places_of_[subsystem].size();
+  const std::size_t first_stop = stops_.size(), first_point = places_of_[subsystem.value].size();
   std::vector<std::uint32_t> ins, outs;
   for (const Communication& communication : kept) {
     ins.push_back(point(subsystem));
@@ -71,24 +71,24 @@ std::uint32_t Skeleton::draw_stage(std::uint32_t subsystem, const Stage& stage, 
   step({from}, ins);
   step(outs, {to});
   for (std::size_t index = first_stop; index < stops_.size(); ++index)
-    for (std::size_t other = first_point; other < places_of_[subsystem].size(); ++other)
-      if (places_of_[subsystem][other] != stops_[index].place)
-        stops_[index].beside.push_back(places_of_[subsystem][other]);
+    for (std::size_t other = first_point; other < places_of_[subsystem.value].size(); ++other)
+      if (places_of_[subsystem.value][other] != stops_[index].place)
+        stops_[index].beside.push_back(places_of_[subsystem.value][other]);
   return to;
 }
 
-void Skeleton::draw_block(std::uint32_t subsystem, const Communication& communication, std::uint32_t from,
+void Skeleton::draw_block(SubsystemFlowId subsystem, const Communication& communication, std::uint32_t from,
                           std::uint32_t to) {
   if (communication.side == Side::send)
-    draw_send(subsystem, communication.channel, from, to);
+    draw_send(subsystem, communication.flow, from, to);
   else
-    draw_receive(subsystem, communication.channel, from, to);
+    draw_receive(subsystem, communication.flow, from, to);
 }
 
-void Skeleton::draw_send(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from,
+void Skeleton::draw_send(SubsystemFlowId subsystem, ChannelFlowId channel, std::uint32_t from,
                          std::uint32_t to) {
-  const ChannelFlow& flow = structure_.channels[channel];
-  const Memory& memory = memory_[channel];
+  const ChannelFlow& flow = structure_[channel];
+  const Memory& memory = memory_[channel.value];
   if (!flow.send_blocks) return step({from}, {to, memory.full});
   const std::uint32_t wait = point(subsystem);
   step({from}, {wait, memory.full});
@@ -99,10 +99,10 @@ void Skeleton::draw_send(std::uint32_t subsystem, std::uint32_t channel, std::ui
     stops_.push_back({wait, subsystem, channel, Side::send, {}, stages_});
 }
 
-void Skeleton::draw_receive(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from,
+void Skeleton::draw_receive(SubsystemFlowId subsystem, ChannelFlowId channel, std::uint32_t from,
                             std::uint32_t to) {
-  const ChannelFlow& flow = structure_.channels[channel];
-  const Memory& memory = memory_[channel];
+  const ChannelFlow& flow = structure_[channel];
+  const Memory& memory = memory_[channel.value];
   if (flow.send_blocks)
     step({from, memory.full}, {to, memory.acknowledged});
   else

@@ -18,25 +18,26 @@ class Skeleton {
   /// A place where a token waits for as long as it takes.
   struct Stop {
     std::uint32_t place = 0;
-    std::uint32_t subsystem = 0;
-    std::uint32_t channel = 0;
+    SubsystemFlowId subsystem;
+    ChannelFlowId channel;
     Side side = Side::receive;  ///< send: for the acknowledgement
     /// Places that may be marked together with this one: those of the other branches of a parallel transfer.
     std::vector<std::uint32_t> beside;
     std::uint32_t stage = 0;  ///< stops of one stage may be occupied together
   };
 
-  Skeleton(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems);
+  Skeleton(const CommunicationStructure& structure, std::span<const SubsystemFlowId> subsystems);
 
   [[nodiscard]] const net::Net& net() const { return net_; }
   [[nodiscard]] const std::vector<Stop>& stops() const { return stops_; }
   /// All places of a subsystem.
-  [[nodiscard]] std::span<const std::uint32_t> of_subsystem(std::uint32_t subsystem) const {
-    return places_of_[subsystem];
+  [[nodiscard]] std::span<const std::uint32_t> of_subsystem(SubsystemFlowId subsystem) const {
+    return places_of_[subsystem.value];
   }
   /// The place whose token a stop waits for.
   [[nodiscard]] std::uint32_t awaited(const Stop& stop) const {
-    return stop.side == Side::send ? memory_[stop.channel].acknowledged : memory_[stop.channel].full;
+    const Memory& memory = memory_[stop.channel.value];
+    return stop.side == Side::send ? memory.acknowledged : memory.full;
   }
 
  private:
@@ -45,14 +46,14 @@ class Skeleton {
   };
 
   std::uint32_t place(std::uint32_t tokens = 0);
-  std::uint32_t point(std::uint32_t subsystem, std::uint32_t tokens = 0);
+  std::uint32_t point(SubsystemFlowId subsystem, std::uint32_t tokens = 0);
   void step(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& to);
-  void draw(std::uint32_t subsystem);
-  std::uint32_t draw_stage(std::uint32_t subsystem, const Stage& stage, std::uint32_t from);
-  void draw_block(std::uint32_t subsystem, const Communication& communication, std::uint32_t from,
+  void draw(SubsystemFlowId subsystem);
+  std::uint32_t draw_stage(SubsystemFlowId subsystem, const Stage& stage, std::uint32_t from);
+  void draw_block(SubsystemFlowId subsystem, const Communication& communication, std::uint32_t from,
                   std::uint32_t to);
-  void draw_send(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from, std::uint32_t to);
-  void draw_receive(std::uint32_t subsystem, std::uint32_t channel, std::uint32_t from, std::uint32_t to);
+  void draw_send(SubsystemFlowId subsystem, ChannelFlowId channel, std::uint32_t from, std::uint32_t to);
+  void draw_receive(SubsystemFlowId subsystem, ChannelFlowId channel, std::uint32_t from, std::uint32_t to);
 
   const CommunicationStructure& structure_;
   net::Net net_;

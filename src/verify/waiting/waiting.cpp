@@ -12,13 +12,13 @@ namespace {
 /// Why nothing is known of the group: a behaviour after which it may be that nothing follows, or a channel of
 /// which only its net tells who waits for what.
 std::string unfit(const CommunicationStructure& structure, const CircuitGroup& group) {
-  for (const std::uint32_t subsystem : group.subsystems)
-    for (const BehaviourFlow& behaviour : structure.subsystems[subsystem].behaviours) {
+  for (const SubsystemFlowId subsystem : group.subsystems)
+    for (const BehaviourFlow& behaviour : structure[subsystem].behaviours) {
       if (!behaviour.complete)
         return "after '" + behaviour.name + "' none of the initial conditions may hold";
       for (const Stage& stage : behaviour.stages)
         for (const Communication& communication : stage)
-          if (const ChannelFlow& channel = structure.channels[communication.channel]; channel.own_model)
+          if (const ChannelFlow& channel = structure[communication.flow]; channel.own_model)
             return "'" + channel.name + "' has a communication model of its own";
     }
   return {};
@@ -26,12 +26,11 @@ std::string unfit(const CommunicationStructure& structure, const CircuitGroup& g
 
 std::string suspicion(const CommunicationStructure& structure, const WaitingCycleSearch& search) {
   const Wait& wait = search.suspected().front();
-  const std::string who = structure.subsystems[wait.subsystem].name;
-  const std::string where = "'" + who + "' waits at " + structure.channels[wait.channel].name;
-  if (search.deserted() && wait.waiting_for == WaitingCycleSearch::nobody)
-    return where + ", which nobody else uses";
+  const std::string who = structure[wait.subsystem].name;
+  const std::string where = "'" + who + "' waits at " + structure[wait.channel].name;
+  if (search.deserted() && !wait.waiting_for.valid()) return where + ", which nobody else uses";
   if (search.deserted())
-    return where + " for " + structure.subsystems[wait.waiting_for].name + ", which need not come back to it";
+    return where + " for " + structure[wait.waiting_for].name + ", which need not come back to it";
   CircuitGroup cycle;
   cycle.circuit = search.suspected();
   return "it is not excluded that " + in_words(structure, cycle);
@@ -47,14 +46,14 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
     if (report.why_not.empty()) report.why_not = std::move(why);
   };
   std::vector<const CircuitGroup*> group_of(structure.subsystems.size(), nullptr);
-  std::vector<std::uint32_t> judged;
+  std::vector<SubsystemFlowId> judged;
   for (const CircuitGroup* group : groups) {
     if (std::string why = unfit(structure, *group); !why.empty()) {
       refuse(std::move(why));
       continue;
     }
-    for (const std::uint32_t subsystem : group->subsystems) {
-      group_of[subsystem] = group;
+    for (const SubsystemFlowId subsystem : group->subsystems) {
+      group_of[subsystem.value] = group;
       judged.push_back(subsystem);
     }
   }
@@ -63,14 +62,15 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
   WaitingCycleSearch::End end = search.run();
   while (end == WaitingCycleSearch::End::suspected) {
     refuse(suspicion(structure, search));
-    const CircuitGroup* const group = group_of[search.suspected().front().subsystem];
+    const CircuitGroup* const group = group_of[search.suspected().front().subsystem.value];
     search.give_up_on(group->subsystems);
-    for (const std::uint32_t subsystem : group->subsystems) group_of[subsystem] = nullptr;
+    for (const SubsystemFlowId subsystem : group->subsystems) group_of[subsystem.value] = nullptr;
     end = search.run();
   }
   if (end == WaitingCycleSearch::End::gave_up) refuse(watch.why());
   if (end == WaitingCycleSearch::End::excluded)
-    for (const std::uint32_t subsystem : judged) report.goes_on[subsystem] = group_of[subsystem] != nullptr;
+    for (const SubsystemFlowId subsystem : judged)
+      report.goes_on[subsystem.value] = group_of[subsystem.value] != nullptr;
   report.complete = end == WaitingCycleSearch::End::excluded;
   report.stops = search.stops();
   report.traps = search.traps();
@@ -79,17 +79,18 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
 
 std::vector<bool> flowing_channels(const CommunicationStructure& structure,
                                    const std::vector<bool>& goes_on) {
-  const auto uses_for_ever = [&](std::optional<std::uint32_t> subsystem, std::uint32_t channel, Side side) {
-    return subsystem && goes_on[*subsystem] && comes_back(structure, *subsystem, channel, side);
+  const auto uses_for_ever = [&](SubsystemFlowId subsystem, ChannelFlowId channel, Side side) {
+    return subsystem.valid() && goes_on[subsystem.value] && comes_back(structure, subsystem, channel, side);
   };
   std::vector<bool> flows;
   for (std::uint32_t index = 0; index < structure.channels.size(); ++index) {
-    const ChannelFlow& channel = structure.channels[index];
+    const ChannelFlowId id{index};
+    const ChannelFlow& channel = structure[id];
     // Where the sender may take its value back and the reader may pass by, the two can keep
     // missing each other.
     const bool meet = waits_to_receive(channel) || !channel.send_timeout;
-    flows.push_back(uses_for_ever(channel.receiver, index, Side::receive) &&
-                    (channel.always_readable || (meet && uses_for_ever(channel.sender, index, Side::send))));
+    flows.push_back(uses_for_ever(channel.receiver, id, Side::receive) &&
+                    (channel.always_readable || (meet && uses_for_ever(channel.sender, id, Side::send))));
   }
   return flows;
 }

@@ -9,16 +9,16 @@ namespace tessera::verify {
 
 using siphons::PlaceSet;
 
-bool comes_back(const CommunicationStructure& structure, std::uint32_t subsystem, std::uint32_t channel,
+bool comes_back(const CommunicationStructure& structure, SubsystemFlowId subsystem, ChannelFlowId channel,
                 Side side) {
-  const SubsystemFlow& flow = structure.subsystems[subsystem];
+  const SubsystemFlow& flow = structure[subsystem];
   return std::ranges::none_of(flow.behaviours, &BehaviourFlow::ends) &&
          std::ranges::all_of(flow.behaviours, &BehaviourFlow::complete) &&
          always_uses_again(flow, channel, side);
 }
 
 WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
-                                       std::span<const std::uint32_t> subsystems, explore::Watch& watch)
+                                       std::span<const SubsystemFlowId> subsystems, explore::Watch& watch)
     : structure_(structure),
       skeleton_(structure, subsystems),
       net_(skeleton_.net()),
@@ -26,7 +26,7 @@ WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
       stops_of_(structure.subsystems.size()),
       stuck_(structure.subsystems.size(), 0) {
   for (std::uint32_t stop = 0; stop < all().size(); ++stop) {
-    stops_of_[all()[stop].subsystem].push_back(stop);
+    stops_of_[all()[stop].subsystem.value].push_back(stop);
     at_.push_back(clauses_.variable());
   }
   find_partners();
@@ -36,30 +36,30 @@ WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
 
 void WaitingCycleSearch::find_partners() {
   for (const Stop& stop : all()) {
-    const ChannelFlow& channel = structure_.channels[stop.channel];
+    const ChannelFlow& channel = structure_[stop.channel];
     const bool sends = stop.side == Side::send;
-    const std::uint32_t partner = (sends ? channel.receiver : channel.sender).value_or(nobody);
+    const SubsystemFlowId partner = sends ? channel.receiver : channel.sender;
     partner_.push_back(partner);
-    deserts_.push_back(partner == nobody ||
+    deserts_.push_back(!partner.valid() ||
                        !comes_back(structure_, partner, stop.channel, sends ? Side::receive : Side::send));
   }
 }
 
 /// A stuck subsystem is at a stop. The subsystem that it waits for is stuck too, unless that one need not
 /// come back anyway.
-void WaitingCycleSearch::state_waits(std::span<const std::uint32_t> subsystems) {
+void WaitingCycleSearch::state_waits(std::span<const SubsystemFlowId> subsystems) {
   std::vector<int> somebody;
-  for (const std::uint32_t subsystem : subsystems) {
-    stuck_[subsystem] = clauses_.variable();
-    somebody.push_back(stuck_[subsystem]);
+  for (const SubsystemFlowId subsystem : subsystems) {
+    stuck_[subsystem.value] = clauses_.variable();
+    somebody.push_back(stuck_[subsystem.value]);
   }
   clauses_.add(somebody);
-  for (const std::uint32_t subsystem : subsystems) {
-    std::vector<int> somewhere{-stuck_[subsystem]};
-    for (const std::uint32_t stop : stops_of_[subsystem]) {
+  for (const SubsystemFlowId subsystem : subsystems) {
+    std::vector<int> somewhere{-stuck_[subsystem.value]};
+    for (const std::uint32_t stop : stops_of_[subsystem.value]) {
       somewhere.push_back(at_[stop]);
-      clauses_.add({-at_[stop], stuck_[subsystem]});
-      if (!deserts_[stop]) clauses_.add({-at_[stop], stuck_[partner_[stop]]});
+      clauses_.add({-at_[stop], stuck_[subsystem.value]});
+      if (!deserts_[stop]) clauses_.add({-at_[stop], stuck_[partner_[stop].value]});
     }
     clauses_.add(somewhere);
   }
@@ -68,10 +68,10 @@ void WaitingCycleSearch::state_waits(std::span<const std::uint32_t> subsystems) 
 /// A subsystem is at one stop, or at several of one stage; and a channel is empty for a waiting receiver, but
 /// full for a waiting sender.
 void WaitingCycleSearch::state_exclusions() {
-  std::map<std::uint32_t, Stops> senders, receivers;  // by channel
+  std::map<ChannelFlowId, Stops> senders, receivers;
   for (std::uint32_t stop = 0; stop < all().size(); ++stop) {
     const Stop& one = all()[stop];
-    for (const std::uint32_t other : stops_of_[one.subsystem])
+    for (const std::uint32_t other : stops_of_[one.subsystem.value])
       if (other < stop && all()[other].stage != one.stage) clauses_.add({-at_[stop], -at_[other]});
     (one.side == Side::send ? senders : receivers)[one.channel].push_back(stop);
   }
@@ -80,8 +80,8 @@ void WaitingCycleSearch::state_exclusions() {
       for (const std::uint32_t receiver : receivers[channel]) clauses_.add({-at_[sender], -at_[receiver]});
 }
 
-void WaitingCycleSearch::give_up_on(std::span<const std::uint32_t> subsystems) {
-  for (const std::uint32_t subsystem : subsystems) clauses_.add({-stuck_[subsystem]});
+void WaitingCycleSearch::give_up_on(std::span<const SubsystemFlowId> subsystems) {
+  for (const SubsystemFlowId subsystem : subsystems) clauses_.add({-stuck_[subsystem.value]});
 }
 
 WaitingCycleSearch::End WaitingCycleSearch::run() {
@@ -111,16 +111,16 @@ WaitingCycleSearch::Stops WaitingCycleSearch::all_occupied() const {
 /// single stops that wait for a deserter.
 std::vector<WaitingCycleSearch::Stops> WaitingCycleSearch::cycles() const {
   std::vector<Stops> found;
-  std::vector<std::uint32_t> passed(stops_of_.size(), nobody);  // per subsystem: where the walk began
+  std::vector<bool> passed(stops_of_.size(), false);  // per subsystem
   for (std::uint32_t start = 0; start < all().size(); ++start) {
     if (!occupied(start)) continue;
     Stops walk;
     std::uint32_t stop = start;
-    while (passed[all()[stop].subsystem] == nobody) {
-      passed[all()[stop].subsystem] = start;
+    while (!passed[all()[stop].subsystem.value]) {
+      passed[all()[stop].subsystem.value] = true;
       walk.push_back(stop);
       if (deserts_[stop]) break;
-      const Stops& next = stops_of_[partner_[stop]];
+      const Stops& next = stops_of_[partner_[stop].value];
       stop = *std::ranges::find_if(next, [&](std::uint32_t candidate) { return occupied(candidate); });
     }
     if (walk.empty()) continue;
@@ -176,7 +176,7 @@ int WaitingCycleSearch::leaving_empty(const PlaceSet& trap, std::uint32_t stop) 
   const auto in_trap = [&](std::uint32_t place) { return trap[place] != 0; };
   const std::uint32_t awaited = skeleton_.awaited(all()[stop]);
   Stops as_empty;
-  for (const std::uint32_t other : stops_of_[all()[stop].subsystem]) {
+  for (const std::uint32_t other : stops_of_[all()[stop].subsystem.value]) {
     const Stop& one = all()[other];
     const bool awaits_enough = !in_trap(awaited) || skeleton_.awaited(one) == awaited;
     if (awaits_enough && !in_trap(one.place) && std::ranges::none_of(one.beside, in_trap))

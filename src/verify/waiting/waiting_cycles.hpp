@@ -19,9 +19,7 @@ namespace tessera::verify {
 /// Threads: one.
 class WaitingCycleSearch {
  public:
-  static constexpr std::uint32_t nobody = UINT32_MAX;
-
-  WaitingCycleSearch(const CommunicationStructure& structure, std::span<const std::uint32_t> subsystems,
+  WaitingCycleSearch(const CommunicationStructure& structure, std::span<const SubsystemFlowId> subsystems,
                      explore::Watch& watch);
 
   enum class End : std::uint8_t {
@@ -37,7 +35,7 @@ class WaitingCycleSearch {
   /// The first of the suspected waits is for a subsystem that need not come back.
   [[nodiscard]] bool deserted() const { return deserted_; }
   /// Leaves these subsystems out of further searches.
-  void give_up_on(std::span<const std::uint32_t> subsystems);
+  void give_up_on(std::span<const SubsystemFlowId> subsystems);
 
   [[nodiscard]] std::size_t stops() const { return all().size(); }
   [[nodiscard]] std::size_t traps() const { return traps_; }
@@ -48,7 +46,7 @@ class WaitingCycleSearch {
 
   [[nodiscard]] const std::vector<Stop>& all() const { return skeleton_.stops(); }
   void find_partners();
-  void state_waits(std::span<const std::uint32_t> subsystems);
+  void state_waits(std::span<const SubsystemFlowId> subsystems);
   void state_exclusions();
 
   [[nodiscard]] bool occupied(std::uint32_t stop) const { return clauses_.is_true(at_[stop]); }
@@ -63,11 +61,11 @@ class WaitingCycleSearch {
   Skeleton skeleton_;
   explore::PtNet net_;
   siphons::Clauses clauses_;
-  std::vector<Stops> stops_of_;         // per subsystem
-  std::vector<int> at_;                 // per stop: a subsystem is stuck there
-  std::vector<int> stuck_;              // per subsystem
-  std::vector<std::uint32_t> partner_;  // per stop
-  std::vector<bool> deserts_;           // per stop: the partner need not come back
+  std::vector<Stops> stops_of_;           // per subsystem
+  std::vector<int> at_;                   // per stop: a subsystem is stuck there
+  std::vector<int> stuck_;                // per subsystem
+  std::vector<SubsystemFlowId> partner_;  // per stop; none: nobody uses the other end
+  std::vector<bool> deserts_;             // per stop: the partner need not come back
   std::map<Stops, int> one_of_;
   std::vector<Wait> suspected_;
   bool deserted_ = false;
@@ -75,7 +73,7 @@ class WaitingCycleSearch {
 };
 
 /// Can the subsystem, as long as it goes on, come back to that side of the channel from wherever it is?
-[[nodiscard]] bool comes_back(const CommunicationStructure& structure, std::uint32_t subsystem,
-                              std::uint32_t channel, Side side);
+[[nodiscard]] bool comes_back(const CommunicationStructure& structure, SubsystemFlowId subsystem,
+                              ChannelFlowId channel, Side side);
 
 }  // namespace tessera::verify

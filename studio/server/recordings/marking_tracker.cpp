@@ -8,17 +8,16 @@ MarkingTracker::MarkingTracker(const net::Net& net) : net_(net) {
   for (const net::Place& place : net.places()) tokens_.push_back(static_cast<std::int32_t>(place.tokens));
 }
 
-void MarkingTracker::fire(std::uint32_t transition) {
-  const net::TransitionId id{transition};
+void MarkingTracker::fire(net::TransitionId id) {
   for (const net::Arc& arc : net_.preset(id))
     tokens_[arc.place.value] -= static_cast<std::int32_t>(arc.weight);
   for (const net::Arc& arc : net_.postset(id))
     tokens_[arc.place.value] += static_cast<std::int32_t>(arc.weight);
 }
 
-void MarkingTracker::set(std::span<const std::uint32_t> places) {
+void MarkingTracker::set(std::span<const net::PlaceId> places) {
   std::ranges::fill(tokens_, 0);
-  for (const std::uint32_t place : places) tokens_[place] = 1;
+  for (const net::PlaceId place : places) tokens_[place.value] = 1;
 }
 
 std::vector<std::uint32_t> MarkingTracker::marked() const {

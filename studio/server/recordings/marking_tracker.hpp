@@ -13,10 +13,10 @@ class MarkingTracker {
  public:
   /// The initial marking. net: must outlive it.
   explicit MarkingTracker(const net::Net& net);
-  void fire(std::uint32_t transition);
+  void fire(net::TransitionId transition);
   /// Puts one token into each of these places, and none into the others.
-  void set(std::span<const std::uint32_t> places);
-  /// The places that hold a token.
+  void set(std::span<const net::PlaceId> places);
+  /// The numbers of the places that hold a token.
   [[nodiscard]] std::vector<std::uint32_t> marked() const;
 
  private:

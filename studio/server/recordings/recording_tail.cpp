@@ -9,35 +9,37 @@ namespace tessera::server {
 
 // ------------------------------------------------------------------------------------------------ names
 
-template <class Elements>
-NetNames::Numbers NetNames::numbers_of(const Elements& elements) {
-  Numbers numbers;
+template <class Id, class Elements>
+NetNames::Ids<Id> NetNames::ids_of(const Elements& elements) {
+  Ids<Id> ids;
   for (std::uint32_t index = 0; index < elements.size(); ++index)
-    numbers.emplace_back(elements[index].name, index);
-  std::ranges::sort(numbers);
-  return numbers;
+    ids.emplace_back(elements[index].name, Id{index});
+  std::ranges::sort(ids);
+  return ids;
 }
 
 NetNames::NetNames(const net::Net& net)
-    : places_(numbers_of(net.places())), transitions_(numbers_of(net.transitions())) {}
+    : places_(ids_of<net::PlaceId>(net.places())),
+      transitions_(ids_of<net::TransitionId>(net.transitions())) {}
 
-std::uint32_t NetNames::find(const Numbers& numbers, std::string_view name) {
-  const auto found = std::ranges::lower_bound(numbers, name, {}, &Numbers::value_type::first);
-  return found != numbers.end() && found->first == name ? found->second : UINT32_MAX;
+template <class Id>
+Id NetNames::find(const Ids<Id>& ids, std::string_view name) {
+  const auto found = std::ranges::lower_bound(ids, name, {}, &Ids<Id>::value_type::first);
+  return found != ids.end() && found->first == name ? found->second : Id{};
 }
 
-std::vector<std::uint32_t> NetNames::transitions_of(const Recording& recording) const {
-  std::vector<std::uint32_t> indices;
+std::vector<net::TransitionId> NetNames::transitions_of(const Recording& recording) const {
+  std::vector<net::TransitionId> ids;
   for (const Recording::TransitionName& one : recording.transitions)
-    indices.push_back(find(transitions_, one.name));
-  return indices;
+    ids.push_back(find(transitions_, one.name));
+  return ids;
 }
 
-std::vector<std::uint32_t> NetNames::marked(std::string_view lines) const {
-  std::vector<std::uint32_t> places;
+std::vector<net::PlaceId> NetNames::marked(std::string_view lines) const {
+  std::vector<net::PlaceId> places;
   while (!lines.empty()) {
     const std::size_t end = std::min(lines.find('\n'), lines.size());
-    if (const std::uint32_t place = find(places_, lines.substr(0, end)); place != UINT32_MAX)
+    if (const net::PlaceId place = find(places_, lines.substr(0, end)); place.valid())
       places.push_back(place);
     lines.remove_prefix(std::min(end + 1, lines.size()));
   }
@@ -59,10 +61,10 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   const Event& event = entry.event;
   batch.time_ns = std::max(batch.time_ns, event.time_ns);
   if (event.kind() == Event::Kind::firing) {
-    const std::uint32_t transition = segment_->transitions[event.subject];
-    if (transition == UINT32_MAX) return;
+    const net::TransitionId transition = segment_->transitions[event.subject];
+    if (!transition.valid()) return;
     tokens_.fire(transition);
-    batch.firings.emplace_back(event.time_ns, transition);
+    batch.firings.emplace_back(event.time_ns, transition.value);
   } else if (event.kind() == Event::Kind::value) {
     const auto change = segment_->values.follow(entry);
     if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;

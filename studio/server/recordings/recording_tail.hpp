@@ -21,17 +21,20 @@ namespace tessera::server {
 class NetNames {
  public:
   explicit NetNames(const net::Net& net);
-  /// For each transition of the recording, its number; UINT32_MAX: the net has no such transition.
-  [[nodiscard]] std::vector<std::uint32_t> transitions_of(const Recording& recording) const;
+  /// For each transition of the recording, that of the net; none: the net has no such transition.
+  [[nodiscard]] std::vector<net::TransitionId> transitions_of(const Recording& recording) const;
   /// The places with a token, as listed by an event `marking`.
-  [[nodiscard]] std::vector<std::uint32_t> marked(std::string_view lines) const;
+  [[nodiscard]] std::vector<net::PlaceId> marked(std::string_view lines) const;
 
  private:
-  using Numbers = std::vector<std::pair<std::string_view, std::uint32_t>>;  // sorted
-  template <class Elements>
-  [[nodiscard]] static Numbers numbers_of(const Elements& elements);
-  [[nodiscard]] static std::uint32_t find(const Numbers& numbers, std::string_view name);
-  Numbers places_, transitions_;
+  template <class Id>
+  using Ids = std::vector<std::pair<std::string_view, Id>>;  // sorted
+  template <class Id, class Elements>
+  [[nodiscard]] static Ids<Id> ids_of(const Elements& elements);
+  template <class Id>
+  [[nodiscard]] static Id find(const Ids<Id>& ids, std::string_view name);
+  Ids<net::PlaceId> places_;
+  Ids<net::TransitionId> transitions_;
 };
 
 /// Follows a run by its recording: which transitions fired, where the tokens are,
@@ -63,7 +66,7 @@ class RecordingTail {
   struct Segment {
     Segment(std::shared_ptr<const Recording> its_recording, const NetNames& names);
     std::shared_ptr<const Recording> recording;
-    std::vector<std::uint32_t> transitions;  // for each transition of the recording, its index in the net
+    std::vector<net::TransitionId> transitions;  // for each transition of the recording, that of the net
     replay::ValueTrack values;
     std::deque<std::uint32_t> changed;  // indices of buffers
     std::vector<bool> has_changed;      // per buffer

@@ -125,7 +125,7 @@ class Content {
 
   void begin(const Recording& recording) {
     values_.begin(recording, span_);
-    transitions_ = names_ ? names_->transitions_of(recording) : std::vector<std::uint32_t>();
+    transitions_ = names_ ? names_->transitions_of(recording) : std::vector<net::TransitionId>();
     if (!content_.is_null()) return;
     content_ = {
         {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
@@ -168,12 +168,12 @@ class Content {
     first_ns_ = std::min(first_ns_, event.time_ns);
     last_ns_ = std::max(last_ns_, event.time_ns);
     ++total_;
-    const bool known = event.subject < transitions_.size() && transitions_[event.subject] != UINT32_MAX;
+    const bool known = event.subject < transitions_.size() && transitions_[event.subject].valid();
     if (event.time_ns > span_.to_ns) return;
     if (event.time_ns >= span_.from_ns) {
       // If there is no more room for values, the next part begins.
       if (known && firings_.size() < Recordings::most_firings && values_.complete())
-        firings_.emplace_back(event.time_ns, transitions_[event.subject]);
+        firings_.emplace_back(event.time_ns, transitions_[event.subject].value);
       else
         ++dropped_;
     } else if (known && begins_ != Begins::unknown) {
@@ -191,7 +191,7 @@ class Content {
   const Recordings::Span span_;
   std::optional<NetNames> names_;
   std::optional<MarkingTracker> tokens_;
-  std::vector<std::uint32_t> transitions_;  // of the recording: indices of the net
+  std::vector<net::TransitionId> transitions_;  // per transition of the recording: that of the net
   ValueSeries values_;
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
   std::uint64_t dropped_ = 0, total_ = 0;

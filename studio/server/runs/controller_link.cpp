@@ -1,15 +1,6 @@
 #include "server/runs/controller_link.hpp"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -20,44 +11,20 @@ namespace tessera::server {
 
 using Clock = std::chrono::steady_clock;
 
-namespace {
-
-/// -1: no process listens there.
-int connected_to(const std::filesystem::path& file) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (file.native().size() >= sizeof address.sun_path) return -1;
-  std::memcpy(address.sun_path, file.c_str(), file.native().size() + 1);
-  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return made;
-  close(made);
-  return -1;
-}
-
-}  // namespace
-
 std::vector<std::string> listening_sockets() {
   std::vector<std::string> names;
-  std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(monitor_folder(), ignored), end; !ignored && entry != end;
-       entry.increment(ignored)) {
-    if (entry->path().extension() != ".sock" || !entry->is_socket(ignored)) continue;
-    const int found = connected_to(entry->path());
-    if (found < 0) continue;
-    close(found);
-    names.push_back(entry->path().filename().string());
-  }
-  std::ranges::sort(names);
+  for (const std::filesystem::path& file : project::control_sockets(monitor_folder()))
+    if (project::ControlConnection::to(file)) names.push_back(file.filename().string());
   return names;
 }
 
 ControllerLink::~ControllerLink() { close(); }
 
 bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
-  const int made = connected_to(file);
-  if (made < 0) return false;
+  std::optional<project::ControlConnection> made = project::ControlConnection::to(file);
+  if (!made) return false;
   const std::lock_guard lock(mutex_);
-  socket_ = made;
+  connection_ = std::move(made);
   open_ = true;
   answered_.notify_all();
   return !own || say(project::line_of(project::command::Own{}));
@@ -68,28 +35,20 @@ bool ControllerLink::is_over() {
   return over_;
 }
 
-bool ControllerLink::say(const std::string& line) const {
-  return send(socket_, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
-}
+bool ControllerLink::say(const std::string& line) const { return connection_ && connection_->send(line); }
 
-bool ControllerLink::is_process(std::int64_t id) {
-  ucred peer{};
-  socklen_t size = sizeof peer;
-  return getsockopt(socket_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
-}
+bool ControllerLink::is_process(std::int64_t id) const { return connection_ && connection_->is_process(id); }
 
 /// Reads what has arrived so far.
 void ControllerLink::hear() {
   constexpr std::size_t most = std::size_t{64} << 20U;  // the limit of what makes sense
-  std::array<char, 65536> bytes{};
-  ssize_t count = 0;
-  while (socket_ >= 0 && (count = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT)) != 0) {
-    if (count < 0) break;
-    heard_.append(bytes.data(), static_cast<std::size_t>(count));
+  using Received = project::ControlConnection::Received;
+  Received received = Received::bytes;
+  while (connection_ && received == Received::bytes) {
+    received = connection_->receive_at_once(heard_);
     if (heard_.size() > most) return close();
   }
-  const bool lost = count < 0 && errno != EAGAIN && errno != EINTR;
-  if (socket_ >= 0 && (count == 0 || lost)) close();
+  if (received == Received::over) close();
   understand();
 }
 
@@ -126,20 +85,18 @@ void ControllerLink::take(project::CommandAnswer answer) {
 
 GrowingRecording::Piece ControllerLink::recording() {
   const auto until = Clock::now() + std::chrono::milliseconds(100);
-  if (!asked_ && !ended_ && socket_ >= 0) {
+  if (!asked_ && !ended_ && connection_) {
     const std::lock_guard lock(mutex_);
     asked_ = say(project::line_of(project::command::Recording{}));
   }
-  for (hear(); !piece_ && asked_ && socket_ >= 0 && Clock::now() < until; hear()) {
-    pollfd source{.fd = socket_, .events = POLLIN, .revents = 0};
-    poll(&source, 1, 10);
-  }
+  for (hear(); !piece_ && asked_ && connection_ && Clock::now() < until; hear())
+    connection_->wait(std::chrono::milliseconds(10));
   GrowingRecording::Piece piece;
-  piece.more = asked_ && socket_ >= 0;
+  piece.more = asked_ && connection_;
   if (!piece_) return piece;
   piece = *std::exchange(piece_, std::nullopt);
   asked_ = false;
-  if (socket_ < 0) piece.more = !piece.bytes.empty();
+  if (!connection_) piece.more = !piece.bytes.empty();
   return piece;
 }
 
@@ -166,8 +123,7 @@ std::optional<Problem> ControllerLink::command(const project::ControlCommand& co
 
 void ControllerLink::close() {
   const std::lock_guard lock(mutex_);
-  if (socket_ >= 0) ::close(socket_);
-  socket_ = -1;
+  connection_.reset();
   open_ = false;
   over_ = true;
   answered_.notify_all();

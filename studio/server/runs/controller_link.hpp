@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
 #include "tessera/growing_recording.hpp"
 #include "tessera/result.hpp"
@@ -29,7 +30,7 @@ class ControllerLink {
   /// Returns whether it is connected.
   bool connect(const std::filesystem::path& socket, bool own);
   /// Whether the other end is that process of this machine, and not the end of a tunnel.
-  [[nodiscard]] bool is_process(std::int64_t id);
+  [[nodiscard]] bool is_process(std::int64_t id) const;
   /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<project::Snapshot> snapshot();
   /// What the controller's recording holds besides what was asked for before, as it was after the last
@@ -50,12 +51,12 @@ class ControllerLink {
   void hear();
   void understand();
   void take(project::CommandAnswer answer);
-  int socket_ = -1;
+  std::optional<project::ControlConnection> connection_;
   std::string heard_;
   std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
   std::optional<GrowingRecording::Piece> piece_;  ///< messages behind it wait until it is taken
-  /// guards the members below, and writing to and closing the socket
+  /// guards the members below, and writing to and closing the connection
   std::mutex mutex_;
   std::condition_variable answered_;
   std::map<std::int64_t, std::string> answers_;

@@ -1,0 +1,97 @@
+#include "project/process/control_connection.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// 0: no limit.
+void limit(int descriptor, int direction, std::chrono::milliseconds time) {
+  const timeval given{.tv_sec = time.count() / 1000, .tv_usec = time.count() % 1000 * 1000};
+  setsockopt(descriptor, SOL_SOCKET, direction, &given, sizeof given);
+}
+
+}  // namespace
+
+std::optional<ControlConnection> ControlConnection::to(const fs::path& socket_file) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string& name = socket_file.native();
+  if (name.size() >= sizeof address.sun_path) return std::nullopt;
+  std::memcpy(address.sun_path, name.c_str(), name.size() + 1);
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) return std::nullopt;
+  ControlConnection made(descriptor);
+  limit(descriptor, SO_SNDTIMEO, std::chrono::seconds(1));  // limits connect, too
+  const auto* raw = reinterpret_cast<const sockaddr*>(&address);
+  if (connect(descriptor, raw, sizeof address) != 0) return std::nullopt;
+  limit(descriptor, SO_SNDTIMEO, std::chrono::milliseconds(0));
+  return made;
+}
+
+ControlConnection::~ControlConnection() {
+  if (descriptor_) close(*descriptor_);
+}
+
+void ControlConnection::limit_waits(std::chrono::milliseconds time) const {
+  for (const int direction : {SO_RCVTIMEO, SO_SNDTIMEO}) limit(*descriptor_, direction, time);
+}
+
+bool ControlConnection::send(std::string_view text) const {
+  while (!text.empty()) {
+    const ssize_t count = ::send(*descriptor_, text.data(), text.size(), MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+bool ControlConnection::is_process(std::int64_t id) const {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return getsockopt(*descriptor_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
+}
+
+ControlConnection::Received ControlConnection::receive_at_once(std::string& to) const {
+  return receive(to, MSG_DONTWAIT);
+}
+
+ControlConnection::Received ControlConnection::receive(std::string& to, int flags) const {
+  std::array<char, 65536> bytes{};
+  ssize_t count = -1;
+  do count = recv(*descriptor_, bytes.data(), bytes.size(), flags);
+  while (count < 0 && errno == EINTR);
+  if (count < 0 && errno == EAGAIN) return Received::nothing;
+  if (count <= 0) return Received::over;
+  to.append(bytes.data(), static_cast<std::size_t>(count));
+  return Received::bytes;
+}
+
+void ControlConnection::wait(std::chrono::milliseconds time) const {
+  pollfd source{.fd = *descriptor_, .events = POLLIN, .revents = 0};
+  poll(&source, 1, static_cast<int>(time.count()));
+}
+
+std::vector<fs::path> control_sockets(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
+    if (entry->path().extension() == ".sock") found.push_back(entry->path());
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace tessera::project

@@ -103,7 +103,7 @@ TEST(Oracle, ComplainsAboutARecordingThatIsNoFiringSequence) {
 TEST(Recorder, AFullRingLosesEventsAndCountsThem) {
   RecordingFile file;
   std::string error;
-  ASSERT_TRUE(file.open(scratch_file("ring"), "{}", error)) << error;
+  ASSERT_TRUE(file.open(scratch_file("ring"), {"{}"}, error)) << error;
   RecordingLane lane(0, file, 8);
   for (std::uint32_t event = 0; event < 12; ++event) lane.firing(Time{}, event, 0);
   EXPECT_EQ(lane.lost(), 4u);

@@ -10,8 +10,10 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "tessera/driver_setup.hpp"
+#include "tessera/poses.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
@@ -102,6 +104,24 @@ struct WorldOptions {
   std::string trace;  ///< file that gets the path of the robot; empty: none
 };
 
+/// What a simulated world looks like.
+struct WorldScene {
+  struct Body {
+    std::string name;
+    std::string agent;  ///< the agent whose devices it carries; empty: none, or it is not known
+  };
+  std::string glb;           ///< a glTF 2.0 file with a node per body, named like it
+  std::vector<Body> bodies;  ///< those that can move
+};
+
+/// Takes the poses of the bodies of a world.
+class PoseSink {
+ public:
+  virtual ~PoseSink() = default;
+  /// time: of the world. poses: in the order of WorldScene::bodies; valid during the call.
+  virtual void take(Time time, std::span<const BodyPose> poses) = 0;
+};
+
 /// A simulated world. It makes devices and moves in lock-step with the clock.
 ///
 /// Threads: advance_to and the devices may be called from different threads (the world locks).
@@ -115,6 +135,13 @@ class World {
                                                                std::string& error) = 0;
   /// Computes the physics up to `time`, deterministically. Never goes back.
   virtual void advance_to(Time time) = 0;
+  /// nullopt: the world cannot be looked at. devices: all devices of the run that the world may have made.
+  [[nodiscard]] virtual std::optional<WorldScene> scene(std::span<const DriverRequest> /*devices*/) {
+    return std::nullopt;
+  }
+  /// From now on, `advance_to` gives the sink the poses of all bodies of the scene once per `pose_period`.
+  /// This does not change the physics. The sink must live as long as `advance_to` is called.
+  virtual void show_poses(PoseSink& /*sink*/) {}
   /// Writes the trace to its file. false and `error` if that failed.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 };

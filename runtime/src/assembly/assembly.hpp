@@ -9,6 +9,7 @@
 #include "drivers/run_control.hpp"
 #include "nets/flat_net.hpp"
 #include "nets/shared_channel.hpp"
+#include "recorder/pose_recorder.hpp"
 #include "recorder/recorder.hpp"
 #include "subsystem/injection.hpp"
 #include "subsystem/parameter_changes.hpp"
@@ -34,6 +35,8 @@ struct Assembly {
   Guardian* guardian = nullptr;  ///< nullptr: none
   std::unique_ptr<World> world;
   std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<PoseRecorder> poses;  ///< nullptr: there is no world, or it cannot be looked at
+  std::string scene_file;               ///< of the world; empty: none
   std::optional<Scenario> scenario;
   Injections faults;
   InjectedSignals signals;

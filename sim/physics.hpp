@@ -50,6 +50,13 @@ class Physics {
   [[nodiscard]] Pose pose(RootBody root) const;
   [[nodiscard]] std::string name(RootBody root) const;
 
+  [[nodiscard]] const mjModel& model() const { return *model_; }
+  /// With the positions of bodies and sites as they are now.
+  [[nodiscard]] const mjData& located() const {
+    locate();
+    return *view_;
+  }
+
   [[nodiscard]] std::optional<int> site(const std::string& name) const;
   [[nodiscard]] Point site_position(int site) const;
   [[nodiscard]] std::optional<int> actuator(const std::string& name) const;

@@ -4,10 +4,12 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sim/physics.hpp"
+#include "sim/pose_sampler.hpp"
 #include "sim/trace_writer.hpp"
 #include "sim/track.hpp"
 #include "tessera/result.hpp"
@@ -25,6 +27,9 @@ class Simulation {
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
 
   void advance_to(Time time);
+  /// What tessera::World says about them.
+  [[nodiscard]] WorldScene scene(std::span<const DriverRequest> devices) const;
+  void show_poses(PoseSink& sink);
   /// Problem: the physics has failed, or the trace could not be written.
   [[nodiscard]] std::optional<Problem> finish();
 
@@ -54,6 +59,7 @@ class Simulation {
   std::vector<Eye> eyes_;
   std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;
+  PoseSampler watched_;
   Duration next_sample_{0};
 };
 

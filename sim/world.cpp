@@ -2,6 +2,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -58,6 +59,10 @@ class MujocoWorld final : public World {
   }
 
   void advance_to(Time time) override { simulation_->advance_to(time); }
+  [[nodiscard]] std::optional<WorldScene> scene(std::span<const DriverRequest> devices) override {
+    return simulation_->scene(devices);
+  }
+  void show_poses(PoseSink& sink) override { simulation_->show_poses(sink); }
   [[nodiscard]] bool finish(std::string& error) override {
     const std::optional<Problem> problem = simulation_->finish();
     if (problem) error = problem->text;

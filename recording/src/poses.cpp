@@ -91,9 +91,8 @@ std::optional<RoundedPose> rounded(const BodyPose& pose) {
   if (!std::isfinite(length) || length <= 0) return std::nullopt;
   for (std::size_t at = 0; at < components; ++at) {
     const bool is_position = at < first_of_rotation;
-    const double steps =
-        is_position ? pose.position_m[at] * pose_steps_per_metre
-                    : pose.rotation[at - first_of_rotation] / length * pose_steps_per_unit;
+    const double steps = is_position ? pose.position_m[at] * pose_steps_per_metre
+                                     : pose.rotation[at - first_of_rotation] / length * pose_steps_per_unit;
     if (!std::isfinite(steps)) return std::nullopt;
     const auto limit = static_cast<double>(is_position ? farthest : largest_rotation);
     result.steps[at] = std::llround(std::clamp(steps, -limit, limit));

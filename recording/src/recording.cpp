@@ -151,7 +151,8 @@ void RecordingReader::give_up(std::string problem) {
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
   const std::size_t before_header = recording_magic.size() + sizeof length;
-  if (const std::string problem = problem_of_magic(bytes.substr(0, recording_magic.size())); !problem.empty()) {
+  if (const std::string problem = problem_of_magic(bytes.substr(0, recording_magic.size()));
+      !problem.empty()) {
     give_up(problem);
     return 0;
   }
@@ -332,8 +333,7 @@ std::string without_segment_number(const std::string& path) {
 std::optional<std::uint64_t> segment_number_in(const std::string& file) {
   std::ifstream bytes(file, std::ios::binary);
   std::string start(recording_magic.size() + sizeof(std::uint32_t), '\0');
-  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) ||
-      !is_recording_magic(start))
+  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) || !is_recording_magic(start))
     return std::nullopt;
   std::uint32_t length = 0;
   std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);

@@ -155,9 +155,9 @@ struct Recording {
     std::string hash;          ///< of the scene, which stands beside the recording as HASH.glb
     std::vector<Body> bodies;  ///< those whose poses are recorded
   };
-  std::optional<Scene> scene;                                   ///< nullopt: recorded without poses
-  std::vector<Buffer> buffers;                                  ///< empty: recorded without values
-  std::uint64_t value_limit = 0;                                ///< larger values are hashed
+  std::optional<Scene> scene;     ///< nullopt: recorded without poses
+  std::vector<Buffer> buffers;    ///< empty: recorded without values
+  std::uint64_t value_limit = 0;  ///< larger values are hashed
   /// In a recording with a limit: the number of this segment, from 0. If several were
   /// read together: of the first.
   std::optional<std::uint64_t> segment;

@@ -136,8 +136,7 @@ class Recorder {
   enum class Mode : std::uint8_t { direct, threaded };
   /// nullptr and `error` if the file cannot be created. longest: length of the longest value in bytes.
   /// limit, track: as in RecordingFile::open.
-  [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path,
-                                                      const RecordingHeader& header,
+  [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, const RecordingHeader& header,
                                                       std::uint32_t instances, Mode mode, std::string& error,
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
                                                       std::unique_ptr<MarkingTrack> track = nullptr);

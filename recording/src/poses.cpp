@@ -149,6 +149,15 @@ std::string_view PoseEncoder::encode(std::int64_t time_ns, std::span<const Round
   return bytes_;
 }
 
+std::string PoseEncoder::last_whole() const {
+  if (!whole_ns_) return {};
+  const auto number = static_cast<std::uint16_t>(number_ - 1);
+  std::string bytes{static_cast<char>(whole_frame), static_cast<char>(number & 0xffU),
+                    static_cast<char>(number >> 8U)};
+  for (const RoundedPose& pose : last_) put_body(bytes, 0, pose, nothing);
+  return bytes;
+}
+
 std::size_t PoseEncoder::longest_frame(std::size_t bodies) {
   constexpr std::size_t varint_of_index = 5, mask = 1, varint_of_position = 6, varint_of_rotation = 3;
   return head_bytes + bodies * (varint_of_index + mask + 3 * varint_of_position + 4 * varint_of_rotation);

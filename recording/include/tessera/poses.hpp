@@ -59,8 +59,8 @@ class PoseEncoder {
   /// no whole frame is due. The bytes are valid until the next call.
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const BodyPose> poses);
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const RoundedPose> poses);
-  /// The next frame will be whole.
-  void begin_anew() { whole_ns_.reset(); }
+  /// The poses of the last frame as a whole one with the same number; empty: there is none yet.
+  [[nodiscard]] std::string last_whole() const;
   /// The most bytes that a frame of so many bodies has.
   [[nodiscard]] static std::size_t longest_frame(std::size_t bodies);
 

@@ -3,10 +3,10 @@ import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Replay } from "../live/replay";
 import type { Track } from "../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
-import { drawWorld } from "./draw_world";
 import { Painted } from "./painted";
 import { usePaneTitle } from "./pane_title";
 import { ValueList } from "./value_list";
+import { WorldPane } from "./world_pane";
 
 /** The panels below the drawing during a run or replay: timeline, values, and the world from above. */
 export function Watches() {
@@ -73,21 +73,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
         </div>
         <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
       </div>
-      {hasWorld && (
-        <div className="watch-pane world">
-          <div className="watch-title">
-            <h2>World</h2>
-            <span className="faint">{track.path.length > 0 ? "from above" : ""}</span>
-          </div>
-          <Painted
-            label="The robot's path from above"
-            draw={(context, size, colours) =>
-              drawWorld(context, size, colours, track, `${replay ? "This recording holds no path" : "No path"} of a single robot`)
-            }
-            of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
-          />
-        </div>
-      )}
+      {hasWorld && <WorldPane track={track} none={`${replay ? "This recording holds no path" : "No path"} of a single robot`} />}
     </section>
   );
 }

@@ -133,6 +133,25 @@ TEST(Poses, FromDamagedBytesAreRefusedOrWithinTheirLimits) {
   }
 }
 
+/// The page decodes the same bytes (studio/web/tests/live/world.test.ts).
+TEST(Poses, HaveTheseBytes) {
+  PoseEncoder encoder(3);
+  std::vector<BodyPose> poses(3);
+  poses[0].position_m = {1.5, -2, 0.03};
+  poses[2].rotation = {0, 0, 0.6, -0.8};
+  std::vector<std::string> frames;
+  for (int frame = 0; frame < 3; ++frame) {
+    std::string& hex = frames.emplace_back();
+    for (const char byte : encoder.encode(frame * period_ns, poses))
+      hex += {"0123456789abcdef"[static_cast<std::uint8_t>(byte) >> 4U], "0123456789abcdef"[byte & 15]};
+    poses[0].position_m[0] += 0.0123;
+    poses[2].rotation = {0.0499, 0, 0.5993, -0.799};
+    if (frame == 1) poses[1].position_m[1] = 100'000;
+  }
+  EXPECT_EQ(frames, (std::vector<std::string>{"010000000fb0ea01bfb802d804fe7f0008fe7f0060e64cb166",
+                                              "0001000001f6010168b2060b12", "0002000001f601000280a8d6b907"}));
+}
+
 TEST(Poses, WholeFrameListsEveryBody) {
   PoseEncoder encoder(3);
   const std::string frame(encoder.encode(0, std::vector<BodyPose>(3)));

@@ -212,7 +212,7 @@ TEST_F(Scenes, PosesComeOncePerPeriodAndFollowThePhysics) {
   ASSERT_EQ(seen.times.size(), 13u);
   for (std::size_t frame = 0; frame < seen.times.size(); ++frame)
     EXPECT_NEAR(seen.times[frame], 0.04 * static_cast<double>(frame), 2e-3 + 1e-9);
-  const auto& fallen = seen.frames[8][0];  // before it meets the floor
+  const auto& fallen = seen.frames[8][2];  // before it meets the floor
   const double time = seen.times[8];
   EXPECT_NEAR(fallen.position_m[2], 1 - 0.5 * 9.81 * time * time, 0.02);
   EXPECT_NEAR(std::abs(seen.frames[0][2].rotation[3]), 1, 1e-12);

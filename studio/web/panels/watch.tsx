@@ -27,6 +27,7 @@ export function Watches() {
           seconds={seconds}
           onSeconds={setSeconds}
           fixed={sameTime && at === 1}
+          beside={watched[1 - at]?.track ?? null}
         />
       ))}
     </div>
@@ -41,9 +42,10 @@ interface WatchProps {
   onSeconds: (seconds: number) => void;
   /** Whether its time is that of the pane beside it. */
   fixed: boolean;
+  beside: Track | null;
 }
 
-function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) {
+function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: WatchProps) {
   const hasWorld = useHasWorld();
   return (
     <section className={`watch${hasWorld ? "" : " without-world"}`} aria-label={label}>
@@ -73,7 +75,13 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
         </div>
         <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
       </div>
-      {hasWorld && <WorldPane track={track} none={`${replay ? "This recording holds no path" : "No path"} of a single robot`} />}
+      {hasWorld && (
+        <WorldPane
+          track={track}
+          beside={beside}
+          none={`${replay ? "This recording holds no path" : "No path"} of a single robot`}
+        />
+      )}
     </section>
   );
 }

@@ -57,6 +57,9 @@ export class World3d {
   private readonly instances: Instance[][] = [];
   private root: Object3D = new Group();
   private poses: Poses | null = null;
+  /** Per body; made with the first ghosts. */
+  private ghosts: Object3D[] = [];
+  private ghostPoses: Poses | null = null;
   private changed = true;
   private frame = 0;
   private size = "";
@@ -70,6 +73,8 @@ export class World3d {
     private readonly canvas: HTMLCanvasElement,
     private readonly given: {
       poses: () => Poses | null;
+      /** The same bodies in the run beside; null: there is none in this world. */
+      ghosts: () => Poses | null;
       background: () => string;
       picked: (body: number) => void;
       lost: () => void;
@@ -102,6 +107,8 @@ export class World3d {
     });
     scene.updateMatrixWorld(true);
     lookPlain(scene);
+    // Before equal parts leave their bodies to be drawn together.
+    this.ghosts = this.bodies.map((group) => ghostOf(group));
     this.drawTogether();
     this.lookAtAll();
     this.tick();
@@ -138,6 +145,7 @@ export class World3d {
     this.frame = requestAnimationFrame(this.tick);
     const poses = this.given.poses();
     if (poses && poses !== this.poses) this.move(poses);
+    this.haunt(this.given.ghosts());
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const background = this.given.background();
     const size = [width, height, devicePixelRatio, background].join();
@@ -165,9 +173,7 @@ export class World3d {
       let same = before !== null;
       for (let part = at; same && part < at + perBody; part += 1) same = before![part] === poses[part];
       if (same) return;
-      group.position.set(poses[at]!, poses[at + 1]!, poses[at + 2]!);
-      group.quaternion.set(poses[at + 4]!, poses[at + 5]!, poses[at + 6]!, poses[at + 3]!).normalize();
-      group.updateMatrix();
+      place(group, poses, body);
       for (const { mesh, index, local } of this.instances[body]!) {
         mesh.setMatrixAt(index, scratch.multiplyMatrices(group.matrix, local));
         mesh.instanceMatrix.needsUpdate = true;
@@ -179,6 +185,17 @@ export class World3d {
     this.camera.position.add(now).sub(old);
     this.controls.target.add(now).sub(old);
     this.controls.update();
+  }
+
+  private haunt(poses: Poses | null): void {
+    if (poses === this.ghostPoses) return;
+    this.ghostPoses = poses;
+    this.changed = true;
+    this.ghosts.forEach((ghost, body) => {
+      if (poses) place(ghost, poses, body);
+      if (poses) this.root.add(ghost);
+      else ghost.removeFromParent();
+    });
   }
 
   /** Parts of bodies with the same triangles and the same look become one thing to draw. */
@@ -223,7 +240,7 @@ export class World3d {
     });
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(0.25, box.getSize(new Vector3()).length() / 2);
-    const far = 1.7 * radius;
+    const far = 1.45 * radius;
     this.camera.near = radius / 100;
     this.camera.far = Math.max(100, 40 * radius);
     this.camera.position.set(centre.x - 0.25 * far, centre.y + 0.85 * far, centre.z + 0.85 * far);
@@ -268,6 +285,34 @@ export class World3d {
 }
 
 const scratch = new Matrix4();
+
+function place(node: Object3D, poses: Poses, body: number): void {
+  const [x, y, z, w, i, j, k] = poses.subarray(body * perBody) as unknown as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
+  node.position.set(x, y, z);
+  node.quaternion.set(i, j, k, w).normalize();
+  node.updateMatrix();
+}
+
+const ghostly = new MeshLambertMaterial({ color: 0x3b82c4, transparent: true, opacity: 0.35, depthWrite: false });
+
+/** A copy that can be seen through, and not be clicked. */
+function ghostOf(group: Object3D): Object3D {
+  const ghost = group.clone(true);
+  ghost.traverse((node) => {
+    if (!(node instanceof Mesh)) return;
+    node.material = ghostly;
+    node.raycast = () => undefined;
+  });
+  return ghost;
+}
 
 /** Simple light, which a processor can compute; a picture on the floor is drawn above the floor. */
 function lookPlain(scene: Object3D): void {

@@ -10,11 +10,12 @@ import type { World3d } from "./world_3d";
 const kept = "tessera.world";
 
 /** The simulated world: in three dimensions, or the path of a robot from above. */
-export function WorldPane({ track, none }: { track: Track; none: string }) {
+export function WorldPane({ track, beside, none }: { track: Track; beside: Track | null; none: string }) {
   const world = useWorld(track);
   const [above, setAbove] = useState(() => sessionStorage.getItem(kept) === "above");
   const [problem, setProblem] = useState("");
   const [followed, setFollowed] = useState(-1);
+  const [large, setLarge] = useState(false);
   useEffect(() => setProblem(""), [world]);
   const inSpace = world !== null && !above && !problem;
   const look = (next: boolean) => {
@@ -23,11 +24,16 @@ export function WorldPane({ track, none }: { track: Track; none: string }) {
     setProblem("");
   };
   return (
-    <div className="watch-pane world">
+    <div className={`watch-pane world${large && inSpace ? " large" : ""}`}>
       <div className="watch-title">
         <h2>World</h2>
         {inSpace && <Followed world={world} followed={followed} onFollow={setFollowed} />}
         <span className="spring" />
+        {inSpace && (
+          <button className="small" aria-pressed={large} onClick={() => setLarge(!large)}>
+            Large
+          </button>
+        )}
         {world && (
           <button className="small" aria-pressed={inSpace} title={problem} onClick={() => look(inSpace)}>
             3D
@@ -36,7 +42,7 @@ export function WorldPane({ track, none }: { track: Track; none: string }) {
         {!inSpace && <span className="faint">{problem || (track.path.length > 0 ? "from above" : "")}</span>}
       </div>
       {inSpace ? (
-        <Space track={track} world={world} followed={followed} onProblem={setProblem} />
+        <Space track={track} beside={beside} world={world} followed={followed} onProblem={setProblem} />
       ) : (
         <Painted
           label="The robot's path from above"
@@ -74,18 +80,22 @@ function Followed({ world, followed, onFollow }: { world: World; followed: numbe
 
 interface SpaceProps {
   track: Track;
+  /** Its run is shown as ghosts, if it is in the same world. */
+  beside: Track | null;
   world: World;
   followed: number;
   onProblem: (problem: string) => void;
 }
 
+const posesOf = ({ world, now }: Track) => world?.at(now) ?? null;
+
 /** A body that is clicked chooses its agent in the drawing. */
-function Space({ track, world, followed, onProblem }: SpaceProps) {
+function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
   const studio = useStudio();
   const canvas = useRef<HTMLCanvasElement>(null);
   const view = useRef<World3d | null>(null);
-  const shown = useRef(track);
-  shown.current = track;
+  const shown = useRef({ track, beside });
+  shown.current = { track, beside };
   const { hash } = world.scene;
   useEffect(() => {
     let closed = false;
@@ -94,7 +104,8 @@ function Space({ track, world, followed, onProblem }: SpaceProps) {
         const [{ World3d }, glb] = await Promise.all([import("./world_3d"), studio.api.scene(hash)]);
         if (closed) return;
         const made = new World3d(canvas.current!, {
-          poses: () => shown.current.world?.at(shown.current.now) ?? null,
+          poses: () => posesOf(shown.current.track),
+          ghosts: () => (shown.current.beside?.world?.scene.hash === hash ? posesOf(shown.current.beside) : null),
           background: () => getComputedStyle(canvas.current!).getPropertyValue("--sunken").trim(),
           picked: (body) => {
             const agent = world.scene.bodies[body]?.[1];

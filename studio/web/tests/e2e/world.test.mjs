@@ -90,3 +90,23 @@ test("the scene goes to those with the token only, and only by its hash", () =>
     assert.equal(part.frames.length, 27, "a second of frames, and the one before it");
     assert.equal(part.until, 6e9);
   }));
+
+test("two runs in one world are seen as ghosts of each other", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    const hash = "00000000000000aa";
+    await withWorlds(page, server, [
+      { name: "one", hash, robots: 2 },
+      { name: "two", hash, robots: 2, shift: 0.5 },
+    ]);
+    await page.getByRole("button", { name: /^one\.tsr/ }).click();
+    await space(page).waitFor();
+    const ghosts = (at) =>
+      space(page)
+        .nth(at)
+        .evaluate(({ view }) => (view?.ghosts[0]?.parent ? view.ghosts[0].position.x - view.bodies[0].position.x : null));
+    await until(page, async () => (await drawn(page)) > 0, "the world is drawn");
+    assert.equal(await ghosts(0), null, "alone it has none");
+    await button(page, "Show two.tsr beside one.tsr").click();
+    await until(page, async () => Math.abs((await ghosts(0)) - 0.5) < 1e-3, "the right run is a ghost on the left");
+    await until(page, async () => Math.abs((await ghosts(1)) + 0.5) < 1e-3, "and the left one on the right");
+  }));

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "firing_oracle.hpp"
 #include "nets.hpp"
+#include "recorder/pose_recorder.hpp"
 #include "tessera/poses.hpp"
 #include "test_system.hpp"
 
@@ -84,6 +86,7 @@ TEST_F(InAWorld, ItsPosesAndSceneAreRecorded) {
 TEST_F(InAWorld, PosesAreRecordedUnderTheSteadyClockToo) {
   options.world->world = "seen.xml";
   options.clock = RunOptions::Clock::steady;
+  options.duration = 60s;
   options.recording = scratch_file("seen.tsr");
   EXPECT_EQ(run(system, options).ended, "stopped: enough");
   std::string error;
@@ -114,6 +117,25 @@ TEST_F(InAWorld, EverySegmentHasPosesThatCanBeReadWithoutTheOnesBefore) {
   const std::int64_t begin_ms = recording->entries.front().event.time_ns / 1'000'000;
   EXPECT_LE(places.begin()->first, begin_ms + 1000);
   EXPECT_NEAR(places.rbegin()->second, 60, 1e-4);
+}
+
+TEST(KeptScene, StandsBesideTheRecordingOrSaysWhyNot) {
+  const WorldScene scene{.glb = "glTF and more", .bodies = {}};
+  const std::string recording = scratch_file("kept.tsr");
+  std::ofstream(recording) << "TESSREC2";
+  const std::string file = scene_file(recording, hash_of(scene));
+  std::string error;
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(keep_scene(scene, recording, error), file);
+  EXPECT_EQ(error, "");
+  EXPECT_EQ(bytes_of(file), scene.glb);
+  std::ofstream(file) << "cut";
+  EXPECT_EQ(keep_scene(scene, recording, error), file);
+  EXPECT_EQ(bytes_of(file), scene.glb);
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(keep_scene(scene, recording, error), "");
+  EXPECT_NE(error.find("cannot be written to '" + file), std::string::npos) << error;
+  std::filesystem::remove(file);
 }
 
 TEST_F(InAWorld, WithoutARegularFileItsSceneIsNotKept) {

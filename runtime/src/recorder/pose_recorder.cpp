@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -40,14 +39,15 @@ std::string keep_scene(const WorldScene& scene, const std::string& recording, st
   errno = 0;
   std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
   stream << scene.glb << std::flush;
-  const bool written = stream.good();
-  error = fmt::format("the scene of the world cannot be written to '{}': {}", file, std::strerror(errno));
-  stream.close();
-  if (written) {
+  const int reason = errno;
+  if (stream) {
+    stream.close();
     fs::rename(unfinished, file, problem);
     if (!problem) return file;
-    error = fmt::format("the scene of the world cannot be written to '{}': {}", file, problem.message());
+  } else {
+    problem = std::error_code(reason, std::generic_category());
   }
+  error = fmt::format("the scene of the world cannot be written to '{}': {}", file, problem.message());
   fs::remove(unfinished, problem);
   return {};
 }

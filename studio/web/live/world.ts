@@ -1,5 +1,6 @@
 import { PoseFrames } from "../model/pose_frames";
 import { count } from "../model/sorted";
+import { message } from "./draft";
 import type { PoseFrame, RecordedPoses, SceneShown } from "./protocol";
 
 /** The poses at one time. Another object stands for other poses. */
@@ -8,12 +9,15 @@ export type Poses = Float32Array;
 /** A simulated world: what it looks like, and where its bodies are at a time. */
 export interface World {
   readonly scene: SceneShown;
+  /** Why there are no poses; empty: there are. */
+  readonly problem: string;
   /** Null: not known, or not loaded yet. */
   at(time: number): Poses | null;
 }
 
 /** The world of a run that goes on. It is shown as it is now. */
 export class LiveWorld implements World {
+  readonly problem = "";
   private readonly frames: PoseFrames;
   private poses: Poses | null = null;
 
@@ -49,7 +53,7 @@ export class RecordedWorld implements World {
   private part: Part = { times: [], poses: [], from: 0, until: -1 };
   private next: Part | null = null;
   private loading = false;
-  private failed = false;
+  problem = "";
 
   constructor(
     readonly scene: SceneShown,
@@ -68,13 +72,13 @@ export class RecordedWorld implements World {
   }
 
   private async load(time: number, taken: (part: Part) => void): Promise<void> {
-    if (this.loading || this.failed) return;
+    if (this.loading || this.problem) return;
     this.loading = true;
     const from = Math.floor(Math.max(0, time - before));
     try {
       taken(this.partOf(from, await this.source(from, Math.ceil(time + after))));
-    } catch {
-      this.failed = true; // the view from above stays
+    } catch (error) {
+      this.problem = message(error);
     }
     this.loading = false;
   }

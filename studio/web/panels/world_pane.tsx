@@ -16,7 +16,11 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
   const [problem, setProblem] = useState("");
   const [followed, setFollowed] = useState(-1);
   const [large, setLarge] = useState(false);
-  useEffect(() => setProblem(""), [world]);
+  useEffect(() => {
+    setProblem("");
+    const timer = setInterval(() => world?.problem && setProblem(world.problem), 500);
+    return () => clearInterval(timer);
+  }, [world]);
   const inSpace = world !== null && !above && !problem;
   const look = (next: boolean) => {
     sessionStorage.setItem(kept, next ? "above" : "space");

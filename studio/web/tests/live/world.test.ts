@@ -96,5 +96,6 @@ describe("worlds", () => {
       await new Promise((done) => setTimeout(done));
     }
     expect(asked).toBe(1);
+    expect(world.problem).toBe("gone");
   });
 });

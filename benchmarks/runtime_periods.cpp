@@ -116,7 +116,7 @@ void recording(benchmark::State& state) {
   std::int64_t spent_ns = 0;
   for (auto _ : state) {
     std::string error;
-    const auto recorder = Recorder::open(file, "{}", 1, Recorder::Mode::threaded, error);
+    const auto recorder = Recorder::open(file, {"{}"}, 1, Recorder::Mode::threaded, error);
     if (recorder == nullptr) return state.SkipWithError(error.c_str());
     RecordingLane& lane = *recorder->lane(0);
     const std::int64_t begin_ns = wall_ns();

@@ -31,6 +31,7 @@ void Simulation::advance_to(Time time) {
   const std::scoped_lock lock(mutex_);
   while (physics_->failure().empty()) {
     if (physics_->time() >= next_sample_) sample();
+    watched_.look(*physics_);
     if (physics_->next_time() > time.time_since_epoch()) break;
     physics_->step();
     if (judging_) judging_->after_step();
@@ -62,6 +63,16 @@ std::string Simulation::results() {
   if (!judging_) return {};
   judging_->finish();
   return judging_->results();
+}
+
+WorldScene Simulation::scene(std::span<const DriverRequest> devices) const {
+  const std::scoped_lock lock(mutex_);
+  return PoseSampler::scene(*physics_, floor_ ? &*floor_ : nullptr, devices);
+}
+
+void Simulation::show_poses(PoseSink& sink) {
+  const std::scoped_lock lock(mutex_);
+  watched_.show(sink);
 }
 
 void Simulation::sample() {

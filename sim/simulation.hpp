@@ -4,12 +4,14 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/engine/physics.hpp"
 #include "sim/judging/judging.hpp"
+#include "sim/pose_sampler.hpp"
 #include "sim/trace_writer.hpp"
 #include "sim/track.hpp"
 #include "tessera/result.hpp"
@@ -34,6 +36,9 @@ class Simulation {
   [[nodiscard]] std::string results();
 
   void advance_to(Time time);
+  /// What tessera::World says about them.
+  [[nodiscard]] WorldScene scene(std::span<const DriverRequest> devices) const;
+  void show_poses(PoseSink& sink);
   /// Problem: the physics has failed, or the trace could not be written.
   [[nodiscard]] std::optional<Problem> finish();
 
@@ -71,6 +76,7 @@ class Simulation {
   std::unique_ptr<Judging> judging_;    // nullptr: there is nothing to judge
   std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;
+  PoseSampler watched_;
   Duration next_sample_{0};
 };
 

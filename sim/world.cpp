@@ -2,6 +2,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -94,6 +95,10 @@ class MujocoWorld final : public World {
     return context_.simulation->take_failures();
   }
   [[nodiscard]] std::string results() override { return context_.simulation->results(); }
+  [[nodiscard]] std::optional<WorldScene> scene(std::span<const DriverRequest> devices) override {
+    return context_.simulation->scene(devices);
+  }
+  void show_poses(PoseSink& sink) override { context_.simulation->show_poses(sink); }
   [[nodiscard]] bool finish(std::string& error) override {
     const std::optional<Problem> problem = context_.simulation->finish();
     if (problem) error = problem->text;

@@ -43,6 +43,14 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
 }
 
+[[nodiscard]] bool read_scene(const nlohmann::json& scene, Recording& recording) {
+  Recording::Scene& read = recording.scene.emplace();
+  scene.at("hash").get_to(read.hash);
+  for (const nlohmann::json& body : scene.at("bodies"))
+    read.bodies.push_back({body.at(0).get<std::string>(), body.at(1).get<std::string>()});
+  return is_scene_hash(read.hash);
+}
+
 /// false: the JSON lacks what every recording has.
 [[nodiscard]] bool read_header(Recording& recording) {
   const nlohmann::json header = nlohmann::json::parse(recording.header, nullptr, /*allow_exceptions=*/false);
@@ -58,6 +66,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
       recording.transitions.push_back(
           {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
     read_run(header, recording);
+    if (header.contains("scene") && !read_scene(header.at("scene"), recording)) return false;
     if (header.contains("values")) return read_buffers(header.at("values"), recording);
   } catch (const nlohmann::json::exception&) {
     return false;
@@ -71,6 +80,16 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
 [[nodiscard]] std::size_t fixed_bytes(std::uint32_t flags) {
   return ((flags & ValueFlags::stamped) != 0 ? sizeof(std::int64_t) : 0) +
          ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
+}
+
+/// bytes: the first eight, or fewer. Empty: none so far.
+[[nodiscard]] std::string problem_of_magic(std::string_view bytes) {
+  const std::string_view name = recording_magic.substr(0, recording_magic.size() - 1);
+  if (!bytes.starts_with(name.substr(0, bytes.size()))) return "is no recording of Tessera";
+  if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return "";
+  const bool is_newer = bytes.back() > recording_magic_with_poses.back() && bytes.back() <= '9';
+  return is_newer ? "was recorded by a newer version of Tessera, which has to read it"
+                  : "is no recording of Tessera";
 }
 
 [[nodiscard]] bool makes_sense(const Event& event, const Recording& recording) {
@@ -93,6 +112,8 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
       return (event.version & buffer_bits) < recording.buffers.size() &&
              recording.buffers[event.version & buffer_bits].instance == event.instance() &&
              event.subject >= fixed_bytes(event.version >> buffer_shift);
+    case Event::Kind::poses:
+      return recording.scene && event.instance() == system_instance;
     case Event::Kind::fault:
       return !name_of(static_cast<Fault>(event.version)).empty();
   }
@@ -100,6 +121,14 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
 }
 
 }  // namespace
+
+bool is_scene_hash(std::string_view text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+std::string scene_file(const std::string& recording, const std::string& hash) {
+  return (std::filesystem::path(recording).parent_path() / (hash + ".glb")).string();
+}
 
 void RecordingReader::feed(std::string_view bytes) {
   if (state_ == State::damaged) return;
@@ -122,8 +151,9 @@ void RecordingReader::give_up(std::string problem) {
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
   const std::size_t before_header = recording_magic.size() + sizeof length;
-  if (!bytes.starts_with(recording_magic.substr(0, bytes.size()))) {
-    give_up("is no recording of Tessera");
+  if (const std::string problem = problem_of_magic(bytes.substr(0, recording_magic.size()));
+      !problem.empty()) {
+    give_up(problem);
     return 0;
   }
   if (bytes.size() < before_header) return 0;
@@ -303,8 +333,7 @@ std::string without_segment_number(const std::string& path) {
 std::optional<std::uint64_t> segment_number_in(const std::string& file) {
   std::ifstream bytes(file, std::ios::binary);
   std::string start(recording_magic.size() + sizeof(std::uint32_t), '\0');
-  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) ||
-      !start.starts_with(recording_magic))
+  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) || !is_recording_magic(start))
     return std::nullopt;
   std::uint32_t length = 0;
   std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);

@@ -38,6 +38,8 @@ const char* kind_of(const Event& event) {
       return "safe";
     case Event::Kind::parameter:
       return "parameter";
+    case Event::Kind::poses:
+      return "poses";
   }
   return "";
 }
@@ -74,6 +76,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::marking:
     case Event::Kind::end:
     case Event::Kind::safe:
+    case Event::Kind::poses:
       return "";
     case Event::Kind::stop:
       return "stop: ";
@@ -101,6 +104,7 @@ std::vector<Row> rows_of(const Recording& recording, const Selection& selection,
   ValueTrack values(recording);
   std::vector<Row> rows;
   for (const Entry& entry : recording.entries) {
+    if (entry.event.kind() == Event::Kind::poses) continue;  // 25 a second, which say nothing as text
     const auto change = values.follow(entry);
     if (change ? !selection.values || change->buffer.path.find(*selection.values) == std::string::npos
                : !selection.events)

@@ -136,6 +136,7 @@ class WrittenOrder : Play {
   Outcome play(const Recording::Entry& entry) {
     const Event& event = entry.event;
     if (event.kind() == Event::Kind::marking) return event.version == 0 && !gap_ ? compare(entry) : Outcome();
+    if (event.kind() == Event::Kind::poses) return {};  // not counted
     const Sequence sequence = follow(lane_of(event), event);
     if (sequence == Sequence::back) return illegal(back_at(event));
     if (sequence == Sequence::gap && !gap_) gap_ = incomplete(gap_before(event));
@@ -175,6 +176,7 @@ class AnyOrder : Play {
 
  private:
   Outcome take(const Event& event) {
+    if (event.kind() == Event::Kind::poses) return {};  // not counted
     Player& lane = lane_of(event);
     const std::uint32_t due = lane.next_sequence;
     const Sequence sequence = follow(lane, event);

@@ -100,7 +100,8 @@ class Writing {
 
   void write_log() {
     for (const auto& [event, text] : recording_.entries) {
-      if (!event.has_text() || event.kind() == Event::Kind::value || event.kind() == Event::Kind::marking)
+      if (!event.has_text() || event.kind() == Event::Kind::value || event.kind() == Event::Kind::marking ||
+          event.kind() == Event::Kind::poses)
         continue;
       const bool of_subsystem = event.instance() < recording_.instances.size();
       const TraceRow row = of_subsystem ? rows_.at(recording_.instances[event.instance()]) : TraceRow{};

@@ -78,6 +78,10 @@ void Api::serve_files(HttpServer& server) {
              [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
   server.Get("/api/recordings/([^/]+)",
              [this](const Request& request, Response& response) { get_recording(request, response); });
+  server.Get("/api/recordings/([^/]+)/poses",
+             [this](const Request& request, Response& response) { get_poses(request, response); });
+  server.Get("/api/scenes/([0-9a-f]{16})\\.glb",
+             [this](const Request& request, Response& response) { get_scene(request, response); });
   server.Get("/api/tracks/([^/]+)",
              [this](const Request& request, Response& response) { get_track(request, response); });
 }
@@ -261,17 +265,44 @@ void Api::control_run(const Request& request, Response& response) {
   answer(response, "{}");
 }
 
-void Api::get_recording(const Request& request, Response& response) {
+/// nullopt: the request is refused.
+std::optional<Recordings::Span> Api::span_of(const Request& request, Response& response) {
   Recordings::Span span;
   for (const auto& [name, end] : {std::pair{"from", &span.from_ns}, std::pair{"to", &span.to_ns}}) {
     if (!request.has_param(name)) continue;
     const std::string text = request.get_param_value(name);
-    if (std::from_chars(text.data(), text.data() + text.size(), *end).ptr != text.data() + text.size())
-      return answer_error(response, 400, std::string(name) + " is a time in nanoseconds");
+    if (std::from_chars(text.data(), text.data() + text.size(), *end).ptr == text.data() + text.size())
+      continue;
+    answer_error(response, 400, std::string(name) + " is a time in nanoseconds");
+    return std::nullopt;
   }
-  std::optional<std::string> content = parts_.recordings.content(request.matches[1], span);
+  return span;
+}
+
+void Api::get_recording(const Request& request, Response& response) {
+  const std::optional<Recordings::Span> span = span_of(request, response);
+  if (!span) return;
+  std::optional<std::string> content = parts_.recordings.content(request.matches[1], *span);
   if (!content) return answer_error(response, 404, "there is no such recording");
   answer(response, std::move(*content));
+}
+
+void Api::get_poses(const Request& request, Response& response) {
+  const std::optional<Recordings::Span> span = span_of(request, response);
+  if (!span) return;
+  std::optional<std::string> poses = parts_.recordings.poses(request.matches[1], *span);
+  if (!poses) return answer_error(response, 404, "there is no such recording");
+  answer(response, std::move(*poses));
+}
+
+/// The name of a scene says what it holds, so a browser need not ask again.
+void Api::get_scene(const Request& request, Response& response) {
+  const std::string hash = request.matches[1];
+  std::optional<std::string> glb = parts_.recordings.scene(hash);
+  if (!glb) glb = parts_.runs.scene(hash);
+  if (!glb) return answer_error(response, 404, "there is no such scene");
+  response.set_header("Cache-Control", "private, max-age=31536000, immutable");
+  response.set_content(std::move(*glb), "model/gltf-binary");
 }
 
 void Api::get_track(const Request& request, Response& response) {

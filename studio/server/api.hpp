@@ -41,7 +41,10 @@ class Api {
   void start_run(const Request& request, Response& response);
   void get_run(const Request& request, Response& response);
   void control_run(const Request& request, Response& response);
+  [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
   void get_recording(const Request& request, Response& response);
+  void get_poses(const Request& request, Response& response);
+  void get_scene(const Request& request, Response& response);
   void get_track(const Request& request, Response& response);
   /// nullopt: the response says what is wrong.
   [[nodiscard]] std::optional<RunRequest> run_request(const Request& request, Response& response) const;

@@ -29,7 +29,8 @@ using httplib::Response;
 /// Allows no foreign script, no foreign frame, and no content from elsewhere.
 httplib::Headers headers_of_all() {
   return {{"Content-Security-Policy",
-           "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+           "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src "
+           "'self' blob:; "
            "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
            "frame-ancestors 'none'"},
           {"X-Content-Type-Options", "nosniff"},

@@ -1,14 +1,18 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "tessera/device.hpp"
 
 /// A world in which a wheel's speed adds up to a position. WorldOptions::track names the thing that must not
-/// exist; its trace has a line per call. "slow.xml" takes four times as long as the time that passes in it.
+/// exist; its trace has a line per call. "seen.xml" can be looked at: it has two bodies. "slow.xml" takes four times as long as the time that passes in it.
 namespace {
 
 struct State {
@@ -62,7 +66,16 @@ class FakeWorld final : public tessera::World {
     state_->position += state_->speed * tessera::seconds(time - now_);
     now_ = time;
     trace_.push_back(tessera::seconds(time.time_since_epoch()));
+    std::array<tessera::BodyPose, 2> poses{};
+    poses[0].position_m[0] = state_->position;
+    if (sink_ != nullptr) sink_->take(time, poses);
   }
+  std::optional<tessera::WorldScene> scene(std::span<const tessera::DriverRequest> devices) override {
+    if (options_.world != "seen.xml") return std::nullopt;
+    const std::string agent = devices.empty() ? "" : devices[0].path.substr(0, devices[0].path.find('.'));
+    return tessera::WorldScene{.glb = "glTF", .bodies = {{"wheel", agent}, {"stone", ""}}};
+  }
+  void show_poses(tessera::PoseSink& sink) override { sink_ = &sink; }
   bool finish(std::string& error) override {
     if (options_.trace.empty()) return true;
     std::ofstream file(options_.trace);
@@ -76,6 +89,7 @@ class FakeWorld final : public tessera::World {
   std::shared_ptr<State> state_ = std::make_shared<State>();
   tessera::Time now_{};
   std::vector<double> trace_;
+  tessera::PoseSink* sink_ = nullptr;
 };
 
 }  // namespace

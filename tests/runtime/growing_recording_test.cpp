@@ -24,7 +24,7 @@ class Growing : public ::testing::Test {
     net.places = {{"a", 1}};
     net.transitions = {{"t", 0, {0}, {0}, ""}};
     std::string error;
-    recorder_ = Recorder::open(file_, "{\"run\":1}", 1, Recorder::Mode::direct, error, 0, limit,
+    recorder_ = Recorder::open(file_, {"{\"run\":1}"}, 1, Recorder::Mode::direct, error, 0, limit,
                                std::make_unique<MarkingTrack>(net, std::vector{MarkingTrack::none}));
     ASSERT_NE(recorder_, nullptr) << error;
   }

@@ -33,6 +33,10 @@ TEST(MonitorProtocol, ReadsCommandsWithTheirMembers) {
   ASSERT_NE(answered<commands::EmergencyStop>(stop), nullptr);
   EXPECT_EQ(answered<commands::EmergencyStop>(stop)->why, "an operator asks for it");
 
+  const Request scene = parse_request(R"({"command":"scene","from":7})");
+  ASSERT_TRUE(std::holds_alternative<commands::SendScene>(scene.command));
+  EXPECT_EQ(std::get<commands::SendScene>(scene.command).from, 7u);
+
   const Request breakpoints =
       parse_request(R"({"command":"breakpoints","places":["a","b",3],"transitions":"t"})");
   const auto* const wanted = simulation<commands::SetBreakpoints>(breakpoints);

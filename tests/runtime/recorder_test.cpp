@@ -72,6 +72,21 @@ TEST(Recording, WhatIsNoneIsRefusedWithoutACrash) {
   EXPECT_EQ(error, "cannot read '/nonexistent'");
 }
 
+TEST(Recording, OfANewerVersionIsRefusedByThatName) {
+  TestSystem system;
+  std::string bytes = make_recording(system);
+  EXPECT_TRUE(bytes.starts_with("TESSREC1")) << "without a world, older versions can read it";
+  for (const char version : {'2', '3', '9', 'x'}) {
+    bytes[7] = version;
+    RecordingReader reader;
+    reader.feed(bytes);
+    EXPECT_EQ(reader.problem(), version == '2'   ? ""
+                                : version == 'x' ? "is no recording of Tessera"
+                                                 : "was recorded by a newer version of Tessera, which has to "
+                                                   "read it");
+  }
+}
+
 TEST(Recording, DamagedEventsEndItThere) {
   TestSystem system;
   std::string bytes = make_recording(system);
@@ -103,7 +118,7 @@ TEST(Oracle, ComplainsAboutARecordingThatIsNoFiringSequence) {
 TEST(Recorder, AFullRingLosesEventsAndCountsThem) {
   RecordingFile file;
   std::string error;
-  ASSERT_TRUE(file.open(scratch_file("ring"), "{}", error)) << error;
+  ASSERT_TRUE(file.open(scratch_file("ring"), {"{}"}, error)) << error;
   RecordingLane lane(0, file, 8);
   for (std::uint32_t event = 0; event < 12; ++event) lane.firing(Time{}, event, 0);
   EXPECT_EQ(lane.lost(), 4u);

@@ -190,7 +190,7 @@ TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
     header["transitions"].push_back({transition.name, transition.instance});
   std::string error;
   auto recorder = Recorder::open(
-      scratch_file("run.tsr"), header.dump(), instances, Recorder::Mode::threaded, error, 0, limit,
+      scratch_file("run.tsr"), {header.dump()}, instances, Recorder::Mode::threaded, error, 0, limit,
       std::make_unique<MarkingTrack>(net, std::vector(net.transitions.size(), MarkingTrack::none)));
   EXPECT_NE(recorder, nullptr) << error;
   return recorder;
@@ -274,7 +274,7 @@ TEST(Segments, EventsThatAreLostDoNotHoldUpTheOthers) {
   net.transitions = {{"t", 0, {0}, {1}, ""}, {"u", 1, {1}, {0}, ""}};
   std::string error;
   const auto recorder = Recorder::open(
-      scratch_file("run.tsr"), "{}", 2, Recorder::Mode::threaded, error, 0, {1'000'000, 2},
+      scratch_file("run.tsr"), {"{}"}, 2, Recorder::Mode::threaded, error, 0, {1'000'000, 2},
       std::make_unique<MarkingTrack>(net, std::vector{MarkingTrack::none, MarkingTrack::none}));
   ASSERT_NE(recorder, nullptr) << error;
   // `u` follows from a firing of `t` that is not recorded; more than half of its ring.

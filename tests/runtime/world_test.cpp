@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <sstream>
 
+#include "firing_oracle.hpp"
 #include "nets.hpp"
+#include "recorder/pose_recorder.hpp"
+#include "tessera/poses.hpp"
 #include "test_system.hpp"
 
 using namespace std::chrono_literals;
@@ -45,6 +51,99 @@ TEST_F(InAWorld, MovesInLockStepWithTheSimulatedClock) {
   EXPECT_DOUBLE_EQ(positions[2], 0.04);
   EXPECT_EQ(bytes_of(options.world->trace), "0\n0.01\n0.02\n0.025\n");
   EXPECT_TRUE(system.devices.commands.empty()) << "the world's device comes before the C++ driver";
+}
+
+/// What a recording has of the first body, by time in ms.
+[[nodiscard]] std::map<std::int64_t, double> places_in(const Recording& recording) {
+  std::map<std::int64_t, double> places;
+  PoseDecoder decoder(recording.scene->bodies.size());
+  for (const Recording::Entry& entry : recording.entries) {
+    if (entry.event.kind() != Event::Kind::poses) continue;
+    EXPECT_TRUE(decoder.take(entry.text));
+    if (decoder.known()) places[entry.event.time_ns / 1'000'000] = pose_of(decoder.poses()[0]).position_m[0];
+  }
+  return places;
+}
+
+TEST_F(InAWorld, ItsPosesAndSceneAreRecorded) {
+  options.world->world = "seen.xml";
+  options.recording = scratch_file("seen.tsr");
+  EXPECT_FALSE(run(system, options).failed);
+  EXPECT_TRUE(bytes_of(options.recording).starts_with("TESSREC2"));
+  std::string error;
+  const auto recording = read_recording(options.recording, error);
+  ASSERT_TRUE(recording) << error;
+  ASSERT_TRUE(recording->scene);
+  ASSERT_EQ(recording->scene->bodies.size(), 2u);
+  EXPECT_EQ(recording->scene->bodies[0].name, "wheel");
+  EXPECT_EQ(recording->scene->bodies[0].agent, "robot");
+  EXPECT_EQ(bytes_of(scene_file(options.recording, recording->scene->hash)), "glTF");
+  EXPECT_EQ(places_in(*recording),
+            (std::map<std::int64_t, double>{{0, 0}, {10, 0.02}, {20, 0.04}, {25, 0.05}}));
+  EXPECT_EQ(complaint_about(*recording, system.system()), "");
+}
+
+TEST_F(InAWorld, PosesAreRecordedUnderTheSteadyClockToo) {
+  options.world->world = "seen.xml";
+  options.clock = RunOptions::Clock::steady;
+  options.duration = 60s;
+  options.recording = scratch_file("seen.tsr");
+  EXPECT_EQ(run(system, options).ended, "stopped: enough");
+  std::string error;
+  const auto recording = read_recording(options.recording, error);
+  ASSERT_TRUE(recording) << error;
+  const auto places = places_in(*recording);
+  ASSERT_GT(places.size(), 3u);
+  EXPECT_GT(places.rbegin()->second, places.begin()->second);
+  EXPECT_EQ(complaint_about(*recording, system.system()), "");
+}
+
+TEST_F(InAWorld, EverySegmentHasPosesThatCanBeReadWithoutTheOnesBefore) {
+  options.world->world = "seen.xml";
+  options.duration = 30s;
+  options.recording = scratch_file("seen.tsr");
+  options.record_limit = {100'000, 2};
+  Script script;
+  script.senses = script.acts = true;
+  script.call = [](ScriptState& state) { state.command = 2; };
+  TestSystem endless;
+  endless.add("robot.body", nets::alone, script, 10ms, 0ms, Kind::effector);
+  EXPECT_FALSE(run(endless, options).failed);
+  std::string error;
+  const auto recording = read_recording(options.recording, error);
+  ASSERT_TRUE(recording) << error;
+  ASSERT_GT(recording->segment.value_or(0), 0u) << "the first segments are gone";
+  const auto places = places_in(*recording);
+  const std::int64_t begin_ms = recording->entries.front().event.time_ns / 1'000'000;
+  EXPECT_LE(places.begin()->first, begin_ms + 1000);
+  EXPECT_NEAR(places.rbegin()->second, 60, 1e-4);
+}
+
+TEST(KeptScene, StandsBesideTheRecordingOrSaysWhyNot) {
+  const WorldScene scene{.glb = "glTF and more", .bodies = {}};
+  const std::string recording = scratch_file("kept.tsr");
+  std::ofstream(recording) << "TESSREC2";
+  const std::string file = scene_file(recording, hash_of(scene));
+  std::string error;
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(keep_scene(scene, recording, error), file);
+  EXPECT_EQ(error, "");
+  EXPECT_EQ(bytes_of(file), scene.glb);
+  std::ofstream(file) << "cut";
+  EXPECT_EQ(keep_scene(scene, recording, error), file);
+  EXPECT_EQ(bytes_of(file), scene.glb);
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(keep_scene(scene, recording, error), "");
+  EXPECT_NE(error.find("cannot be written to '" + file), std::string::npos) << error;
+  std::filesystem::remove(file);
+}
+
+TEST_F(InAWorld, WithoutARegularFileItsSceneIsNotKept) {
+  options.world->world = "seen.xml";
+  options.recording = "/dev/null";
+  EXPECT_FALSE(run(system, options).failed);
+  for (const auto& entry : std::filesystem::directory_iterator("/dev"))
+    EXPECT_NE(entry.path().extension(), ".glb");
 }
 
 TEST_F(InAWorld, IsDrivenInRealTimeUnderTheSteadyClock) {

@@ -110,9 +110,15 @@ TEST_F(Tunnel, ShowsAControllerOfAnotherMachineAndSaysWhenTheConnectionIsLost) {
   EXPECT_FALSE(events_->next("values").at("values").empty());
   EXPECT_FALSE(events_->next("subsystems").at("subsystems").empty());
   const json seen = await_info(run, [](const json& now) {
-    return now.at("values").contains("robot.control.motion") && !now.at("marking").empty();
+    return now.at("values").contains("robot.control.motion") && !now.at("marking").empty() &&
+           !now.at("scene").is_null() && !now.at("poses").is_null();
   });
   ASSERT_FALSE(seen.is_null());
+  EXPECT_FALSE(events_->next("poses").at("frame").get<std::string>().empty());
+  const std::string hash = seen.at("scene").at("hash");
+  ASSERT_TRUE(eventually([&] { return get("/api/scenes/" + hash + ".glb").status == 200; },
+                         [&] { return !controller.runs(); }))
+      << "the scene comes through the tunnel";
   const std::int64_t before = seen.at("t");
   ASSERT_FALSE(
       await_info(run, [&](const json& now) { return now.at("t") > before + 3'000'000'000; }).is_null());

@@ -35,7 +35,13 @@ enum class SafeEvent : std::uint8_t {
 
 /// Of a recording in a folder.
 inline constexpr const char* recording_file_name = "recording.tsr";
-inline constexpr std::string_view recording_magic = "TESSREC1";
+/// The beginning of a recording, and of one with poses, which older versions of Tessera refuse.
+inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_with_poses = "TESSREC2";
+/// Whether this version reads a file that begins like that.
+[[nodiscard]] constexpr bool is_recording_magic(std::string_view bytes) {
+  const std::string_view magic = bytes.substr(0, recording_magic.size());
+  return magic == recording_magic || magic == recording_magic_with_poses;
+}
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
 /// Stands in place of the index of a subsystem for the layers above the subsystems.
@@ -46,7 +52,8 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
-///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}}
+///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]},
+///      "scene": {"hash", "bodies": [[name, agent]...]}}
 ///
 /// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
 ///
@@ -68,6 +75,9 @@ struct Event {
     marking = 8,
     safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: SafeEvent
     parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
+    /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene", in
+    /// files that begin with recording_magic_with_poses. Not counted in `sequence`.
+    poses = 11,
     /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
@@ -136,8 +146,18 @@ struct Recording {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< given to the run
   std::vector<std::string> injected;                            ///< planted faults, as `--inject`
   std::optional<std::int64_t> duration_ns;                      ///< given to the run
-  std::vector<Buffer> buffers;                                  ///< empty: recorded without values
-  std::uint64_t value_limit = 0;                                ///< larger values are hashed
+  /// The simulated world.
+  struct Scene {
+    struct Body {
+      std::string name;   ///< as in the scene
+      std::string agent;  ///< the agent that has it; empty: none
+    };
+    std::string hash;          ///< of the scene, which stands beside the recording as HASH.glb
+    std::vector<Body> bodies;  ///< those whose poses are recorded
+  };
+  std::optional<Scene> scene;     ///< nullopt: recorded without poses
+  std::vector<Buffer> buffers;    ///< empty: recorded without values
+  std::uint64_t value_limit = 0;  ///< larger values are hashed
   /// In a recording with a limit: the number of this segment, from 0. If several were
   /// read together: of the first.
   std::optional<std::uint64_t> segment;
@@ -145,6 +165,11 @@ struct Recording {
   bool truncated = false;  ///< the end is missing: the recording was cut off, or is still being written
   std::uint64_t lost = 0;  ///< events that are missing in between, as `end` says
 };
+
+/// Whether it may be the hash of a scene, and so a part of a file name: 16 hexadecimal digits.
+[[nodiscard]] bool is_scene_hash(std::string_view text);
+/// The file of a scene beside a recording.
+[[nodiscard]] std::string scene_file(const std::string& recording, const std::string& hash);
 
 /// "in", "out", "real_in", "real_out".
 [[nodiscard]] std::string_view name_of(Recording::Direction direction);

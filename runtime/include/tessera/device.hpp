@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tessera/driver_setup.hpp"
+#include "tessera/poses.hpp"
 #include "tessera/result.hpp"
 #include "tessera/time.hpp"
 #include "tessera/value_encoding.hpp"
@@ -159,6 +160,24 @@ struct WorldFailure {
   double time_s = 0;  ///< of the simulated clock
 };
 
+/// What a simulated world looks like.
+struct WorldScene {
+  struct Body {
+    std::string name;
+    std::string agent;  ///< the agent whose devices it carries; empty: none, or it is not known
+  };
+  std::string glb;           ///< a glTF 2.0 file with a node per body, named like it
+  std::vector<Body> bodies;  ///< those that can move
+};
+
+/// Takes the poses of the bodies of a world.
+class PoseSink {
+ public:
+  virtual ~PoseSink() = default;
+  /// time: of the world. poses: in the order of WorldScene::bodies; valid during the call.
+  virtual void take(Time time, std::span<const BodyPose> poses) = 0;
+};
+
 /// A simulated world. It makes devices and moves in lock-step with the clock.
 ///
 /// Threads: advance_to and the devices may be called from different threads (the world locks).
@@ -189,6 +208,13 @@ class World {
   [[nodiscard]] virtual std::vector<WorldFailure> take_failures() { return {}; }
   /// JSON with `checks` and `measures` of the run (docs/worlds.md), at its end; empty: there are none.
   [[nodiscard]] virtual std::string results() { return {}; }
+  /// nullopt: the world cannot be looked at. devices: all devices of the run that the world may have made.
+  [[nodiscard]] virtual std::optional<WorldScene> scene(std::span<const DriverRequest> /*devices*/) {
+    return std::nullopt;
+  }
+  /// From now on, `advance_to` gives the sink the poses of all bodies of the scene once per `pose_period`.
+  /// This does not change the physics. The sink must live as long as `advance_to` is called.
+  virtual void show_poses(PoseSink& /*sink*/) {}
   /// Writes the trace to its file. false and `error` if that failed.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 };

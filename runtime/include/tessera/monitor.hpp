@@ -28,6 +28,11 @@
 /// `begins` is true where a segment begins. `more` is true if more bytes are there already. A client that
 /// has asked once gets the rest without asking after {"ended": true}, as far as there is room in the socket.
 ///
+///     {"command": "scene", "from": N}
+///
+/// is answered by {"scene_bytes": N, "from": N, "total": N} and so many bytes of the scene of the simulated
+/// world (tessera/poses.hpp), a glTF file; total 0: there is none.
+///
 /// Every run takes these commands, and answers them like those below:
 ///
 ///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   sets a parameter, as `--set v=0.3`

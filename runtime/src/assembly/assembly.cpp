@@ -10,6 +10,7 @@
 #include "assembly/planted_faults.hpp"
 #include "assembly/recording_setup.hpp"
 #include "subsystem/parameters.hpp"
+#include "system/console.hpp"
 
 namespace tessera {
 namespace {
@@ -267,17 +268,30 @@ class Assembler {
       return true;
     }
     const bool simulated = options.clock == RunOptions::Clock::simulated;
+    std::optional<WorldScene> scene;
+    if (assembly_.world != nullptr) scene = assembly_.world->scene(options.drivers);
+    const WorldScene* const shown = scene ? &*scene : nullptr;
     assembly_.recorder =
-        Recorder::open(options.recording, recording_header(system_, options, net_, parts_),
+        Recorder::open(options.recording, recording_header(system_, options, net_, parts_, shown),
                        static_cast<std::uint32_t>(parts_.size()),
                        simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
-                       longest_recorded_value(options, parts_), options.record_limit,
+                       longest_recorded_value(options, parts_, shown), options.record_limit,
                        options.record_limit.segment_bytes == 0
                            ? nullptr
                            : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
     if (assembly_.recorder == nullptr) return false;
     record_values(options, *assembly_.recorder, parts_);
+    if (shown != nullptr) record_poses(*shown);
     return true;
+  }
+
+  void record_poses(const WorldScene& scene) {
+    std::string problem;
+    assembly_.scene_file = keep_scene(scene, assembly_.options.recording, problem);
+    if (!problem.empty()) console::print(LogLevel::warning, clock_.now(), "tessera", problem);
+    assembly_.poses =
+        std::make_unique<PoseRecorder>(*assembly_.recorder->world_lane(), clock_, scene.bodies.size());
+    assembly_.world->show_poses(*assembly_.poses);
   }
 
   /// As MarkingTrack wants them.

@@ -9,6 +9,7 @@
 #include "drivers/run_control.hpp"
 #include "nets/flat_net.hpp"
 #include "nets/shared_channel.hpp"
+#include "recorder/pose_recorder.hpp"
 #include "recorder/recorder.hpp"
 #include "subsystem/injection.hpp"
 #include "subsystem/parameter_changes.hpp"
@@ -38,6 +39,8 @@ struct Assembly {
   std::size_t recorded_checks = 0;          ///< how many of them are recorded
   std::string judgement;                    ///< World::results, at the end
   std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<PoseRecorder> poses;  ///< nullptr: there is no world, or it cannot be looked at
+  std::string scene_file;               ///< of the world; empty: none
   std::optional<Scenario> scenario;
   Injections faults;
   InjectedSignals signals;

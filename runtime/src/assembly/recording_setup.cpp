@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "recorder/pose_recorder.hpp"
 #include "recorder/value_recorder.hpp"
+#include "tessera/poses.hpp"
 
 namespace tessera {
 namespace {
@@ -37,10 +39,17 @@ void describe_values(const RunOptions& options, std::span<const SubsystemParts> 
   header["values"] = {{"limit", value_limit(options)}, {"buffers", std::move(buffers)}};
 }
 
+void describe_scene(const WorldScene& scene, ordered_json& header) {
+  ordered_json bodies = ordered_json::array();
+  for (const WorldScene::Body& body : scene.bodies)
+    bodies.push_back(ordered_json::array({body.name, body.agent}));
+  header["scene"] = {{"hash", hash_of(scene)}, {"bodies", std::move(bodies)}};
+}
+
 }  // namespace
 
-std::string recording_header(const System& system, const RunOptions& options, const FlatNet& net,
-                             std::span<const SubsystemParts> all) {
+RecordingHeader recording_header(const System& system, const RunOptions& options, const FlatNet& net,
+                                 std::span<const SubsystemParts> all, const WorldScene* scene) {
   ordered_json header{{"system", system.name},
                       {"net_hash", system.net_hash},
                       {"verification_hash", system.verification_hash}};
@@ -57,11 +66,13 @@ std::string recording_header(const System& system, const RunOptions& options, co
   for (const FlatNet::FlatTransition& transition : net.transitions)
     header["transitions"].push_back(ordered_json::array({transition.name, transition.instance}));
   if (options.values != RunOptions::Values::none) describe_values(options, all, header);
-  return header.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  if (scene != nullptr) describe_scene(*scene, header);
+  return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr};
 }
 
-std::size_t longest_recorded_value(const RunOptions& options, std::span<const SubsystemParts> all) {
-  std::size_t longest = 0;
+std::size_t longest_recorded_value(const RunOptions& options, std::span<const SubsystemParts> all,
+                                   const WorldScene* scene) {
+  std::size_t longest = scene == nullptr ? 0 : PoseEncoder::longest_frame(scene->bodies.size());
   if (options.values == RunOptions::Values::none) return longest;
   for (const SubsystemParts& parts : all)
     for_buffers(parts.bindings, [&](Recording::Direction, const auto& buffer) {

@@ -13,12 +13,15 @@ namespace tessera {
 
 /// The JSON at the beginning of a recording (tessera/recording.hpp): the net, and with values also what
 /// `simulate --from` needs to know.
-[[nodiscard]] std::string recording_header(const System& system, const RunOptions& options,
-                                           const FlatNet& net, std::span<const SubsystemParts> parts);
+/// scene: nullptr: no poses are recorded.
+[[nodiscard]] RecordingHeader recording_header(const System& system, const RunOptions& options,
+                                               const FlatNet& net, std::span<const SubsystemParts> parts,
+                                               const WorldScene* scene);
 
-/// The most bytes that a value takes in the recording; 0: values are not recorded.
+/// The most bytes that a value, or a frame of poses, takes in the recording; 0: none is recorded.
 [[nodiscard]] std::size_t longest_recorded_value(const RunOptions& options,
-                                                 std::span<const SubsystemParts> parts);
+                                                 std::span<const SubsystemParts> parts,
+                                                 const WorldScene* scene);
 
 /// Gives each subsystem its recorder of values, if they are recorded.
 void record_values(const RunOptions& options, Recorder& recorder, std::span<SubsystemParts> parts);

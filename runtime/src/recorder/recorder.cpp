@@ -69,6 +69,11 @@ void RecordingLane::call(Time time, std::uint32_t behaviour, std::uint64_t itera
   publish();
 }
 
+void RecordingLane::poses(Time time, std::string_view frame) {
+  sequence_ = 0;  // frames have numbers of their own
+  text(Event::Kind::poses, time, 0, frame);
+}
+
 void RecordingLane::value(Time time, std::uint32_t buffer, std::uint32_t flags,
                           std::span<const std::byte> head, std::span<const std::byte> bytes) {
   Event changed = event(Event::Kind::value, time);
@@ -144,7 +149,7 @@ RecordingLane::Backlog RecordingLane::backlog() const {
 
 // ------------------------------------------------------------------------------------------------ recorder
 
-std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_view header,
+std::unique_ptr<Recorder> Recorder::open(const std::string& path, const RecordingHeader& header,
                                          std::uint32_t instances, Mode mode, std::string& error,
                                          std::size_t longest, RunOptions::Limit limit,
                                          std::unique_ptr<MarkingTrack> track) {
@@ -158,6 +163,8 @@ std::unique_ptr<Recorder> Recorder::open(const std::string& path, std::string_vi
           : std::max(least, std::min((std::size_t{1} << 20) / (instances + 1), std::size_t{1} << 18));
   for (std::uint32_t instance = 0; instance < instances; ++instance)
     recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
+  const std::size_t of_world = header.has_scene ? capacity : 0;
+  recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, of_world));
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));
   if (mode == Mode::threaded)
     recorder->writer_ = std::thread([raw = recorder.get()] { raw->write_until_closed(); });

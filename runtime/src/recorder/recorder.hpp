@@ -19,6 +19,12 @@
 
 namespace tessera {
 
+/// What a recording begins with.
+struct RecordingHeader {
+  std::string json;
+  bool has_scene = false;  ///< there may be poses, which older versions cannot read
+};
+
 /// Writes the bytes of a recording. Errors are remembered, not thrown; after an error nothing is written.
 ///
 /// Threads: one at a time.
@@ -26,7 +32,7 @@ class RecordingFile {
  public:
   /// track: from the start of the run; not nullptr if there is a limit. false and `error` if the file
   /// cannot be created, or if the limit is too small for the header.
-  [[nodiscard]] bool open(const std::string& path, std::string_view header, std::string& error,
+  [[nodiscard]] bool open(const std::string& path, const RecordingHeader& header, std::string& error,
                           RunOptions::Limit limit = {}, std::unique_ptr<MarkingTrack> track = nullptr);
   RecordingFile() = default;
   RecordingFile(const RecordingFile&) = delete;
@@ -62,6 +68,7 @@ class RecordingFile {
   void write_all(const char* bytes, std::size_t count);
   void await_room(std::int64_t& stuck_ns);
   std::string path_, header_;
+  bool has_scene_ = false;
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;
@@ -89,6 +96,8 @@ class RecordingLane {
   void overrun(Time time, std::uint32_t missed);
   void text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text);
   void call(Time time, std::uint32_t behaviour, std::uint64_t iteration);
+  /// A frame of tessera/poses.hpp. Only on the lane of the world.
+  void poses(Time time, std::string_view frame);
   /// head: at most sizeof(Event) bytes that are written before the others.
   void value(Time time, std::uint32_t buffer, std::uint32_t flags, std::span<const std::byte> head,
              std::span<const std::byte> bytes);
@@ -124,13 +133,13 @@ class RecordingLane {
   alignas(64) std::atomic<std::uint64_t> drained_{0};
 };
 
-/// The recording of a run: a lane per instance and one for the upper layers.
+/// The recording of a run: a lane per instance, one for the world, and one for the upper layers.
 class Recorder {
  public:
   enum class Mode : std::uint8_t { direct, threaded };
   /// nullptr and `error` if the file cannot be created. longest: length of the longest value in bytes.
   /// limit, track: as in RecordingFile::open.
-  [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, std::string_view header,
+  [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, const RecordingHeader& header,
                                                       std::uint32_t instances, Mode mode, std::string& error,
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
                                                       std::unique_ptr<MarkingTrack> track = nullptr);
@@ -140,6 +149,8 @@ class Recorder {
 
   [[nodiscard]] RecordingLane* lane(std::uint32_t instance) { return lanes_[instance].get(); }
   [[nodiscard]] RecordingLane* system_lane() { return lanes_.back().get(); }
+  /// For poses only.
+  [[nodiscard]] RecordingLane* world_lane() { return lanes_[lanes_.size() - 2].get(); }
   void flush() { file_.flush(); }  ///< direct mode only
 
   struct Result {

@@ -47,14 +47,15 @@ bool remove_segments(const std::string& path, std::string& error) {
 
 }  // namespace
 
-bool RecordingFile::open(const std::string& path, std::string_view header, std::string& error,
+bool RecordingFile::open(const std::string& path, const RecordingHeader& header, std::string& error,
                          RunOptions::Limit limit, std::unique_ptr<MarkingTrack> track) {
   path_ = path;
-  header_ = header;
+  header_ = header.json;
+  has_scene_ = header.has_scene;
   limit_ = limit;
   track_ = limit.segment_bytes == 0 ? nullptr : std::move(track);
   if (track_ != nullptr) {
-    const std::size_t least = 2 * header.size() + 64 * sizeof(Event);
+    const std::size_t least = 2 * header_.size() + 64 * sizeof(Event);
     if (limit.segment_bytes < least || limit.segments < 2) {
       error =
           fmt::format("the limit of the recording is too small: it needs two segments of {} bytes", least);
@@ -81,7 +82,7 @@ bool RecordingFile::open_segment() {
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
   start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // including the padding
-  start.append(recording_magic);
+  start.append(has_scene_ ? recording_magic_with_poses : recording_magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');

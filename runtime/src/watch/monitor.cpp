@@ -219,7 +219,10 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
     if (client.gone()) return;
     // A client that always has a piece on the way would never get a snapshot.
     if (client.take_skipped()) client.add(snapshot_line());
-    client.add_piece(assembly_.options.recording);
+    if (const auto* const scene = std::get_if<commands::SendScene>(&request.command))
+      client.add_scene(assembly_.scene_file, scene->from);
+    else
+      client.add_piece(assembly_.options.recording);
   }
   client.send();
 }

@@ -3,8 +3,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "system/waker.hpp"
@@ -55,6 +60,19 @@ bool MonitorClient::add_piece(const std::string& recording) {
   add(piece_line(piece.bytes.size(), piece.begins, piece.more));
   add(piece.bytes);
   return !piece.bytes.empty();
+}
+
+void MonitorClient::add_scene(const std::string& file, std::uint64_t from) {
+  std::error_code missing;
+  const std::uintmax_t total = file.empty() ? 0 : std::filesystem::file_size(file, missing);
+  std::string bytes;
+  if (std::ifstream stream(file, std::ios::binary); !file.empty() && !missing && stream && from < total) {
+    bytes.resize(static_cast<std::size_t>(std::min<std::uintmax_t>(total - from, longest_piece)));
+    stream.seekg(static_cast<std::streamoff>(from));
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) bytes.clear();
+  }
+  add(scene_line(bytes.size(), from, missing ? 0 : total));
+  add(bytes);
 }
 
 void MonitorClient::send() {

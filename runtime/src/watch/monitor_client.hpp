@@ -47,6 +47,8 @@ class MonitorClient {
   /// The client has asked for the recording.
   [[nodiscard]] bool has_recording() const { return recording_ != nullptr; }
   /// Appends the next piece of the recording. false: there is nothing new.
+  /// A piece of a file that does not change; file: empty: there is none.
+  void add_scene(const std::string& file, std::uint64_t from);
   bool add_piece(const std::string& recording);
   /// Sends as much as the socket takes.
   void send();

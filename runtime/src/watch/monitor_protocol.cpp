@@ -95,6 +95,10 @@ std::string piece_line(std::size_t bytes, bool begins, bool more) {
   return line_of({{"recording_bytes", bytes}, {"begins", begins}, {"more", more}});
 }
 
+std::string scene_line(std::size_t bytes, std::uint64_t from, std::uint64_t total) {
+  return line_of({{"scene_bytes", bytes}, {"from", from}, {"total", total}});
+}
+
 std::string ended_line() { return line_of({{"ended", true}}); }
 
 Request parse_request(const std::string& line) {
@@ -105,6 +109,10 @@ Request parse_request(const std::string& line) {
   const json& name = member_of(object, "command");
   if (name == "own") return {0, commands::Own{}};
   if (name == "recording") return {0, commands::SendRecording{}};
+  if (name == "scene") {
+    const json& from = member_of(object, "from");
+    return {0, commands::SendScene{from.is_number_unsigned() ? from.get<std::uint64_t>() : 0}};
+  }
   try {
     request.id = object.value("id", request.id);
     request.command = answered_command(object);

@@ -47,6 +47,8 @@ struct Snapshot {
 [[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error);
 /// The line before a piece of the recording.
 [[nodiscard]] std::string piece_line(std::size_t bytes, bool begins, bool more);
+/// The line before a piece of the scene. total: bytes of the whole.
+[[nodiscard]] std::string scene_line(std::size_t bytes, std::uint64_t from, std::uint64_t total);
 [[nodiscard]] std::string ended_line();
 
 namespace commands {
@@ -61,6 +63,9 @@ struct EmergencyStop {
 };
 struct Reset {};
 struct SendRecording {};
+struct SendScene {
+  std::uint64_t from = 0;
+};
 struct Own {};
 
 // For runs in simulated time.
@@ -87,7 +92,7 @@ using SimulationCommand =
 /// Commands that are answered by a line each.
 using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::EmergencyStop,
                                      commands::Reset, SimulationCommand>;
-using Command = std::variant<AnsweredCommand, commands::SendRecording, commands::Own>;
+using Command = std::variant<AnsweredCommand, commands::SendRecording, commands::SendScene, commands::Own>;
 
 struct Request {
   std::int64_t id = 0;  ///< for the answer

@@ -84,6 +84,14 @@ PieceHead read_piece_head(const json& object) {
   return head;
 }
 
+SceneHead read_scene_head(const json& object) {
+  SceneHead head;
+  read_member(object, "scene_bytes", head.bytes);
+  read_member(object, "from", head.from);
+  read_member(object, "total", head.total);
+  return head;
+}
+
 CommandAnswer read_answer(const json& object) {
   CommandAnswer answer;
   read_member(object, "answer", answer.id);
@@ -94,6 +102,7 @@ CommandAnswer read_answer(const json& object) {
 // ------------------------------------------------------------------------------------------------ commands
 
 json json_of(const command::Recording&) { return {{"command", "recording"}}; }
+json json_of(const command::Scene& scene) { return {{"command", "scene"}, {"from", scene.from}}; }
 json json_of(const command::Own&) { return {{"command", "own"}}; }
 json json_of(const command::Set& set) {
   return {{"command", "set"}, {"path", set.path}, {"value", set.value}};
@@ -124,6 +133,7 @@ std::optional<ControlLine> read_control_line(std::string_view line) try {
   const json object = json::parse(line);
   if (!object.is_object()) return std::nullopt;
   if (object.contains("recording_bytes")) return read_piece_head(object);
+  if (object.contains("scene_bytes")) return read_scene_head(object);
   if (object.contains("ended")) return ControllerHasEnded{};
   if (object.contains("answer")) return read_answer(object);
   return read_snapshot(object);

@@ -53,9 +53,15 @@ struct PieceHead {
   bool begins = false, more = false;
 };
 
+/// Precedes bytes of the scene of the world (tessera/poses.hpp).
+struct SceneHead {
+  std::size_t bytes = 0;
+  std::uint64_t from = 0, total = 0;  ///< total 0: there is none
+};
+
 struct ControllerHasEnded {};
 
-using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, ControllerHasEnded>;
+using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, SceneHead, ControllerHasEnded>;
 
 /// A line without its end. Members that are missing keep their defaults, and unknown ones are passed over:
 /// the controller may be of another version. nullopt: it is none.
@@ -67,6 +73,9 @@ using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, ControllerH
 /// What a client may ask for.
 namespace command {
 struct Recording {};
+struct Scene {
+  std::uint64_t from = 0;
+};
 struct Own {};
 struct Set {
   std::string path, value;
@@ -90,9 +99,10 @@ struct Breakpoints {
 };
 }  // namespace command
 
-using ControlCommand = std::variant<command::Recording, command::Own, command::Set, command::EmergencyStop,
-                                    command::Reset, command::Pause, command::Resume, command::StepFiring,
-                                    command::StepIteration, command::Speed, command::Breakpoints>;
+using ControlCommand =
+    std::variant<command::Recording, command::Scene, command::Own, command::Set, command::EmergencyStop,
+                 command::Reset, command::Pause, command::Resume, command::StepFiring, command::StepIteration,
+                 command::Speed, command::Breakpoints>;
 
 /// With its end. Text that is no UTF-8 is replaced: it names nothing, and the controller says so.
 /// id: of the answer; nullopt: none is waited for.

@@ -60,6 +60,7 @@ RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net
 void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   const Event& event = entry.event;
   batch.time_ns = std::max(batch.time_ns, event.time_ns);
+  poses_.take(entry);
   if (event.kind() == Event::Kind::firing) {
     const net::TransitionId transition = segment_->transitions[event.subject];
     if (!transition.valid()) return;
@@ -95,6 +96,7 @@ RecordingTail::Batch RecordingTail::next() {
     if (stream_.next() && stream_.begins()) {
       values_ = take_changed_values();
       segment_.emplace(stream_.recording(), names_);
+      poses_.begin(*stream_.recording());
     }
     if (!stream_.recording()) continue;
     for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);

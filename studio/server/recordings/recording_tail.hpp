@@ -12,6 +12,7 @@
 #include "net/net.hpp"
 #include "replay/values.hpp"
 #include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_stream.hpp"
 #include "tessera/recording.hpp"
 
@@ -57,6 +58,7 @@ class RecordingTail {
   [[nodiscard]] Batch next();
   /// The places with a token after everything that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
+  [[nodiscard]] PoseTrack& poses() { return poses_; }
   /// {"robot.sensor.line": number, bool, text, list or object} for the buffers whose values have changed
   /// since they were last taken, about `most` bytes of them; the others come next time. Leaves out values
   /// that are not recorded completely, or are larger than largest_value.
@@ -78,6 +80,7 @@ class RecordingTail {
   std::optional<Segment> segment_;
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
   MarkingTracker tokens_;
+  PoseTrack poses_;
 };
 
 }  // namespace tessera::server

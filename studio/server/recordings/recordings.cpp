@@ -15,6 +15,7 @@
 #include "server/http/json_text.hpp"
 #include "server/recordings/growing_file.hpp"
 #include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_tail.hpp"
 #include "server/recordings/robot_path.hpp"
 #include "server/recordings/value_json.hpp"
@@ -129,6 +130,9 @@ class Content {
     if (!content_.is_null()) return;
     content_ = {
         {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
+    PoseTrack poses;
+    poses.begin(recording);
+    content_["scene"] = poses.scene();
     is_ordered_ = recording.clock == "simulated";
     // The first segment that is left, but not the first of the run; its marking follows.
     begins_ = recording.segment.value_or(0) > 0 ? Begins::unknown : Begins::initial;

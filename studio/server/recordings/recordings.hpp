@@ -30,10 +30,18 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "cut", "truncated", "path", "track"} of docs/studio.md, within the time span: at most
+  /// "values", "cut", "truncated", "path", "track", "scene"} of docs/studio.md, within the time span: at most
   /// most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
   /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
+
+  /// {"frames": [[t, base64]...], "until"} of docs/studio.md: the poses in the time span, those at its
+  /// beginning first, at most about most_pose_bytes. nullopt: no recording has that name. Throws
+  /// std::runtime_error if it cannot be read.
+  [[nodiscard]] std::optional<std::string> poses(const std::string& name, Span span) const;
+  static constexpr std::size_t most_pose_bytes = 1'500'000;
+  /// The glTF file of the scene beside a recording; nullopt: none has it.
+  [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
 
  private:
   /// The files by name. Symbolic links, and files in a folder that is one, do not count.

@@ -16,6 +16,7 @@ constexpr std::size_t most_values = std::size_t{64} << 10U;  // size of one even
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
+constexpr auto between_frames = std::chrono::milliseconds(40);
 constexpr auto between_markings = std::chrono::milliseconds(500);
 constexpr auto between_subsystems = std::chrono::milliseconds(200);
 
@@ -40,6 +41,7 @@ RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, b
   const bool has_read_all = !news.more;
   if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
   add_values(news, news.rested || (last && has_read_all));
+  add_poses(news, news.rested || (last && has_read_all));
   return news;
 }
 
@@ -82,6 +84,21 @@ void RunFollower::add_path(News& news, bool at_once) {
   pose_told_ = Clock::now();
   const PathPoint pose = *std::exchange(pose_waiting_, std::nullopt);
   news.pose = {{"t", pose.time_ns}, {"x", pose.x_m}, {"y", pose.y_m}, {"heading", pose.heading_rad}};
+}
+
+void RunFollower::add_poses(News& news, bool at_once) {
+  PoseTrack& poses = recording_.poses();
+  if (!scene_told_ && !poses.scene().is_null()) {
+    scene_told_ = true;
+    news.scene = poses.scene();
+  }
+  if (!at_once && Clock::now() - poses_told_ < between_frames) return;
+  const std::optional<PoseTrack::Frame> frame = poses.next_frame();
+  if (!frame) return;
+  poses_told_ = Clock::now();
+  news.poses = {{"t", frame->time_ns}, {"frame", frame->bytes}};
+  if (const std::optional<PoseTrack::Frame> whole = poses.last_whole())
+    news.whole_poses = {{"t", whole->time_ns}, {"frame", whole->bytes}};
 }
 
 void RunFollower::add_snapshot(const project::Snapshot& snapshot, News& news) {

@@ -24,8 +24,10 @@ class RunFollower {
   RunFollower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
 
   struct News {
-    nlohmann::json firings, values, pose, subsystems;  ///< data of the events; null: nothing new
-    std::vector<PathPoint> path;                       ///< new points of the path
+    nlohmann::json firings, values, pose, poses, subsystems;  ///< data of the events; null: nothing new
+    nlohmann::json scene;                                     ///< of the event; null: no new one
+    nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a page that begins now
+    std::vector<PathPoint> path;  ///< new points of the path
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     std::uint64_t total_firings = 0;  ///< that were read so far; 0: no new ones
@@ -45,12 +47,15 @@ class RunFollower {
   void add_firings(News& news);
   void add_path(News& news, bool at_once);
   void add_values(News& news, bool at_once);
+  void add_poses(News& news, bool at_once);
   void add_snapshot(const project::Snapshot& snapshot, News& news);
 
   RecordingTail recording_;
   GrowingFile path_;
   PathReader points_;
-  std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, subsystems_told_{};
+  std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, poses_told_{},
+      subsystems_told_{};
+  bool scene_told_ = false;
   std::optional<PathPoint> pose_waiting_;
   std::optional<project::Snapshot> snapshot_;
   std::uint64_t pauses_ = 0, total_firings_ = 0;

@@ -69,6 +69,11 @@ void ControllerLink::understand() {
       if (bytes > longest_piece) return close();  // not what a controller sends
       if (bytes > heard_.size() - end - 1) break;
       piece_ = {heard_.substr(end + 1, bytes), head->begins, head->more};
+    } else if (const auto* scene = std::get_if<project::SceneHead>(&*line)) {
+      bytes = scene->bytes;
+      if (bytes > longest_piece) return close();  // not what a controller sends
+      if (bytes > heard_.size() - end - 1) break;
+      take(*scene, std::string_view(heard_).substr(end + 1, bytes));
     } else {
       ended_ = true;
     }
@@ -81,6 +86,23 @@ void ControllerLink::take(project::CommandAnswer answer) {
   const std::lock_guard lock(mutex_);
   answers_[answer.id] = std::move(answer.error);
   answered_.notify_all();
+}
+
+void ControllerLink::take(const project::SceneHead& head, std::string_view bytes) {
+  constexpr std::uint64_t largest = std::uint64_t{256} << 20U;
+  scene_asked_ = false;
+  if (head.from == scene_.size() && head.total <= largest) scene_ += bytes;
+  const bool whole = scene_.size() == head.total;
+  scene_complete_ = whole || bytes.empty() || head.total > largest;
+  if (scene_complete_ && !whole) scene_.clear();
+}
+
+std::optional<std::string> ControllerLink::scene() {
+  if (scene_complete_) return scene_;
+  if (scene_asked_ || !connection_) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  scene_asked_ = say(project::line_of(project::command::Scene{scene_.size()}));
+  return std::nullopt;
 }
 
 GrowingRecording::Piece ControllerLink::recording() {

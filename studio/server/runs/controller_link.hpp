@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "project/process/control_connection.hpp"
@@ -36,6 +37,9 @@ class ControllerLink {
   /// What the controller's recording holds besides what was asked for before, as it was after the last
   /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
+  /// Asks for the scene of the controller's world, piece by piece: call it again and again. The whole scene,
+  /// once it has come; empty: there is none. Does not wait.
+  [[nodiscard]] std::optional<std::string> scene();
   /// nullopt: done. Waits for the connection and the answer, at most five seconds each. Meanwhile somebody
   /// has to call connect and snapshot.
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
@@ -51,11 +55,14 @@ class ControllerLink {
   void hear();
   void understand();
   void take(project::CommandAnswer answer);
+  void take(const project::SceneHead& head, std::string_view bytes);
   std::optional<project::ControlConnection> connection_;
   std::string heard_;
   std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
   std::optional<GrowingRecording::Piece> piece_;  ///< messages behind it wait until it is taken
+  std::string scene_;
+  bool scene_asked_ = false, scene_complete_ = false;
   /// guards the members below, and writing to and closing the connection
   std::mutex mutex_;
   std::condition_variable answered_;

@@ -272,6 +272,8 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
     if (news.marking) marking_ = *news.marking;
     if (!news.values.is_null()) values_.update(news.values.at("values"));
     if (!news.pose.is_null()) pose_ = news.pose;
+    if (!news.scene.is_null()) scene_ = news.scene;
+    if (!news.whole_poses.is_null()) poses_ = std::move(news.whole_poses);
     for (const PathPoint& point : news.path) path_.add(point);
     if (!news.subsystems.is_null()) subsystems_ = news.subsystems;
     const State now = news.paused ? State::paused : State::running;
@@ -281,6 +283,8 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
   if (!news.values.is_null()) publish("values", std::move(news.values));
   if (!news.pose.is_null()) publish("pose", std::move(news.pose));
+  if (!news.scene.is_null()) publish("scene", std::move(news.scene));
+  if (!news.poses.is_null()) publish("poses", std::move(news.poses));
   if (!news.subsystems.is_null()) publish("subsystems", std::move(news.subsystems));
   if (changed) set_state(*changed, news.broke_at.empty() ? "" : "breakpoint: " + news.broke_at);
   return news.more;
@@ -304,6 +308,23 @@ std::filesystem::path Run::readable_recording(const project::Snapshot& snapshot)
   return within && link_.is_process(snapshot.process) ? file : std::filesystem::path();
 }
 
+/// The scene of a controller whose files cannot be read comes through its socket, piece by piece.
+void Run::fetch_scene() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (scene_.is_null() || !glb_.empty()) return;
+  }
+  std::optional<std::string> glb = link_.scene();
+  if (!glb) return;
+  json scene;
+  {
+    const std::lock_guard lock(mutex_);
+    glb_ = std::move(*glb);
+    scene = scene_;
+  }
+  publish("scene", std::move(scene));  // again: now it can be loaded
+}
+
 void Run::attach() {
   if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
     return set_state(State::failed, "nobody listens at " + request_.socket);
@@ -322,6 +343,7 @@ void Run::attach() {
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
     if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();
+    if (file.empty()) fetch_scene();
     snapshot = link_.snapshot();
   }
   while (!stop_ && tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/true)) continue;
@@ -341,11 +363,19 @@ json Run::info(bool all) const {
   info["values"] = values_;
   info["pose"] = pose_;
   info["path"] = path_.rows();
+  info["scene"] = scene_;
+  info["poses"] = poses_;
   info["verdicts"] = verdicts_;
   info["outcome"] = outcome_;
   info["subsystems"] = subsystems_;
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
+}
+
+std::optional<std::string> Run::scene(const std::string& hash) const {
+  const std::lock_guard lock(mutex_);
+  if (glb_.empty() || scene_.is_null() || scene_.at("hash") != hash) return std::nullopt;
+  return glb_;
 }
 
 std::optional<Problem> Run::control(const RunControl& wanted) {

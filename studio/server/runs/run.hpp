@@ -59,6 +59,8 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
+  /// The scene with that hash, if it came through a tunnel.
+  [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
   /// nullopt: done.
   [[nodiscard]] std::optional<Problem> control(const RunControl& wanted);
   void stop() { stop_ = true; }
@@ -70,6 +72,7 @@ class Run {
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
   void attach();
+  void fetch_scene();
   [[nodiscard]] std::optional<Problem> why_not_attachable(const project::Snapshot& snapshot) const;
   [[nodiscard]] std::filesystem::path readable_recording(const project::Snapshot& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
@@ -89,8 +92,9 @@ class Run {
   mutable std::mutex mutex_;  ///< guards the members below
   State state_ = State::building;
   std::string why_;
-  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_;
+  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_, scene_, poses_;
   ThinnedPath path_{5000};
+  std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not come yet
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
   std::uint64_t firings_ = 0;

@@ -43,6 +43,13 @@ std::shared_ptr<Run> Runs::find(const std::string& id) const {
   return found == runs_.end() ? nullptr : found->second;
 }
 
+std::optional<std::string> Runs::scene(const std::string& hash) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [number, run] : runs_)
+    if (std::optional<std::string> glb = run->scene(hash)) return glb;
+  return std::nullopt;
+}
+
 void Runs::stop_all() {
   std::map<std::uint64_t, std::shared_ptr<Run>> all;
   {

@@ -32,6 +32,8 @@ class Runs {
   [[nodiscard]] Started start(RunRequest request);
   [[nodiscard]] nlohmann::json list() const;
   [[nodiscard]] std::shared_ptr<Run> find(const std::string& id) const;
+  /// The glTF file of a scene that came through a tunnel; nullopt: none has come.
+  [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
   /// Ends all runs and waits until they have ended.
   void stop_all();
 

@@ -58,7 +58,7 @@ interface Details<Name extends keyof Requests> {
 
 /** Where a request goes: "/api/runs/7/control" of "POST /api/runs/RUN/control". */
 function addressOf(name: string, of: string, query: object): string {
-  const path = name.replace(/^[A-Z]+ /, "").replace(/(?<=\/)[A-Z]+(?=\/|$)/, encodeURIComponent(of));
+  const path = name.replace(/^[A-Z]+ /, "").replace(/(?<=\/)[A-Z]+(?=\/|\.|$)/, encodeURIComponent(of));
   const asked = new URLSearchParams(Object.entries(query)).toString();
   return asked ? `${path}?${asked}` : path;
 }
@@ -113,6 +113,17 @@ export class Api {
   /** As much of it as is sent at once; from a moment on. */
   recording = (name: string, from?: number) =>
     this.ask("GET /api/recordings/NAME", { of: name, query: from === undefined ? {} : { from: String(from) } });
+  /** The poses of a recording between two times. */
+  poses = (name: string, from: number, to: number) =>
+    this.ask("GET /api/recordings/NAME/poses", { of: name, query: { from: String(from), to: String(to) } });
+  /** The glTF file of a simulated world. */
+  async scene(hash: string): Promise<ArrayBuffer> {
+    const answer = await fetch(addressOf("GET /api/scenes/HASH.glb" satisfies keyof Requests, hash, {}), {
+      headers: { Authorization: `Bearer ${this.token}` },
+    });
+    if (!answer.ok) throw new ApiError(answer.status, "The file of this world is not there.");
+    return answer.arrayBuffer();
+  }
   /** The floor with that name, or that of the specification; nothing when there is no picture of it. */
   async floor(chosen: string | null | undefined): Promise<Floor | null> {
     try {

@@ -18,6 +18,8 @@ const listened: Record<keyof Events, true> = {
   firings: true,
   values: true,
   pose: true,
+  scene: true,
+  poses: true,
   subsystems: true,
 };
 

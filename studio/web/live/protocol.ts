@@ -16,6 +16,8 @@ export type Breakpoint = { place: number } | { transition: number } | { conditio
 export type FiringRow = [number, number];
 /** Nanoseconds of the run's clock, and the value. */
 export type Sample = [number, unknown];
+/** Nanoseconds of the run's clock, and a frame (tessera/poses.hpp), base64. */
+export type PoseFrameRow = [number, string];
 export type VerifyEvent = VerifyStarted | VerifyProgress | VerifyEnd;
 
 /**
@@ -86,6 +88,21 @@ export interface Requests {
     };
     status: 200;
     answer: Recording;
+  };
+  "GET /api/recordings/NAME/poses": {
+    query?: {
+      /** Nanoseconds of the run's clock. */
+      from?: string;
+      /** Nanoseconds of the run's clock. */
+      to?: string;
+    };
+    status: 200;
+    answer: RecordedPoses;
+  };
+  "GET /api/scenes/HASH.glb": {
+    status: 200;
+    /** The scene of a simulated world: a glTF file. */
+    answer: string;
   };
   "GET /api/tracks/NAME": {
     status: 200;
@@ -324,6 +341,10 @@ export interface RunInfo {
   firings: number;
   values: Values;
   pose: Pose | null;
+  /** Null: nothing is simulated, or the run has not begun. */
+  scene: SceneShown | null;
+  /** A whole frame; null: none yet. */
+  poses: PoseFrame | null;
   /** At most 5000 rows. */
   path: PathRow[];
   subsystems: SubsystemsSeen | null;
@@ -345,6 +366,18 @@ export interface Pose {
   x: number;
   y: number;
   heading: number;
+}
+/** The bodies that move in a simulated world, and the file of the world: GET /api/scenes/HASH.glb. */
+export interface SceneShown {
+  hash: string;
+  /** Name, and agent that has it; empty: none, or nobody knows. */
+  bodies: [string, string][];
+}
+export interface PoseFrame {
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  /** As tessera/poses.hpp describes, base64. */
+  frame: string;
 }
 export interface SubsystemsSeen {
   /** Nanoseconds of the run's clock. */
@@ -430,6 +463,8 @@ export interface Recording {
   path: PathRow[];
   /** The floor picture; null: none, or nobody knows. */
   track: string | null;
+  /** Null: it was recorded without poses. */
+  scene: SceneShown | null;
   /** Its end is missing: the controller was killed, or still runs. */
   cut: boolean;
   /** Something of it is not in this answer. */
@@ -439,6 +474,12 @@ export interface Recording {
   last: number | null;
   /** Firings of the whole recording. */
   total: number;
+}
+export interface RecordedPoses {
+  /** The first is whole. */
+  frames: PoseFrameRow[];
+  /** All frames up to this time are there. */
+  until: number;
 }
 /** What the server tells, by the name of the event. */
 export interface Events {
@@ -452,6 +493,8 @@ export interface Events {
   subsystems: SubsystemsEvent;
   values: ValuesEvent;
   pose: PoseEvent;
+  scene: SceneEvent;
+  poses: PosesEvent;
 }
 export interface Hello {
   /** Another one: the server was restarted. */
@@ -529,6 +572,21 @@ export interface PoseEvent {
   x: number;
   y: number;
   heading: number;
+}
+export interface SceneEvent {
+  /** Names the run. */
+  run: string;
+  hash: string;
+  /** As in SceneShown. */
+  bodies: [string, string][];
+}
+export interface PosesEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  /** As tessera/poses.hpp describes, base64. */
+  frame: string;
 }
 /** The answer of any request that is refused: status 400 and above. */
 export interface Refusal {

@@ -4,6 +4,7 @@ import { message, type Draft } from "./draft";
 import type { Recording, RecordingInfo } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
+import { RecordedWorld } from "./world";
 
 export interface RecordingsState {
   list: readonly RecordingInfo[];
@@ -41,6 +42,7 @@ export class Recordings {
           return null;
         });
       const replay = new Replay(name, net, recording, source, () => this.store.set({ open: [...this.store.get().open] }));
+      if (recording.scene) replay.track.world = new RecordedWorld(recording.scene, (from, to) => this.api.poses(name, from, to));
       this.keep(keep);
       this.store.set({ open: [...this.store.get().open, replay], problem: "" });
       if (replay.track.path.length > 0) replay.track.floor = await this.api.floor(recording.track);

@@ -99,9 +99,9 @@ export class Replay {
       const from = Math.max(this.first, Math.floor(this.wanted! - before));
       const part = await this.source(from);
       if (!part) break;
-      const { floor } = this.track;
+      const { floor, world } = this.track;
       this.take(part, from);
-      this.track.floor = floor;
+      Object.assign(this.track, { floor, world });
       this.onPart();
     }
     const time = Math.min(this.end, Math.max(this.begin, this.wanted!));

@@ -10,17 +10,20 @@ import type {
   FiringsEvent,
   Outcome,
   PoseEvent,
+  PoseFrame,
   RunEvent,
   RunInfo,
   RunKind,
   RunRequest,
   RunState,
+  SceneShown,
   SubsystemsEvent,
   ValuesEvent,
 } from "./protocol";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
+import { LiveWorld } from "./world";
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -90,6 +93,8 @@ export class Runner {
     connection.on("firings", (event) => this.mine(event) && this.fired(event));
     connection.on("values", (event) => this.mine(event) && this.valued(event));
     connection.on("pose", (event) => this.mine(event) && this.posed(event));
+    connection.on("scene", (event) => this.mine(event) && this.sawScene(event));
+    connection.on("poses", (event) => this.mine(event) && this.sawPoses(event));
     connection.on("subsystems", (event) => this.mine(event) && this.reported(event));
     connection.on("hello", () => void this.attach());
   }
@@ -169,6 +174,8 @@ export class Runner {
       this.counted(info.firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);
+      if (info.scene) this.sawScene(info.scene);
+      if (info.poses) this.sawPoses(info.poses);
     } else if (state === "ended" || state === "paused") void this.seePath();
     const { breakpoints } = this.store.get();
     if (state === "running" && breakpoints.length > 0)
@@ -240,6 +247,17 @@ export class Runner {
     const known = this.store.get().behaviours;
     if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
       this.store.set({ behaviours });
+  }
+
+  /** It comes again when its file has come through a tunnel. */
+  private sawScene({ hash, bodies }: SceneShown): void {
+    const { track } = this;
+    if (track && track.world?.scene.hash !== hash) track.world = new LiveWorld({ hash, bodies });
+  }
+
+  private sawPoses(frame: PoseFrame): void {
+    this.track?.reached(frame.t);
+    if (this.track?.world instanceof LiveWorld) this.track.world.take(frame);
   }
 
   private posed(pose: PoseEvent): void {

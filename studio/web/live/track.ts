@@ -4,6 +4,7 @@ import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/timeline";
 import type { Floor } from "./api";
 import type { PathRow } from "./protocol";
+import type { World } from "./world";
 
 export interface Pose {
   t: number;
@@ -33,6 +34,8 @@ export class Track {
   /** The time up to which the firings are known. */
   known = 0;
   floor: Floor | null = null;
+  /** The simulated world; null: there is none, or nothing is known of it yet. */
+  world: World | null = null;
 
   /** whole: nothing is discarded, because the run has an end. */
   constructor(

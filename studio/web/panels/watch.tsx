@@ -3,10 +3,10 @@ import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Replay } from "../live/replay";
 import type { Track } from "../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
-import { drawWorld } from "./draw_world";
 import { Painted } from "./painted";
 import { usePaneTitle } from "./pane_title";
 import { ValueList } from "./value_list";
+import { WorldPane } from "./world_pane";
 
 /** The panels below the drawing during a run or replay: timeline, values, and the world from above. */
 export function Watches() {
@@ -27,6 +27,7 @@ export function Watches() {
           seconds={seconds}
           onSeconds={setSeconds}
           fixed={sameTime && at === 1}
+          beside={watched[1 - at]?.track ?? null}
         />
       ))}
     </div>
@@ -41,9 +42,10 @@ interface WatchProps {
   onSeconds: (seconds: number) => void;
   /** Whether its time is that of the pane beside it. */
   fixed: boolean;
+  beside: Track | null;
 }
 
-function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) {
+function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: WatchProps) {
   const hasWorld = useHasWorld();
   return (
     <section className={`watch${hasWorld ? "" : " without-world"}`} aria-label={label}>
@@ -74,19 +76,11 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed }: WatchProps) 
         <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
       </div>
       {hasWorld && (
-        <div className="watch-pane world">
-          <div className="watch-title">
-            <h2>World</h2>
-            <span className="faint">{track.path.length > 0 ? "from above" : ""}</span>
-          </div>
-          <Painted
-            label="The robot's path from above"
-            draw={(context, size, colours) =>
-              drawWorld(context, size, colours, track, `${replay ? "This recording holds no path" : "No path"} of a single robot`)
-            }
-            of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
-          />
-        </div>
+        <WorldPane
+          track={track}
+          beside={beside}
+          none={`${replay ? "This recording holds no path" : "No path"} of a single robot`}
+        />
       )}
     </section>
   );

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import validator from "gltf-validator";
 import { button, drawn, example, find, onBuilt, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
@@ -57,8 +58,25 @@ test("a recording that is too long to be sent at once is looked at from its firs
     }
   }));
 
+/** The robot moves in the view in three dimensions, and the file of its world is glTF as it should be. */
+async function seenInSpace(page, server) {
+  const space = page.getByRole("img", { name: "The world in three dimensions" });
+  await space.waitFor();
+  const place = () => space.evaluate(({ view }) => JSON.stringify(view?.onScreen(0) ?? null));
+  await until(page, async () => (await place()) !== "null", "the robot is there");
+  const first = await place();
+  await until(page, async () => (await place()) !== first, "the robot drives");
+  const ask = (path) => fetch(`${server.address}${path}`, { headers: { Authorization: `Bearer ${server.token}` } });
+  const runs = await (await ask("/api/runs")).json();
+  const { scene } = await (await ask(`/api/runs/${runs.at(-1).run}`)).json();
+  assert.deepEqual(scene.bodies[0], ["robot", "robot"]);
+  const glb = new Uint8Array(await (await ask(`/api/scenes/${scene.hash}.glb`)).arrayBuffer());
+  const { issues } = await validator.validateBytes(glb);
+  assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify(issues.messages));
+}
+
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuilt(lineFollower, async (page, server) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -66,6 +84,8 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     const before = await facts();
     await until(page, async () => (await facts()) !== before, "more firings");
     await page.getByText("robot.control.motion.angular").waitFor();
+    await seenInSpace(page, server);
+    await button(page, "3D").click();
     const painted = () => page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => canvas.toDataURL());
     const path = await painted();
     await until(page, async () => (await painted()) !== path, "a longer path");
@@ -116,6 +136,7 @@ test("the robot's path is there after a reload, and in the recording up to the m
     await page.keyboard.press("Enter");
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
+    await button(page, "3D").click();
     await until(page, async () => (await pathDrawn(page)) > 150, "a path");
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();

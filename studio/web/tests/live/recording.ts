@@ -12,6 +12,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     values: {},
     path: [],
     track: null,
+    scene: null,
     cut: false,
     truncated: false,
     first: firings[0]?.[0] ?? null,

@@ -29,6 +29,8 @@ async function watching() {
     firings: 3,
     values: { "robot.control.motion": { linear: 1, angular: 2 } },
     pose: null,
+    scene: null,
+    poses: null,
     path: [
       [0, 0, 0, 0],
       [4, 1, 0, 0],

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tessera/time.hpp"
+
+/// How the poses of bodies in a simulated world are recorded: one frame per `pose_period` in which a body has
+/// moved, as differences to the frame before, and at least once per `whole_pose_period` a *whole* frame, which
+/// needs none before it. So a reader can begin anywhere, and a lost frame harms for a second at most.
+///
+/// A frame has these bytes:
+///
+///     uint8    0: differences, 1: whole
+///     uint16   its number, little-endian: one more than that of the frame before
+///     and per body that it lists, in rising order of index,
+///       varint   bodies left out since the one before
+///       uint8    which of x, y, z, w, i, j, k follow, in this order: bits 0 to 6
+///       varint   of each: zigzag difference to the frame before; in a whole frame, to 0
+///
+/// x, y, z are in steps of 0.1 mm, the unit quaternion w + i + j + k in steps of 1/8191. A varint has seven
+/// bits per byte, the lowest first, and the highest bit of a byte says that more follow.
+namespace tessera {
+
+inline constexpr Duration pose_period = std::chrono::milliseconds(40);
+inline constexpr Duration whole_pose_period = std::chrono::seconds(1);
+inline constexpr double pose_steps_per_metre = 10'000, pose_steps_per_unit = 8191;
+
+/// Of a body in the world.
+struct BodyPose {
+  std::array<double, 3> position_m{};
+  std::array<double, 4> rotation{1, 0, 0, 0};  ///< unit quaternion: w, i, j, k
+};
+
+/// A pose in the steps in which recordings have it: x, y, z, w, i, j, k.
+struct RoundedPose {
+  std::array<std::int64_t, 7> steps{0, 0, 0, 8191, 0, 0, 0};
+  friend bool operator==(const RoundedPose&, const RoundedPose&) = default;
+};
+/// Positions beyond 10^8 m are brought to that. nullopt: a number of the pose is not finite.
+[[nodiscard]] std::optional<RoundedPose> rounded(const BodyPose& pose);
+[[nodiscard]] BodyPose pose_of(const RoundedPose& rounded);
+
+/// Makes the frames of one stream of poses. The same poses give the same bytes.
+///
+/// Threads: one at a time.
+class PoseEncoder {
+ public:
+  explicit PoseEncoder(std::size_t bodies) : last_(bodies) {}
+
+  /// poses: of all bodies. A body whose pose is not finite stays where it was. Empty: nothing has moved, and
+  /// no whole frame is due. The bytes are valid until the next call.
+  [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const BodyPose> poses);
+  [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const RoundedPose> poses);
+  /// The poses of the last frame as a whole one with the same number; empty: there is none yet.
+  [[nodiscard]] std::string last_whole() const;
+  /// The most bytes that a frame of so many bodies has.
+  [[nodiscard]] static std::size_t longest_frame(std::size_t bodies);
+
+ private:
+  std::vector<RoundedPose> last_, rounded_;
+  std::optional<std::int64_t> whole_ns_;  // time of the last whole frame
+  std::uint16_t number_ = 0;
+  std::string bytes_;
+};
+
+/// Follows a stream of frames. Takes any bytes.
+///
+/// Threads: one at a time.
+class PoseDecoder {
+ public:
+  explicit PoseDecoder(std::size_t bodies) : poses_(bodies) {}
+
+  /// false: the bytes are no frame of these bodies.
+  bool take(std::string_view frame);
+  /// Whether `poses` is right. It is not before the first whole frame, and after a frame that is missing or
+  /// damaged until the next whole one.
+  [[nodiscard]] bool known() const { return known_; }
+  [[nodiscard]] const std::vector<RoundedPose>& poses() const { return poses_; }
+
+ private:
+  [[nodiscard]] bool apply(std::string_view bytes, bool whole);
+  std::vector<RoundedPose> poses_;
+  std::optional<std::uint16_t> number_;  // of the last frame
+  bool known_ = false;
+};
+
+}  // namespace tessera

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tessera/poses.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::server {
+
+/// Follows the poses in a recording, in any number of segments, and makes frames of them for a page: other
+/// ones than those recorded, because a page may begin anywhere and does not get all of them.
+///
+/// Threads: one at a time.
+class PoseTrack {
+ public:
+  /// A segment of the recording begins.
+  void begin(const Recording& header);
+  /// Any entry of the recording.
+  void take(const Recording::Entry& entry);
+
+  /// {"hash", "bodies": [[name, agent]...]}; null: the recording has no poses.
+  [[nodiscard]] const nlohmann::json& scene() const { return scene_; }
+  /// A frame (tessera/poses.hpp), base64, and its time.
+  struct Frame {
+    std::int64_t time_ns = 0;
+    std::string bytes;
+  };
+  /// What has changed since the last frame; nullopt: nothing, or the poses are not known now.
+  [[nodiscard]] std::optional<Frame> next_frame();
+  /// The same poses as after the last frame, with its number, for a page that has not got the frames before.
+  [[nodiscard]] std::optional<Frame> last_whole() const;
+
+ private:
+  nlohmann::json scene_;
+  std::optional<PoseDecoder> recorded_;
+  std::optional<PoseEncoder> shown_;
+  std::int64_t time_ns_ = 0, shown_ns_ = 0;
+  bool changed_ = false;
+};
+
+[[nodiscard]] std::string base64_of(std::string_view bytes);
+
+}  // namespace tessera::server

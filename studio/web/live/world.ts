@@ -1,0 +1,97 @@
+import { PoseFrames } from "../model/pose_frames";
+import { count } from "../model/sorted";
+import { message } from "./draft";
+import type { PoseFrame, RecordedPoses, SceneShown } from "./protocol";
+
+/** The poses at one time. Another object stands for other poses. */
+export type Poses = Float32Array;
+
+/** A simulated world: what it looks like, and where its bodies are at a time. */
+export interface World {
+  readonly scene: SceneShown;
+  /** Why there are no poses; empty: there are. */
+  readonly problem: string;
+  /** Null: not known, or not loaded yet. */
+  at(time: number): Poses | null;
+}
+
+/** The world of a run that goes on. It is shown as it is now. */
+export class LiveWorld implements World {
+  readonly problem = "";
+  private readonly frames: PoseFrames;
+  private poses: Poses | null = null;
+
+  constructor(readonly scene: SceneShown) {
+    this.frames = new PoseFrames(scene.bodies.length);
+  }
+
+  take({ frame }: PoseFrame): void {
+    if (this.frames.take(frame)) this.poses = this.frames.poses();
+  }
+
+  at(): Poses | null {
+    return this.poses;
+  }
+}
+
+/** Loads the poses between two times. */
+export type PoseSource = (from: number, to: number) => Promise<RecordedPoses>;
+
+/** Nanoseconds that are loaded before a time that is asked for, and behind it. */
+const before = 2e9;
+const after = 30e9;
+
+interface Part {
+  times: number[];
+  poses: Poses[];
+  from: number;
+  until: number;
+}
+
+/** The world of a recording, of which a part is loaded at a time. */
+export class RecordedWorld implements World {
+  private part: Part = { times: [], poses: [], from: 0, until: -1 };
+  private next: Part | null = null;
+  private loading = false;
+  problem = "";
+
+  constructor(
+    readonly scene: SceneShown,
+    private readonly source: PoseSource,
+  ) {}
+
+  at(time: number): Poses | null {
+    if (this.next && time >= this.next.from && time > this.part.until) [this.part, this.next] = [this.next, null];
+    const { times, poses, from, until } = this.part;
+    const isHere = time >= from && time <= until;
+    if (!isHere) void this.load(time, (part) => ([this.part, this.next] = [part, null]));
+    else if (!this.next && time > until - after / 3) void this.load(until + before, (part) => (this.next = part));
+    if (!isHere) return null;
+    const shown = count(times, (at) => at <= time);
+    return shown > 0 ? poses[shown - 1]! : null;
+  }
+
+  private async load(time: number, taken: (part: Part) => void): Promise<void> {
+    if (this.loading || this.problem) return;
+    this.loading = true;
+    const from = Math.floor(Math.max(0, time - before));
+    try {
+      taken(this.partOf(from, await this.source(from, Math.ceil(time + after))));
+    } catch (error) {
+      this.problem = message(error);
+    }
+    this.loading = false;
+  }
+
+  private partOf(from: number, { frames, until }: RecordedPoses): Part {
+    const reader = new PoseFrames(this.scene.bodies.length);
+    const part: Part = { times: [], poses: [], from, until: Math.max(until, from + before) };
+    for (const [time, frame] of frames) {
+      reader.take(frame);
+      if (!reader.known) continue;
+      part.times.push(time);
+      part.poses.push(reader.poses());
+    }
+    return part;
+  }
+}

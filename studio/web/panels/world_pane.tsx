@@ -1,0 +1,136 @@
+import { useEffect, useRef, useState } from "react";
+import { useStudio } from "../hooks/use";
+import { message } from "../live/draft";
+import type { Track } from "../live/track";
+import type { World } from "../live/world";
+import { drawWorld } from "./draw_world";
+import { Painted } from "./painted";
+import type { World3d } from "./world_3d";
+
+const kept = "tessera.world";
+
+/** The simulated world: in three dimensions, or the path of a robot from above. */
+export function WorldPane({ track, beside, none }: { track: Track; beside: Track | null; none: string }) {
+  const world = useWorld(track);
+  const [above, setAbove] = useState(() => sessionStorage.getItem(kept) === "above");
+  const [problem, setProblem] = useState("");
+  const [followed, setFollowed] = useState(-1);
+  const [large, setLarge] = useState(false);
+  useEffect(() => {
+    setProblem("");
+    const timer = setInterval(() => world?.problem && setProblem(world.problem), 500);
+    return () => clearInterval(timer);
+  }, [world]);
+  const inSpace = world !== null && !above && !problem;
+  const look = (next: boolean) => {
+    sessionStorage.setItem(kept, next ? "above" : "space");
+    setAbove(next);
+    setProblem("");
+  };
+  return (
+    <div className={`watch-pane world${large && inSpace ? " large" : ""}`}>
+      <div className="watch-title">
+        <h2>World</h2>
+        {inSpace && <Followed world={world} followed={followed} onFollow={setFollowed} />}
+        <span className="spring" />
+        {inSpace && (
+          <button className="small" aria-pressed={large} onClick={() => setLarge(!large)}>
+            Large
+          </button>
+        )}
+        {world && (
+          <button className="small" aria-pressed={inSpace} title={problem} onClick={() => look(inSpace)}>
+            3D
+          </button>
+        )}
+        {!inSpace && <span className="faint">{problem || (track.path.length > 0 ? "from above" : "")}</span>}
+      </div>
+      {inSpace ? (
+        <Space track={track} beside={beside} world={world} followed={followed} onProblem={setProblem} />
+      ) : (
+        <Painted
+          label="The robot's path from above"
+          draw={(context, size, colours) => drawWorld(context, size, colours, track, none)}
+          of={() => `${track.id} ${track.driven} ${track.path.length} ${track.floor !== null}`}
+        />
+      )}
+    </div>
+  );
+}
+
+/** The world of a track, which may come later than the track. */
+function useWorld(track: Track): World | null {
+  const [world, setWorld] = useState(track.world);
+  useEffect(() => {
+    setWorld(track.world);
+    const timer = setInterval(() => setWorld(track.world), 200);
+    return () => clearInterval(timer);
+  }, [track]);
+  return world;
+}
+
+function Followed({ world, followed, onFollow }: { world: World; followed: number; onFollow: (body: number) => void }) {
+  return (
+    <select aria-label="Body to follow" value={followed} onChange={(event) => onFollow(Number(event.target.value))}>
+      <option value={-1}>whole world</option>
+      {world.scene.bodies.map(([name], body) => (
+        <option key={name} value={body}>
+          {name}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+interface SpaceProps {
+  track: Track;
+  /** Its run is shown as ghosts, if it is in the same world. */
+  beside: Track | null;
+  world: World;
+  followed: number;
+  onProblem: (problem: string) => void;
+}
+
+const posesOf = ({ world, now }: Track) => world?.at(now) ?? null;
+
+/** A body that is clicked chooses its agent in the drawing. */
+function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
+  const studio = useStudio();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const view = useRef<World3d | null>(null);
+  const shown = useRef({ track, beside });
+  shown.current = { track, beside };
+  const { hash } = world.scene;
+  useEffect(() => {
+    let closed = false;
+    const open = async () => {
+      try {
+        const [{ World3d }, glb] = await Promise.all([import("./world_3d"), studio.api.scene(hash)]);
+        if (closed) return;
+        const made = new World3d(canvas.current!, {
+          poses: () => posesOf(shown.current.track),
+          ghosts: () => (shown.current.beside?.world?.scene.hash === hash ? posesOf(shown.current.beside) : null),
+          background: () => getComputedStyle(canvas.current!).getPropertyValue("--sunken").trim(),
+          picked: (body) => {
+            const agent = world.scene.bodies[body]?.[1];
+            if (agent) studio.flyTo(agent);
+          },
+          lost: () => onProblem("The view in three dimensions was lost."),
+        });
+        view.current = made;
+        Object.assign(canvas.current!, { view: made });
+        await made.load(glb, world.scene.bodies.length);
+      } catch (error) {
+        if (!closed) onProblem(message(error));
+      }
+    };
+    void open();
+    return () => {
+      closed = true;
+      view.current?.close();
+      view.current = null;
+    };
+  }, [hash]);
+  useEffect(() => view.current?.follow(followed), [followed]);
+  return <canvas ref={canvas} className="painted space" role="img" aria-label="The world in three dimensions" tabIndex={0} />;
+}

@@ -1,0 +1,112 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { button, example, onPage, tab, until } from "./page.mjs";
+import { writeWorld } from "./recorded_world.mjs";
+
+const api = (server, path) => fetch(`${server.address}${path}`, { headers: { Authorization: `Bearer ${server.token}` } });
+
+/** Writes recordings of worlds, and opens the panel that lists them. */
+async function withWorlds(page, server, worlds) {
+  const { analysis } = await (await api(server, "/api/spec")).json();
+  const transitions = analysis.net.flat.transitions.map(({ name }) => name);
+  for (const [at, world] of worlds.entries())
+    writeWorld(server.root, world.name, {
+      hash: `00000000000000${at}0`,
+      net_hash: analysis.net_hash,
+      transitions: transitions.slice(0, 1),
+      agent: "robot",
+      ...world,
+    });
+  await tab(page, "Recordings").click();
+}
+
+const space = (page) => page.getByRole("img", { name: "The world in three dimensions" });
+const drawn = (page) => space(page).evaluate((canvas) => Number(canvas.dataset.drawn ?? 0));
+const placeOf = (page, body) => space(page).evaluate((canvas, which) => canvas.view?.onScreen(which), body);
+
+/** The number of different colours in a canvas as it is on the screen. */
+async function colours(page) {
+  const picture = await space(page).screenshot();
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const context = canvas.getContext("2d");
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    return new Set(Array.from({ length: data.length / 4 }, (_, at) => data.slice(4 * at, 4 * at + 3).join())).size;
+  }, picture.toString("base64"));
+}
+
+test("a recorded world is seen in three dimensions at every time of the timeline", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    const chunks = [];
+    page.on("request", (request) => /world_3d/.test(request.url()) && chunks.push(request.url()));
+    await withWorlds(page, server, [{ name: "three", robots: 3 }]);
+    assert.equal(chunks.length, 0, "the page loads the view with the first world only");
+    await page.getByRole("button", { name: /^three\.tsr/ }).click();
+    await space(page).waitFor();
+    await until(page, async () => (await drawn(page)) > 0, "the world is drawn");
+    assert.equal(chunks.length, 1);
+    await until(page, async () => (await colours(page)) > 4, "more is to be seen than the background");
+
+    const atStart = await placeOf(page, 0);
+    await until(page, () => space(page).evaluate((canvas) => canvas.view.given.poses() !== null), "poses are loaded");
+    const rest = await drawn(page);
+    await page.waitForTimeout(300);
+    assert.ok((await drawn(page)) <= rest + 1, "nothing is drawn while nothing changes");
+
+    await page.getByRole("slider", { name: "Time" }).fill(String(2.5e9));
+    await until(page, async () => {
+      const now = await placeOf(page, 0);
+      return Math.hypot(now.x - atStart.x, now.y - atStart.y) > 5;
+    }, "the body is somewhere else later"); // prettier-ignore
+
+    const { x, y } = await placeOf(page, 1);
+    await page.mouse.click(x, y - 2);
+    await page.getByRole("navigation", { name: "Layers" }).getByText("robot", { exact: true }).waitFor();
+
+    await page.getByLabel("Body to follow").selectOption("robot[2]/base");
+    await until(page, async () => {
+      const box = await space(page).boundingBox();
+      const now = await placeOf(page, 2);
+      return Math.abs(now.x - box.x - box.width / 2) < 3 && Math.abs(now.y - box.y - box.height / 2) < 3;
+    }, "the followed body is in the middle"); // prettier-ignore
+
+    await button(page, "3D").click();
+    await page.getByRole("img", { name: "The robot's path from above" }).waitFor();
+  }));
+
+test("the scene goes to those with the token only, and only by its hash", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    await withWorlds(page, server, [{ name: "one", robots: 1 }]);
+    const scene = await api(server, "/api/scenes/0000000000000000.glb");
+    assert.equal(scene.status, 200);
+    assert.equal(scene.headers.get("content-type"), "model/gltf-binary");
+    assert.equal((await fetch(`${server.address}/api/scenes/0000000000000000.glb`)).status, 401);
+    for (const wrong of ["0000000000000001.glb", "..%2fspec.yaml", "one.tsr"])
+      assert.equal((await api(server, `/api/scenes/${wrong}`)).status, 404, wrong);
+    const part = await (await api(server, "/api/recordings/one.tsr/poses?from=5000000000&to=6000000000")).json();
+    assert.equal(part.frames.length, 27, "a second of frames, and the one before it");
+    assert.equal(part.until, 6e9);
+  }));
+
+test("two runs in one world are seen as ghosts of each other", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    const hash = "00000000000000aa";
+    await withWorlds(page, server, [
+      { name: "one", hash, robots: 2 },
+      { name: "two", hash, robots: 2, shift: 0.5 },
+    ]);
+    await page.getByRole("button", { name: /^one\.tsr/ }).click();
+    await space(page).waitFor();
+    const ghosts = (at) =>
+      space(page)
+        .nth(at)
+        .evaluate(({ view }) => (view?.ghosts[0]?.parent ? view.ghosts[0].position.x - view.bodies[0].position.x : null));
+    await until(page, async () => (await drawn(page)) > 0, "the world is drawn");
+    assert.equal(await ghosts(0), null, "alone it has none");
+    await button(page, "Show two.tsr beside one.tsr").click();
+    await until(page, async () => Math.abs((await ghosts(0)) - 0.5) < 1e-3, "the right run is a ghost on the left");
+    await until(page, async () => Math.abs((await ghosts(1)) + 0.5) < 1e-3, "and the left one on the right");
+  }));

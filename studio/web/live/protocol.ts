@@ -427,7 +427,29 @@ export interface Outcome {
   warnings: string[];
   world_s?: number;
   track?: string;
+  /** Those of the simulated world. */
+  checks?: CheckOutcome[];
+  /** By name; null: never taken. */
+  measures?: { [k: string]: MeasureOutcome | null };
   subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+}
+export interface CheckOutcome {
+  name: string;
+  /** What it demands. */
+  text: string;
+  verdict: "held" | "failed" | "open";
+  /** When it failed first, or when it came. */
+  time_s?: number;
+  /** The facts. */
+  detail?: string;
+}
+export interface MeasureOutcome {
+  least: number;
+  least_at_s: number;
+  greatest: number;
+  greatest_at_s: number;
+  mean: number;
+  last: number;
 }
 export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";

@@ -1,10 +1,10 @@
-import type { Outcome } from "../live/protocol";
+import type { CheckOutcome, MeasureOutcome, Outcome } from "../live/protocol";
 
 const count = (many: number) => many.toLocaleString("en");
 
 /** The result of a run that has ended. */
 export function OutcomeOf({ outcome }: { outcome: Outcome }) {
-  const { simulated_s, wall_s, real_time_factor, firings, lost_events, warnings, subsystems } = outcome;
+  const { simulated_s, wall_s, real_time_factor, firings, lost_events, warnings, subsystems, checks, measures } = outcome;
   return (
     <>
       <h3>Outcome</h3>
@@ -18,6 +18,8 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
           {warning}
         </p>
       ))}
+      {checks && checks.length > 0 && <ChecksOf checks={checks} />}
+      {measures && Object.keys(measures).length > 0 && <MeasuresOf measures={measures} />}
       <table className="outcome">
         <thead>
           <tr>
@@ -41,5 +43,53 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
         </tbody>
       </table>
     </>
+  );
+}
+
+function ChecksOf({ checks }: { checks: readonly CheckOutcome[] }) {
+  return (
+    <table className="outcome">
+      <thead>
+        <tr>
+          <th scope="col">Check</th>
+          <th scope="col">Verdict</th>
+          <th scope="col">At</th>
+        </tr>
+      </thead>
+      <tbody>
+        {checks.map(({ name, text, verdict, time_s, detail }) => (
+          <tr key={name} title={detail ? `${text}: ${detail}` : text}>
+            <th scope="row">{name}</th>
+            <td className={verdict === "failed" ? "bad" : ""}>{verdict}</td>
+            <td>{time_s === undefined ? "" : `${time_s.toFixed(2)} s`}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function MeasuresOf({ measures }: { measures: Readonly<Record<string, MeasureOutcome | null>> }) {
+  return (
+    <table className="outcome">
+      <thead>
+        <tr>
+          <th scope="col">Measure</th>
+          <th scope="col">Least</th>
+          <th scope="col">Mean</th>
+          <th scope="col">Greatest</th>
+        </tr>
+      </thead>
+      <tbody>
+        {Object.entries(measures).map(([name, one]) => (
+          <tr key={name}>
+            <th scope="row">{name}</th>
+            <td title={one ? `at ${one.least_at_s.toFixed(2)} s` : ""}>{one?.least.toPrecision(4)}</td>
+            <td>{one?.mean.toPrecision(4)}</td>
+            <td title={one ? `at ${one.greatest_at_s.toFixed(2)} s` : ""}>{one?.greatest.toPrecision(4)}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }

@@ -138,20 +138,20 @@ int GlbFile::add_picture(const std::string& png) {
   return static_cast<int>(json_["textures"].size()) - 1;
 }
 
-int GlbFile::add_node(const std::string& name, const Placement& placement, std::optional<int> mesh,
+int GlbFile::add_node(const std::string& name, const NodeTransform& placement, std::optional<int> mesh,
                       const ordered_json& extras) {
   const auto& [position, rotation, scale] = placement;
   ordered_json node;
   if (!name.empty()) node["name"] = name;
-  if (position != Placement{}.position) node["translation"] = position;
-  if (rotation != Placement{}.rotation) {
+  if (position != NodeTransform{}.position) node["translation"] = position;
+  if (rotation != NodeTransform{}.rotation) {
     double length = 0;
     for (const double part : rotation) length += part * part;
     length = std::sqrt(length);
     node["rotation"] = {rotation[1] / length, rotation[2] / length, rotation[3] / length,
                         rotation[0] / length};
   }
-  if (scale != Placement{}.scale) node["scale"] = scale;
+  if (scale != NodeTransform{}.scale) node["scale"] = scale;
   if (mesh) node["mesh"] = *mesh;
   if (!extras.is_null()) node["extras"] = extras;
   json_["nodes"].push_back(std::move(node));

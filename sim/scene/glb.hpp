@@ -23,7 +23,7 @@ struct Surface {
 };
 
 /// A place and an orientation. The quaternion is w, i, j, k.
-struct Placement {
+struct NodeTransform {
   std::array<double, 3> position{};
   std::array<double, 4> rotation{1, 0, 0, 0};
   std::array<double, 3> scale{1, 1, 1};
@@ -46,7 +46,7 @@ class GlbFile {
     return add_mesh(key, surface);
   }
   /// Returns the node. mesh, extras: may be null.
-  [[nodiscard]] int add_node(const std::string& name, const Placement& placement, std::optional<int> mesh,
+  [[nodiscard]] int add_node(const std::string& name, const NodeTransform& placement, std::optional<int> mesh,
                              const nlohmann::ordered_json& extras);
   void add_child(int parent, int child);
   /// The whole file; `root` is the only node of its scene.

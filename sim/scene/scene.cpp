@@ -58,11 +58,11 @@ template <std::size_t N, class Number>
 }
 
 /// The bodies of a model with all joints at their reference.
-[[nodiscard]] std::vector<Placement> reference_placements(const mjModel& model) {
-  std::vector<Placement> all(at(model.nbody));
+[[nodiscard]] std::vector<NodeTransform> reference_placements(const mjModel& model) {
+  std::vector<NodeTransform> all(at(model.nbody));
   for (int body = 1; body < model.nbody; ++body) {
-    const Placement& parent = all[at(model.body_parentid[body])];
-    Placement& own = all[at(body)];
+    const NodeTransform& parent = all[at(model.body_parentid[body])];
+    NodeTransform& own = all[at(body)];
     mju_rotVecQuat(own.position.data(), model.body_pos + 3 * body, parent.rotation.data());
     for (std::size_t axis = 0; axis < 3; ++axis) own.position[axis] += parent.position[axis];
     mju_mulQuat(own.rotation.data(), parent.rotation.data(), model.body_quat + 4 * body);
@@ -76,7 +76,7 @@ class SceneWriter {
   SceneWriter(const mjModel& model, const FloorPicture& floor) : model_(model), floor_(floor) {}
 
   [[nodiscard]] std::string write(std::span<const int> bodies) {
-    const std::vector<Placement> placements = reference_placements(model_);
+    const std::vector<NodeTransform> placements = reference_placements(model_);
     // glTF has y up.
     const int root = file_.add_node("", {.rotation = {std::sqrt(0.5), -std::sqrt(0.5), 0, 0}}, {}, nullptr);
     std::size_t next = 0;
@@ -96,7 +96,7 @@ class SceneWriter {
  private:
   void add_geom(int geom, int node) {
     if (!is_visible(model_, geom)) return;
-    Placement placement{.position = numbers<3>(model_.geom_pos + 3 * geom),
+    NodeTransform placement{.position = numbers<3>(model_.geom_pos + 3 * geom),
                         .rotation = numbers<4>(model_.geom_quat + 4 * geom)};
     const std::optional<int> mesh = mesh_of(geom, placement);
     if (!mesh) return;
@@ -105,7 +105,7 @@ class SceneWriter {
   }
 
   /// Round shapes and boxes share their triangles; their size is a scale of the node.
-  [[nodiscard]] std::optional<int> mesh_of(int geom, Placement& placement) {
+  [[nodiscard]] std::optional<int> mesh_of(int geom, NodeTransform& placement) {
     const std::array<double, 3> size = numbers<3>(model_.geom_size + 3 * geom);
     switch (model_.geom_type[geom]) {
       case mjGEOM_PLANE:
@@ -248,7 +248,7 @@ class SceneWriter {
         .roughness = 1,
         .texture = file_.add_picture(png_of(floor_.pixels.data(), floor_.width_px, floor_.height_px, 1))};
     const int mesh = file_.mesh("floor picture", surface, [&] { return rectangle(half_x, half_y, {1, 1}); });
-    const Placement placement{.position = {half_x, half_y, picture_height_m}};
+    const NodeTransform placement{.position = {half_x, half_y, picture_height_m}};
     file_.add_child(node, file_.add_node("floor picture", placement, mesh, ordered_json{{"floor", true}}));
   }
 

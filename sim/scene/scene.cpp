@@ -97,7 +97,7 @@ class SceneWriter {
   void add_geom(int geom, int node) {
     if (!is_visible(model_, geom)) return;
     NodeTransform placement{.position = numbers<3>(model_.geom_pos + 3 * geom),
-                        .rotation = numbers<4>(model_.geom_quat + 4 * geom)};
+                            .rotation = numbers<4>(model_.geom_quat + 4 * geom)};
     const std::optional<int> mesh = mesh_of(geom, placement);
     if (!mesh) return;
     const char* const name = mj_id2name(&model_, mjOBJ_GEOM, geom);

@@ -33,11 +33,10 @@ class Comparison {
         continue;
       }
       ++tally_.causes[static_cast<int>(group.cause)];
-      for (const std::uint32_t subsystem : group.stuck) said[subsystem] = true;
-      for (const std::uint32_t subsystem : group.subsystems)
-        EXPECT_EQ(said[subsystem], naive_.stuck[judged_.structure.subsystems[subsystem].id])
-            << judged_.structure.subsystems[subsystem].name << ": "
-            << verify::in_words(judged_.structure, group);
+      for (const verify::SubsystemFlowId subsystem : group.stuck) said[subsystem.value] = true;
+      for (const verify::SubsystemFlowId subsystem : group.subsystems)
+        EXPECT_EQ(said[subsystem.value], naive_.stuck[judged_.structure[subsystem].id.value])
+            << judged_.structure[subsystem].name << ": " << verify::in_words(judged_.structure, group);
       circuit(group);
     }
     overall();
@@ -69,15 +68,16 @@ class Comparison {
 
   void channels() const {
     for (std::uint32_t index = 0; index < judged_.structure.channels.size(); ++index) {
-      const verify::ChannelFlow& channel = judged_.structure.channels[index];
-      if (std::ranges::count(judged_.report.unclear, index) > 0) {
+      const verify::ChannelFlowId flow{index};
+      const verify::ChannelFlow& channel = judged_.structure[flow];
+      if (std::ranges::count(judged_.report.unclear, flow) > 0) {
         ++tally_.unclear;
         continue;
       }
-      ASSERT_LT(channel.id, naive_.dry.size());
-      const bool dry = std::ranges::count(judged_.report.dry, index) > 0;
-      EXPECT_EQ(dry, naive_.dry[channel.id]) << channel.name;
-      EXPECT_FALSE(naive_.reader_can_end[channel.id]) << channel.name;
+      ASSERT_LT(channel.id.value, naive_.dry.size());
+      const bool dry = std::ranges::count(judged_.report.dry, flow) > 0;
+      EXPECT_EQ(dry, naive_.dry[channel.id.value]) << channel.name;
+      EXPECT_FALSE(naive_.reader_can_end[channel.id.value]) << channel.name;
       ++(dry ? tally_.dry : tally_.flowing);
     }
   }

@@ -111,19 +111,19 @@ struct WaitingTally {
 /// What is claimed is so.
 void compare(const Judged& judged, const verify::WaitingReport& report, const NaiveAnswers& naive,
              WaitingTally& tally) {
-  const std::vector<verify::SubsystemFlow>& subsystems = judged.structure.subsystems;
   for (const verify::CircuitGroup& group : judged.report.groups)
-    for (const std::uint32_t index : group.subsystems) {
-      const bool stuck = naive.stuck[subsystems[index].id];
+    for (const verify::SubsystemFlowId flow : group.subsystems) {
+      const verify::SubsystemFlow& subsystem = judged.structure[flow];
+      const bool stuck = naive.stuck[subsystem.id.value];
       tally.going_on += stuck ? 0 : 1;
-      if (!report.goes_on[index]) continue;
+      if (!report.goes_on[flow.value]) continue;
       ++tally.cleared;
       tally.beyond_circuits += group.applies() ? 0 : 1;
-      EXPECT_FALSE(stuck) << subsystems[index].name;
+      EXPECT_FALSE(stuck) << subsystem.name;
     }
   const std::vector<bool> flows = verify::flowing_channels(judged.structure, report.goes_on);
   for (std::uint32_t index = 0; index < flows.size(); ++index) {
-    const std::uint32_t id = judged.structure.channels[index].id;
+    const std::uint32_t id = judged.structure.channels[index].id.value;
     const bool dry = id >= naive.dry.size() || naive.dry[id];  // the naive answers end with what is read
     tally.flowing += dry ? 0 : 1;
     if (!flows[index]) continue;

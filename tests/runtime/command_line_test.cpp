@@ -143,50 +143,47 @@ TEST(CommandLine, LimitsOfRecordingsHaveUnits) {
 
 TEST(SimulationFile, GivesTargetsOptionsAndModels) {
   const std::string file = scratch_file("simulation.json");
-  std::ofstream(file) << R"({ "drivers": [
+  std::ofstream(file) << R"json({ "drivers": [
     { "path": "robot[0].laser.ranges", "kind": "scan", "targets": ["laser"],
       "options": { "reach": { "number": 4, "unit": "m" }, "groups": [1, 2], "noise": 0.5 } },
     { "path": "robot[0].base.speed", "kind": "actuator", "targets": ["a", "b"],
       "options": { "outside": "clamp" } } ],
     "models": [ { "instance": "robot[0]" } ],
-    "checks": [ { "name": "apart", "when": "never", "formula": "contact(a, b)"
-} ], "measures": {}
-})";
+    "checks": [ { "name": "apart", "when": "never", "formula": "contact(a, b)" } ], "measures": {} })json";
   std::vector<DriverRequest> drivers;
-WorldOptions world;
-std::string error;
-ASSERT_TRUE(read_simulation_file(file, drivers, world, error)) << error;
-ASSERT_EQ(drivers.size(), 2U);
-EXPECT_EQ(drivers[1].targets, (std::vector<std::string>{"a", "b"}));
-EXPECT_EQ(std::get<std::string>(drivers[1].options.at("outside").values.at(0).value), "clamp");
-const WorldOption& groups = drivers[0].options.at("groups");
-EXPECT_TRUE(groups.is_list);
-EXPECT_EQ(std::get<double>(groups.values.at(1).value), 2);
-EXPECT_EQ(drivers[0].options.at("reach").values.at(0).unit, "m");
-EXPECT_EQ(world.models, R"([{"instance":"robot[0]"}])");
-  EXPECT_EQ(world.checks, R"({"checks":[{"formula":"contact(a, b)","name":"apart","when":"never"
-  }]
-  })");
-  }
+  WorldOptions world;
+  std::string error;
+  ASSERT_TRUE(read_simulation_file(file, drivers, world, error)) << error;
+  ASSERT_EQ(drivers.size(), 2U);
+  EXPECT_EQ(drivers[1].targets, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(std::get<std::string>(drivers[1].options.at("outside").values.at(0).value), "clamp");
+  const WorldOption& groups = drivers[0].options.at("groups");
+  EXPECT_TRUE(groups.is_list);
+  EXPECT_EQ(std::get<double>(groups.values.at(1).value), 2);
+  EXPECT_EQ(drivers[0].options.at("reach").values.at(0).unit, "m");
+  EXPECT_EQ(world.models, R"([{"instance":"robot[0]"}])");
+  EXPECT_EQ(world.checks,
+            R"json({"checks":[{"formula":"contact(a, b)","name":"apart","when":"never"}]})json");
+}
 
-  TEST(SimulationFile, OfAnotherFormIsRefused) {
-    const std::string file = scratch_file("simulation.json");
-    for (const char* text :
-         {"", "{", "[]", "{}", R"({"drivers": [{}]})", R"({"drivers": [{"path": 1}]})",
-          R"({"drivers": [{"path": "a", "kind": "b", "targets": "c"}]})",
-          R"({"drivers": [{"path": "a", "kind": "b", "targets": [], "options": {"x": null}}]})"}) {
-      std::ofstream(file) << text;
-      std::vector<DriverRequest> drivers;
-      WorldOptions world;
-      std::string error;
-      EXPECT_FALSE(read_simulation_file(file, drivers, world, error)) << text;
-      EXPECT_NE(error.find("is no simulation file"), std::string::npos) << error;
-    }
+TEST(SimulationFile, OfAnotherFormIsRefused) {
+  const std::string file = scratch_file("simulation.json");
+  for (const char* text :
+       {"", "{", "[]", "{}", R"({"drivers": [{}]})", R"({"drivers": [{"path": 1}]})",
+        R"({"drivers": [{"path": "a", "kind": "b", "targets": "c"}]})",
+        R"({"drivers": [{"path": "a", "kind": "b", "targets": [], "options": {"x": null}}]})"}) {
+    std::ofstream(file) << text;
     std::vector<DriverRequest> drivers;
     WorldOptions world;
     std::string error;
-    EXPECT_FALSE(read_simulation_file("/nowhere.json", drivers, world, error));
+    EXPECT_FALSE(read_simulation_file(file, drivers, world, error)) << text;
+    EXPECT_NE(error.find("is no simulation file"), std::string::npos) << error;
   }
+  std::vector<DriverRequest> drivers;
+  WorldOptions world;
+  std::string error;
+  EXPECT_FALSE(read_simulation_file("/nowhere.json", drivers, world, error));
+}
 
-  }  // namespace
-  }  // namespace tessera::testing
+}  // namespace
+}  // namespace tessera::testing

@@ -21,6 +21,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
+// g++ inlines one of the two without the other, and then warns of the pair.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 void* operator new(std::size_t size) { return counted(size, 0); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));

@@ -93,8 +93,8 @@ struct Seen final : PoseSink {
 
 struct Scenes : ::testing::Test {
   std::unique_ptr<World> world = open({.world = file_with("shapes.xml", shapes_world)});
-  std::vector<DriverRequest> devices{{"robot[0].arm.angle", "joint_position", "arm", {}},
-                                     {"lone.eye.light", "reflectance", "eye", {}}};
+  std::vector<DriverRequest> devices{{"robot[0].arm.angle", "joint_position", {"arm"}, {}},
+                                     {"lone.eye.light", "reflectance", {"eye"}, {}}};
 };
 
 TEST_F(Scenes, NameTheBodiesThatMoveAndTheirAgents) {

@@ -111,6 +111,24 @@ void print_subsystems(const json& subsystems) {
     fmt::print("  ... and {} more\n", subsystems.size() - shown_subsystems);
 }
 
+void print_checks(const json& checks) {
+  for (const json& check : checks) {
+    fmt::print("  check {}: {}", check.value("name", ""), check.value("verdict", ""));
+    if (check.contains("time_s")) fmt::print(" at {:.3f} s", check.value("time_s", 0.0));
+    if (const std::string facts = check.value("detail", ""); !facts.empty()) fmt::print(": {}", facts);
+    fmt::print("\n");
+  }
+}
+
+void print_measures(const json& measures) {
+  for (const auto& [name, measure] : measures.items()) {
+    if (!measure.is_object()) continue;  // nothing was measured
+    fmt::print("  {}: {:.4g} (at {:.3f} s) to {:.4g} (at {:.3f} s), mean {:.4g}\n", name,
+               measure.value("least", 0.0), measure.value("least_at_s", 0.0), measure.value("greatest", 0.0),
+               measure.value("greatest_at_s", 0.0), measure.value("mean", 0.0));
+  }
+}
+
 }  // namespace
 
 void print(const RunOutcome& outcome) {
@@ -121,6 +139,8 @@ void print(const RunOutcome& outcome) {
              summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
              summary.value("ended", ""));
   print_subsystems(summary.value("subsystems", json::array()));
+  print_checks(summary.value("checks", json::array()));
+  print_measures(summary.value("measures", json::object()));
   if (outcome.drive && !outcome.drive->line.points.empty()) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",

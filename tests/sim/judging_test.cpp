@@ -125,6 +125,7 @@ TEST(Judging, TheOriginOfAPlacedModelIsWhereItsBodyIs) {
   EXPECT_NEAR(gap_of_cart(R"(<body name="cart/base" pos="2 0 0"><joint type="slide"/>)" + geom + "</body>"),
               3, 1e-6);
   EXPECT_NEAR(gap_of_cart(R"(<body name="cart/x"><joint type="slide" axis="1 0 0"/>
+                             <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
                              <body name="cart/base" pos="3 0 0"><joint type="slide" axis="0 1 0"/>)" +
                           geom + "</body></body>"),
               4, 1e-6);

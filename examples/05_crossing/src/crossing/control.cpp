@@ -1,6 +1,6 @@
 #include "crossing/control.hpp"
 
-namespace junction::crossing::control {
+namespace crossroads::crossing::control {
 namespace {
 
 /// Notes who gets the crossing, and says now and then how often it was lent.
@@ -28,4 +28,4 @@ void lend_1(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   out.grant_1 = in.request_1;
 }
 
-}  // namespace junction::crossing::control
+}  // namespace crossroads::crossing::control

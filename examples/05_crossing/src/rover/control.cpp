@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace junction::rover::control {
+namespace crossroads::rover::control {
 namespace {
 
 /// Whether the rover knows where it is.
@@ -76,4 +76,4 @@ void turn(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   out.motion.turn = memory.to_turn > 0.1 ? std::clamp(3 * memory.to_turn, 0.3, 2.5) : 0;
 }
 
-}  // namespace junction::rover::control
+}  // namespace crossroads::rover::control

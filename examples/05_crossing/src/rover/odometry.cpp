@@ -1,6 +1,6 @@
 #include "rover/odometry.hpp"
 
-namespace junction::rover::odometry {
+namespace crossroads::rover::odometry {
 
 /// Behaviour measure of rover.odometry: what the joints said last, and whether that is still true.
 /// Reads in.joints.
@@ -10,4 +10,4 @@ void measure(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   out.place = {in.joints.x, in.joints.y, in.joints.heading, known};
 }
 
-}  // namespace junction::rover::odometry
+}  // namespace crossroads::rover::odometry

@@ -39,7 +39,7 @@ bool is_recording(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string beginning(recording_magic.size(), '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return beginning == recording_magic;
+  return is_recording_magic(beginning);
 }
 
 Nets nets_of(const Specification& specification) {

@@ -1,6 +1,8 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +13,8 @@
 #include <memory>
 #include <regex>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
@@ -27,29 +31,44 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The example is the template, so tests run what a new project starts from.
-constexpr const char* template_name = "line_follower";
+/// A robot to begin with. An example is the template, so tests run what a new project starts from.
+struct Robot {
+  const char* name;     ///< as --robot has it
+  const char* example;  ///< its folder
+  const char* system;   ///< the name of its system, which becomes that of the project
+  const char* what;     ///< in words
+  const char* hint;     ///< what to change first
+};
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
+constexpr std::array robots{
+    Robot{"line_follower", "01_line_follower", "line_follower", "a robot that follows a line",
+          "src/control.cpp"},
+    Robot{"arm", "04_arm", "cell", "an arm and three carts with drivers of their own", "src/arm/control.cpp"},
+    Robot{"fleet", "05_crossing", "crossroads", "two rovers that share a crossing", "src/rover/control.cpp"},
+};
+
+/// Whole words only: the name of a system may be a part of other words.
+std::string renamed(const std::string& text, const std::string& from, const std::string& to) {
+  return std::regex_replace(text, std::regex("\\b" + from + "\\b"), to);
 }
 
-void copy_renamed(const fs::path& from, const fs::path& to, const std::string& name) {
+void copy_renamed(const fs::path& from, const fs::path& to, const std::string& old_name,
+                  const std::string& name) {
   std::ifstream in(from, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw std::runtime_error("cannot read " + from.string());
-  replace_all(text, template_name, name);
   fs::create_directories(to.parent_path());
   std::ofstream out(to, std::ios::binary);
-  out << text;
+  out << renamed(text, old_name, name);
   out.close();
   if (!out) throw std::runtime_error("cannot write " + to.string());
 }
 
-void copy_tree(const fs::path& from, const fs::path& to, const std::string& name) {
+void copy_tree(const fs::path& from, const fs::path& to, const std::string& old_name,
+               const std::string& name) {
   for (const auto& entry : fs::recursive_directory_iterator(from))
-    if (entry.is_regular_file()) copy_renamed(entry.path(), to / fs::relative(entry.path(), from), name);
+    if (entry.is_regular_file())
+      copy_renamed(entry.path(), to / fs::relative(entry.path(), from), old_name, name);
 }
 
 /// A folder beside that of the project, where the project is made. Nobody sees an incomplete project. A
@@ -96,7 +115,25 @@ bool may_name_a_system(const std::string& name) {
   return false;
 }
 
-int new_command(const std::string& given) {
+/// Specification, code, tests and models. The rest of the example, such as its README, is not for a project.
+void copy_example(const fs::path& example, const fs::path& made, const std::string& system,
+                  const std::string& name) {
+  for (const auto& entry : fs::directory_iterator(example)) {
+    const std::string part = entry.path().filename();
+    if (part == "src" || part == "test")
+      copy_tree(entry.path(), made / part, system, name);
+    else if (part == file_names::specification || entry.path().extension() == ".xml")
+      copy_renamed(entry.path(), made / part, system, name);
+  }
+}
+
+/// The project's own copies of the world and the floor that come with Tessera.
+void copy_shared_world(const fs::path& share, const fs::path& made) {
+  fs::copy_file(share / "worlds/line_world.xml", made / "line_world.xml");
+  fs::copy_file(share / "tracks/oval.png", made / "oval.png");
+}
+
+int new_command(const std::string& given, const std::string& wanted) {
   const fs::path folder(given);
   const std::string name = folder.filename().string();
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_]*")))
@@ -107,25 +144,26 @@ int new_command(const std::string& given) {
     return complain(fmt::format("{} exists already", folder.string()));
 
   const Installation installation = Installation::find();
-  const fs::path example = installation.share / "examples/01_line_follower";
+  const Robot& robot = *std::ranges::find(robots, wanted, &Robot::name);
   const Workshop workshop(folder);
   const fs::path made = workshop.folder();
-  copy_renamed(example / file_names::specification, made / file_names::specification, name);
-  copy_tree(example / "src", made / "src", name);
-  copy_tree(example / "test", made / "test", name);
-  copy_tree(installation.share / "project", made, name);
+  copy_example(installation.share / "examples" / robot.example, made, robot.system, name);
+  copy_tree(installation.share / "project", made, robots.front().system, name);
   fs::rename(made / "gitignore", made / ".gitignore");
-  fs::copy_file(installation.share / "worlds/line_world.xml", made / "line_world.xml");
-  fs::copy_file(installation.share / "tracks/oval.png", made / "oval.png");
+  if (&robot == &robots.front()) copy_shared_world(installation.share, made);
   if (!workshop.move_to(folder)) return complain(fmt::format("{} exists already", folder.string()));
   fmt::print(
-      "{0} is ready: a robot that follows a line.\n\n"
+      "{0} is ready: {1}.\n\n"
       "  cd {0}\n"
       "  tessera simulate --for 60s --report report   build it, let it drive, see report/index.html\n"
       "  tessera show --svg net.svg                    its Petri net\n"
-      "  tessera test                                  the tests of its transition functions\n\n"
-      "Then change src/control.cpp and simulate again.\n",
-      folder.string());
+      "{2}"
+      "\nThen change {3} and simulate again.\n",
+      folder.string(), robot.what,
+      fs::exists(folder / "test")
+          ? "  tessera test                                  the tests of its transition functions\n"
+          : "",
+      robot.hint);
   return ok;
 }
 
@@ -134,9 +172,22 @@ int new_command(const std::string& given) {
 void add_new(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("new", "Make a project with a simulated robot that runs at once");
   auto name = std::make_shared<std::string>();
+  auto robot = std::make_shared<std::string>(robots.front().name);
+  std::vector<std::string> names;
+  for (const Robot& one : robots) names.emplace_back(one.name);
   command.option("name", *name, "Folder to make; its last part names the system").required();
-  command.footer("Example: tessera new rover && cd rover && tessera simulate --for 60s");
-  command.callback([name, &exit_code] { exit_code = new_command(*name); });
+  command
+      .option(
+          "--robot", *robot,
+          "What to begin with: a robot that follows a line, an arm with drivers, or two rovers that share "
+          "a crossing")
+      .one_of(names)
+      .shows_default();
+  command.footer(
+      "Examples:\n"
+      "  tessera new rover && cd rover && tessera simulate --for 60s\n"
+      "  tessera new depot --robot fleet");
+  command.callback([name, robot, &exit_code] { exit_code = new_command(*name, *robot); });
 }
 
 }  // namespace tessera::cli

@@ -167,7 +167,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
           {"verification_hash", recording.verification_hash},
           {"clock", recording.clock},
           {"seed", recording.seed},
-          {"events", recording.entries.size()},
+          {"events", std::ranges::count_if(recording.entries, replay::is_listed)},
           {"truncated", recording.truncated},
           {"lost", recording.lost},
           {"subsystems", std::move(subsystems)}};

@@ -100,7 +100,8 @@ std::vector<WorldFailure> Judging::take_failures() {
   std::vector<WorldFailure> failures;
   if (!judge_) return failures;
   for (const CheckResult& one : judge_->take_failures())
-    failures.push_back({one.name, one.text + (one.detail.empty() ? "" : "; " + one.detail), one.time_s});
+    failures.push_back(
+        {one.name, one.detail.empty() ? one.text : one.detail + " (" + one.text + ")", one.time_s});
   return failures;
 }
 

@@ -1,5 +1,7 @@
 #include "sim/judging/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -26,6 +28,23 @@ std::optional<std::int64_t> index_in(std::string_view element, std::string_view 
   return error == std::errc() && whole ? std::optional(index) : std::nullopt;
 }
 
+/// Whether the body moves against its parent.
+bool moves(const mjModel& model, int body) {
+  return model.body_dofnum[body] > 0 || model.body_mocapid[body] >= 0;
+}
+
+/// The bodies of a planar base may carry each other: one slides in x, one in y, one turns. The last of them.
+int carried_by(const mjModel& model, int body) {
+  while (model.body_geomnum[body] == 0) {
+    std::vector<int> children;
+    for (int child = body + 1; child < model.nbody; ++child)
+      if (model.body_parentid[child] == body) children.push_back(child);
+    if (children.size() != 1 || !moves(model, children.front())) break;
+    body = children.front();
+  }
+  return body;
+}
+
 }  // namespace
 
 std::vector<std::int64_t> Scene::indices_of(std::string_view name) const {
@@ -47,13 +66,37 @@ std::vector<int> Scene::bodies_of_model(const std::string& name) const {
   return bodies;
 }
 
-std::optional<Scene::Element> Scene::element_named(const std::string& name) const {
-  // A placed model may stand in a body of its own name, which never moves: the first body in it counts.
-  for (const int body : bodies_of_model(name))
-    if (name_of(physics_.model(), mjOBJ_BODY, body) != name) return Element{mjOBJ_BODY, body};
+/// The body at the origin of a placed model: the one that drives about, or else its frame.
+Result<int> Scene::root_of_model(const std::string& name, const std::vector<int>& bodies) const {
+  const mjModel& model = physics_.model();
+  const auto is_frame = [&](int body) { return name_of(model, mjOBJ_BODY, body) == name; };
+  if (is_frame(bodies.front()) && moves(model, bodies.front())) return bodies.front();
+  std::vector<int> moving;
+  for (const int body : bodies) {
+    const int parent = model.body_parentid[body];
+    const bool on_top = is_frame(parent) || std::ranges::find(bodies, parent) == bodies.end();
+    if (on_top && moves(model, body)) moving.push_back(body);
+  }
+  if (moving.size() > 1)
+    return Problem{fmt::format("'{}' has several bodies that move on their own; name one, such as '{}'", name,
+                               name_of(model, mjOBJ_BODY, moving.front()))};
+  return moving.empty() ? bodies.front() : carried_by(model, moving.front());
+}
+
+Result<std::optional<Scene::Element>> Scene::point_named(const std::string& name) const {
+  const mjModel& model = physics_.model();
+  if (const std::vector<int> bodies = bodies_of_model(plain(name)); !bodies.empty()) {
+    const bool placed = std::ranges::any_of(
+        bodies, [&](int body) { return name_of(model, mjOBJ_BODY, body) != plain(name); });
+    if (placed) {
+      const Result<int> root = root_of_model(plain(name), bodies);
+      if (!root) return Problem{root.problem()};
+      return std::optional(Element{mjOBJ_BODY, *root});
+    }
+  }
   for (const mjtObj type : {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE})
-    if (const auto id = find_element(physics_.model(), type, "", plain(name))) return Element{type, *id};
-  return std::nullopt;
+    if (const auto id = find_element(model, type, "", plain(name))) return std::optional(Element{type, *id});
+  return std::optional<Element>();
 }
 
 Problem Scene::unknown(const char* what, const std::string& name, std::initializer_list<mjtObj> types) const {
@@ -67,9 +110,10 @@ Problem Scene::unknown(const char* what, const std::string& name, std::initializ
 Result<std::size_t> Scene::find(As as, const std::string& name) {
   if (as == As::solid) return find_solid(name);
   if (as == As::point) {
-    const auto element = element_named(name);
-    if (!element) return unknown("model, body, geom or site", name, {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE});
-    elements_.push_back(*element);
+    const Result<std::optional<Element>> element = point_named(name);
+    if (!element) return Problem{element.problem()};
+    if (!*element) return unknown("model, body, geom or site", name, {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE});
+    elements_.push_back(**element);
   } else {
     const mjtObj type = as == As::zone ? mjOBJ_SITE : mjOBJ_SENSOR;
     const auto id = find_element(physics_.model(), type, "", plain(name));
@@ -97,7 +141,8 @@ Result<std::size_t> Scene::find_solid(const std::string& name) {
   if (const auto known = solids_.find(name); known != solids_.end()) return known->second;
   const std::vector<bool> geoms = geoms_of(name);
   if (std::ranges::find(geoms, true) == geoms.end()) {
-    if (element_named(name)) return Problem{"'" + name + "' has no shape that could touch anything"};
+    if (const auto element = point_named(name); !element || *element)
+      return Problem{"'" + name + "' has no shape that could touch anything"};
     return unknown("model, body or geom", name, {mjOBJ_BODY, mjOBJ_GEOM});
   }
   const std::size_t solid = solids_.size();

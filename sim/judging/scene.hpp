@@ -43,7 +43,9 @@ class Scene final : public checks::Scene {
     mjtObj type;
     int id;
   };
-  [[nodiscard]] std::optional<Element> element_named(const std::string& name) const;
+  /// nullopt: there is no such model, body, geom or site.
+  [[nodiscard]] Result<std::optional<Element>> point_named(const std::string& name) const;
+  [[nodiscard]] Result<int> root_of_model(const std::string& name, const std::vector<int>& bodies) const;
   [[nodiscard]] std::vector<int> bodies_of_model(const std::string& name) const;
   [[nodiscard]] Result<std::size_t> find_solid(const std::string& name);
   [[nodiscard]] std::vector<bool> geoms_of(const std::string& name) const;

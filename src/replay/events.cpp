@@ -104,7 +104,7 @@ std::vector<Row> rows_of(const Recording& recording, const Selection& selection,
   ValueTrack values(recording);
   std::vector<Row> rows;
   for (const Entry& entry : recording.entries) {
-    if (entry.event.kind() == Event::Kind::poses) continue;  // 25 a second, which say nothing as text
+    if (!is_listed(entry)) continue;
     const auto change = values.follow(entry);
     if (change ? !selection.values || change->buffer.path.find(*selection.values) == std::string::npos
                : !selection.events)

@@ -20,6 +20,11 @@ struct Selection {
   std::optional<std::string> values;
 };
 
+/// Poses come 25 times a second and say nothing as text, so they are not listed as events.
+[[nodiscard]] inline bool is_listed(const Recording::Entry& entry) {
+  return entry.event.kind() != Event::Kind::poses;
+}
+
 /// A line per event, in the order of their times.
 void print_events(const Recording& recording, const Selection& selection, std::ostream& to);
 

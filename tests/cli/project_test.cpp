@@ -25,6 +25,38 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
       << none.text;
 }
 
+TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
+  for (const auto& [robot, part] : {std::pair{"line_follower", "line_world.xml"},
+                                    std::pair{"arm", "src/drivers.hpp"}, std::pair{"fleet", "rover.xml"}}) {
+    const std::string name = std::string("my_") + robot;
+    const project::Exit made = tessera("new " + name + " --robot " + robot);
+    ASSERT_EQ(made.code, 0) << made.text;
+    EXPECT_TRUE(fs::exists(folder_ / name / part)) << part;
+    EXPECT_TRUE(fs::exists(folder_ / name / ".gitignore"));
+    EXPECT_NE(content_of(folder_ / name / "spec.yaml").find("\nsystem: " + name + "\n"), std::string::npos);
+    EXPECT_EQ(content_of(folder_ / name / "README.md").find("# " + name), 0U);
+    const project::Exit judged = tessera("verify " + name);
+    EXPECT_EQ(judged.code, 0) << judged.text;
+  }
+  EXPECT_EQ(tessera("new other --robot submarine").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(Project, TwoRoversShareACrossing) {
+  ASSERT_EQ(tessera("new depot --robot fleet").code, 0);
+  const nlohmann::json run = json("simulate depot --for 20s");
+  ASSERT_EQ(run.at("checks").size(), 5U);
+  for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
+  EXPECT_GT(run.at("measures").at("nearest").at("least"), 0.3);
+  // One rover has another stop line: in the middle of the crossing.
+  const project::Exit hit = tessera("simulate depot --for 5s --set 'robot[1].control.stop=0.05'");
+  EXPECT_EQ(hit.code, 1);
+  EXPECT_NE(hit.text.find("check nobody touches: failed at 1."), std::string::npos) << hit.text;
+  EXPECT_NE(hit.text.find("robot[0], robot[1] touch"), std::string::npos) << hit.text;
+  const project::Exit tests = tessera("test depot");
+  EXPECT_EQ(tests.code, 0) << tests.text;
+}
+
 TEST_F(Project, NewRefusesAFolderThatExistsAndANameThatIsNone) {
   ASSERT_EQ(tessera("new rover").code, 0);
   EXPECT_EQ(tessera("new rover").code, 1);

@@ -125,6 +125,53 @@ TEST(Judging, APlacedModelIsWhereItsFirstBodyIs) {
 }
 
 /// Reading never disturbs: a judged run has the same bytes as one that is not.
+/// A frame that stays, as a placed model has, and the parts of the model on it.
+std::string cart(const std::string& parts) {
+  return R"(<mujoco model="cart"><option gravity="0 0 0"/>
+  <worldbody>
+    <body name="cart" pos="1 0 0"><geom type="sphere" size="0.1"/>)" +
+         parts + R"(</body>
+    <body name="post"><geom type="sphere" size="0.1"/></body>
+  </worldbody>
+</mujoco>)";
+}
+
+const std::string cart_gap = json{{"measures", {{"gap", "distance(cart, post)"}}}}.dump();
+
+/// The measured distance of the model `cart` from the post.
+double gap_of_cart(const std::string& parts) {
+  const auto world = open({.world = file_with("cart.xml", cart(parts)), .checks = cart_gap});
+  world->advance_to(Time(std::chrono::seconds(1)));
+  return json::parse(world->results())["measures"]["gap"]["last"].get<double>();
+}
+
+TEST(Judging, TheOriginOfAPlacedModelIsWhereItsBodyIs) {
+  const std::string geom = R"(<geom type="sphere" size="0.1"/>)";
+  EXPECT_NEAR(gap_of_cart(R"(<body name="cart/base" pos="2 0 0"><joint type="slide"/>)" + geom + "</body>"),
+              3, 1e-6);
+  EXPECT_NEAR(gap_of_cart(R"(<body name="cart/x"><joint type="slide" axis="1 0 0"/>
+                             <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+                             <body name="cart/base" pos="3 0 0"><joint type="slide" axis="0 1 0"/>)" +
+                          geom + "</body></body>"),
+              4, 1e-6);
+  EXPECT_NEAR(gap_of_cart(R"(<body name="cart/foot" pos="2 0 0"><body name="cart/arm" pos="2 0 0"><joint/>)" +
+                          geom + "</body></body>"),
+              1, 1e-6);
+}
+
+TEST(Judging, AModelOfSeveralMovingBodiesHasNoOrigin) {
+  const std::string rest = R"(<joint type="slide"/><geom type="sphere" size="0.1"/></body>)";
+  const std::string file = file_with("cart.xml", cart(R"(<body name="cart/left" pos="1 0 0">)" + rest +
+                                                      R"(<body name="cart/right" pos="2 0 0">)" + rest));
+  try {
+    static_cast<void>(open({.world = file, .checks = cart_gap}));
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'cart' has several bodies that move on their own"));
+    EXPECT_THAT(error.what(), HasSubstr("such as 'cart/left'"));
+  }
+}
+
 TEST(Judging, DoesNotChangeTheRun) {
   const auto last = [](const json& checks, const json& measures) {
     auto world = open({.world = file_with("rail.xml", rail),

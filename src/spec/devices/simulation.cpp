@@ -64,7 +64,8 @@ Track read_track(const Entry& entry, Diagnostics& out) {
 void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
                                     [](const Driver& driver) { return driver.kind != "cpp"; });
-  if (of_world || simulation.track || !simulation.checks.empty() || !simulation.measures.empty() || !simulation.models.empty() || simulation.drivers.empty())
+  if (of_world || simulation.track || !simulation.checks.empty() || !simulation.measures.empty() ||
+      !simulation.models.empty() || simulation.drivers.empty())
     section.require("world", "for example world: line_world.xml");
 }
 
@@ -73,7 +74,8 @@ void require_world(const Section& section, const Simulation& simulation) {
 std::optional<Simulation> read_simulation(const Entry* entry, const Model& model, const AgentGroups& groups,
                                           Diagnostics& out) {
   if (entry == nullptr) return std::nullopt;
-  const Section section(*entry->value, entry->span, "the simulation", {"world", "track", "models", "drivers", "checks", "measures"}, out);
+  const Section section(*entry->value, entry->span, "the simulation",
+                        {"world", "track", "models", "drivers", "checks", "measures"}, out);
   Simulation simulation;
   simulation.span = entry->span;
   simulation.world = read_file_name(section.find("world"), "the world", simulation.world_span, out);

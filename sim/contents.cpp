@@ -86,7 +86,11 @@ std::string contents_as_json(const mjModel& model) {
     entry["kind"] = "scan";
     entry["type"] = "float32[N]";
   });
-  json["cameras"] = list(model, mjOBJ_CAMERA, [](int, Json&) {});
+  json["cameras"] = list(model, mjOBJ_CAMERA, [](int, Json& entry) {
+    entry["kind"] = "camera";
+    entry["type"] = "uint8[9216]";
+    entry["picture"] = {64, 48};
+  });
   json["bodies"] = list(model, mjOBJ_BODY, [&](int id, Json& entry) { describe_body(model, id, entry); });
   json["geoms"] = list(model, mjOBJ_GEOM, [&](int, Json& entry) {
     entry["kind"] = "colour";

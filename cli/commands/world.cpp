@@ -42,6 +42,9 @@ std::string line_of(const Json& entry) {
   if (entry.contains("joint")) more += "  " + text_of(entry, "joint");
   if (entry.contains("range"))
     more += fmt::format("  {} .. {}", entry["range"][0].get<double>(), entry["range"][1].get<double>());
+  if (entry.contains("picture"))
+    more += fmt::format("  width: {}, height: {}", entry["picture"][0].get<int>(),
+                        entry["picture"][1].get<int>());
   if (entry.contains("velocity_type")) more += "  joint_velocity " + text_of(entry, "velocity_type");
   if (const std::string by = text_of(entry, "moved_by"); !by.empty()) more += "  " + by + " float64[7]";
   return fmt::format("  {:<24} {:<15} {:<11}{}", text_of(entry, "name"), text_of(entry, "kind"),

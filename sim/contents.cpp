@@ -58,6 +58,7 @@ void describe_actuator(const mjModel& model, int id, Json& entry) {
 void describe_body(const mjModel& model, int id, Json& entry) {
   const int joint = model.body_jntadr[id];
   entry["kind"] = "pose";
+  entry["label"] = id;
   entry["type"] = "float64[7]";
   entry["moved_by"] = model.body_mocapid[id] >= 0                         ? "mocap"
                       : joint >= 0 && model.jnt_type[joint] == mjJNT_FREE ? "place"

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 
 #include "sim/devices/reading.hpp"
 #include "sim/rendering/renderer.hpp"
@@ -184,6 +186,10 @@ std::unique_ptr<RealReceptor> labels(const DeviceContext& context, const DriverR
   Options options(request);
   const PictureSize size = picture_size(request, options, label_pixel);
   options.refuse_others();
+  context.simulation->use([](const Physics& physics) {
+    if (physics.model().nbody > std::numeric_limits<std::uint16_t>::max())
+      throw DeviceError("the world has more bodies than uint16 has numbers", "");
+  });
   return std::make_unique<LabelCamera>(context, request, size);
 }
 

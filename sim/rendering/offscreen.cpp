@@ -34,7 +34,6 @@ struct OffscreenContext::Egl {
   Handle library = nullptr, display = nullptr, context = nullptr;
   void* (*find)(const char*) = nullptr;
   Truth (*initialise)(Handle, Whole*, Whole*) = nullptr;
-  Truth (*terminate)(Handle) = nullptr;
   Truth (*choose_config)(Handle, const Whole*, Handle*, Whole, Whole*) = nullptr;
   Truth (*bind_api)(unsigned) = nullptr;
   Handle (*create_context)(Handle, Handle, Handle, const Whole*) = nullptr;
@@ -49,10 +48,10 @@ struct OffscreenContext::Egl {
   Egl() = default;
   Egl(const Egl&) = delete;
   Egl& operator=(const Egl&) = delete;
-  /// The library itself stays: Mesa has threads and handlers of the end of the process.
+  /// The display is that of all who use EGL in this process, so it is not terminated. The library stays
+  /// because Mesa has threads of its own.
   ~Egl() {
     if (context != nullptr) destroy_context(display, context);
-    if (display != nullptr) terminate(display);
   }
 
   template <class Function>
@@ -62,10 +61,9 @@ struct OffscreenContext::Egl {
   }
   bool load_all() {
     const bool all = load(find, "eglGetProcAddress") && load(initialise, "eglInitialize") &&
-                     load(terminate, "eglTerminate") && load(choose_config, "eglChooseConfig") &&
-                     load(bind_api, "eglBindAPI") && load(create_context, "eglCreateContext") &&
-                     load(destroy_context, "eglDestroyContext") && load(make_current, "eglMakeCurrent") &&
-                     load(error, "eglGetError");
+                     load(choose_config, "eglChooseConfig") && load(bind_api, "eglBindAPI") &&
+                     load(create_context, "eglCreateContext") && load(destroy_context, "eglDestroyContext") &&
+                     load(make_current, "eglMakeCurrent") && load(error, "eglGetError");
     if (!all) return false;
     const auto extension = [this](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(find(name));

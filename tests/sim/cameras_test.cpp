@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "sim/rendering/offscreen.hpp"
@@ -150,6 +152,27 @@ TEST_F(Cameras, SeeTheColourOfALamp) {
   world->advance_to(Time(10ms));
   const auto rgb = look<Colours>(*world, "camera");
   EXPECT_LT(rgb[3 * middle], rgb[3 * middle + 1] / 2);
+}
+
+TEST_F(Cameras, SeeTendonsAndSkipHiddenGroups) {
+  const auto world = open_text("tendon", R"(<mujoco><worldbody>
+      <camera name="front" pos="0 0 0" xyaxes="1 0 0 0 0 1"/>
+      <geom type="box" size="2 0.1 2" pos="0 1 0" group="3"/>
+      <site name="from" pos="-1 2 0"/><site name="to" pos="1 2 0"/>
+    </worldbody><tendon><spatial width="0.2"><site site="from"/><site site="to"/></spatial></tendon></mujoco>)");
+  EXPECT_NEAR(look<Depths>(*world, "depth")[middle], 1.8, 0.02);
+}
+
+TEST_F(Cameras, SeveralAreReadFromSeveralThreads) {
+  const auto world = open_text("threads", studio), other = open_text("other", studio);
+  const auto front = look<Depths>(*world, "depth"), back = look<Depths>(*world, "depth", "back");
+  const auto reader = [](World& seen, const std::string& name, const std::vector<float>& expected) {
+    return std::jthread([&seen, &expected, name] {
+      for (int i = 0; i < 20; ++i) EXPECT_EQ(look<Depths>(seen, "depth", name), expected);
+    });
+  };
+  const auto one = reader(*world, "front", front), two = reader(*world, "back", back),
+             three = reader(*other, "front", front);
 }
 
 TEST_F(Cameras, ManyWorldsShareOneContext) {

@@ -94,8 +94,7 @@ TEST_F(Cameras, LabelsAreTheNumbersOfTheBodies) {
   EXPECT_EQ(bodies[Labels::size() - 1], 0) << "the floor belongs to the world";
   std::vector<std::uint16_t> seen(bodies);
   std::ranges::sort(seen);
-  const auto rest = std::ranges::unique(seen);
-  seen.erase(rest.begin(), rest.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   EXPECT_EQ(seen, (std::vector<std::uint16_t>{0, 1, 2, 3}));
 }
 

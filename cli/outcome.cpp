@@ -9,6 +9,7 @@
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/terminal.hpp"
+#include "tessera/judgement.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera::cli {
@@ -121,6 +122,7 @@ void print(const RunOutcome& outcome) {
              summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
              summary.value("ended", ""));
   print_subsystems(summary.value("subsystems", json::array()));
+  fmt::print("{}", judgement_lines(summary.dump()));
   if (outcome.drive && !outcome.drive->line.points.empty()) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",

@@ -48,10 +48,11 @@ std::vector<int> Scene::bodies_of_model(const std::string& name) const {
 }
 
 std::optional<Scene::Element> Scene::element_named(const std::string& name) const {
+  // A placed model may stand in a body of its own name, which never moves: the first body in it counts.
+  for (const int body : bodies_of_model(name))
+    if (name_of(physics_.model(), mjOBJ_BODY, body) != name) return Element{mjOBJ_BODY, body};
   for (const mjtObj type : {mjOBJ_BODY, mjOBJ_GEOM, mjOBJ_SITE})
     if (const auto id = find_element(physics_.model(), type, "", plain(name))) return Element{type, *id};
-  if (const std::vector<int> bodies = bodies_of_model(name); !bodies.empty())
-    return Element{mjOBJ_BODY, bodies.front()};
   return std::nullopt;
 }
 

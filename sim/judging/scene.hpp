@@ -15,8 +15,8 @@ namespace tessera::sim {
 
 /// A world as its checks and measures see it.
 ///
-/// A model that is placed as `robot[3]` is all of its bodies for contacts; its origin is that of the first of
-/// them. A body is all that hangs on it. Without placed models, the names of the world file are used alone.
+/// A model that is placed as `robot[3]` is all of its bodies for contacts; its origin is that of the first
+/// body of its file. A body is all that hangs on it. Without placed models, the names of the world file are used alone.
 ///
 /// Contacts are noted after every step, so none between two observations is missed.
 class Scene final : public checks::Scene {

@@ -91,25 +91,54 @@ TEST(Judging, WhatTheWorldLacksIsNamed) {
     }
     return "";
   };
-  EXPECT_THAT(problem("contact(bal[0], post)"), HasSubstr("check 'it': the world has no model, body or geom 'bal[0]'"));
+  EXPECT_THAT(problem("contact(bal[0], post)"),
+              HasSubstr("check 'it': the world has no model, body or geom 'bal[0]'"));
   EXPECT_THAT(problem("inside(ball[0], gaol)"), HasSubstr("did you mean 'goal'?"));
   EXPECT_THAT(problem("sensor(where) > 1"), HasSubstr("gives 3 numbers"));
   EXPECT_THAT(problem("contact(goal)"), HasSubstr("no shape"));
   EXPECT_EQ(problem("contact(post)"), "");
 }
 
+/// A model that is placed stands in a body that never moves. What is meant is the robot in it.
+TEST(Judging, APlacedModelIsWhereItsFirstBodyIs) {
+  const std::string cart = file_with("cart.xml", R"(<mujoco><worldbody>
+    <body name="cart" pos="0 0 0.1"><joint name="x" type="slide" axis="1 0 0"/>
+      <geom name="box" type="box" size="0.1 0.1 0.1"/></body></worldbody>
+    <actuator><velocity name="drive" joint="x" kv="200"/></actuator></mujoco>)");
+  const std::string hall = file_with("hall.xml", R"(<mujoco><option gravity="0 0 0"/><worldbody>
+    <site name="end" size="0.3 0.3 0.3" type="box" pos="1 0 0"/></worldbody></mujoco>)");
+  const json models = json::array({{{"instance", "cart[0]"}, {"model", cart}, {"at_m", {0, 0, 0}}},
+                                   {{"instance", "cart[1]"}, {"model", cart}, {"at_m", {0, 2, 0}}}});
+  const json judged{
+      {"checks",
+       {check("eventually", "inside(cart[0], end)"),
+        {{"name", "apart"}, {"when", "always"}, {"formula", "distance(cart[i], cart[i+1]) < 2.1"}}}},
+      {"measures", {{"pace", "speed(cart[0])"}}}};
+  auto world = open({.world = hall, .checks = judged.dump(), .models = models.dump()});
+  auto drive = effector<double>(*world, {.path = "cart[0].a.b", .kind = "actuator", .targets = {"drive"}});
+  EXPECT_TRUE(write_as(*drive, 1.0));
+  world->advance_to(Time(std::chrono::milliseconds(1500)));
+  const json results = json::parse(world->results());
+  EXPECT_EQ(results["checks"][0]["verdict"], "held");
+  EXPECT_EQ(results["checks"][1]["verdict"], "failed");
+  EXPECT_NEAR(results["measures"]["pace"]["greatest"].get<double>(), 1, 0.05);
+}
+
 /// Reading never disturbs: a judged run has the same bytes as one that is not.
 TEST(Judging, DoesNotChangeTheRun) {
   const auto last = [](const json& checks, const json& measures) {
-    auto world = open({.world = file_with("rail.xml", rail), .checks = json{{"checks", checks}, {"measures", measures}}.dump()});
+    auto world = open({.world = file_with("rail.xml", rail),
+                       .checks = json{{"checks", checks}, {"measures", measures}}.dump()});
     auto push = effector<double>(*world, {.path = "a.b.c", .kind = "actuator", .targets = {"push"}});
     EXPECT_TRUE(write_as(*push, 1.0));
-    auto where = receptor<double>(*world, {.path = "a.b.d", .kind = "joint_position", .targets = {"ball[1]/x"}});
+    auto where =
+        receptor<double>(*world, {.path = "a.b.d", .kind = "joint_position", .targets = {"ball[1]/x"}});
     world->advance_to(Time(std::chrono::seconds(2)));
     return read_as<double>(*where);
   };
   EXPECT_EQ(last(json::array(), json::object()),
-            last(json::array({check("never", "contact(post)")}), {{"pace", "sensor(pace)"}, {"speed", "speed(ball[0])"}}));
+            last(json::array({check("never", "contact(post)")}),
+                 {{"pace", "sensor(pace)"}, {"speed", "speed(ball[0])"}}));
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ TEST(Circuits, WhoWaitsForAPeerThatMayEndOrIsAbsentIsStuck) {
   pair.system.behaviour(pair.b, {}, {x});
   const Judged ending = judge(pair.system.result());
   EXPECT_EQ(ending.report.groups.front().cause, Cause::peer_ended);
-  EXPECT_EQ(ending.report.groups.front().stuck, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(ending.report.groups.front().stuck,
+            std::vector<verify::SubsystemFlowId>{verify::SubsystemFlowId{1}});
   EXPECT_EQ(ending.report.deadlock_free, Answer::no);
 
   Pair silent;

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "run/world_checks.hpp"
+#include "tessera/judgement.hpp"
 
 namespace tessera {
 
@@ -44,7 +44,7 @@ std::string summary_lines(const RunSummary& summary) {
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
                    subsystem.iterations, subsystem.overruns, subsystem.errors);
-  return text + text_of_judgement(summary.judgement);
+  return text + judgement_lines(summary.judgement);
 }
 
 }  // namespace tessera

@@ -17,7 +17,4 @@ void record_failed_checks(Assembly& assembly, Time now);
 /// run: "; 2 checks failed: nobody touches, apart"; empty: none failed.
 [[nodiscard]] std::string finish_checks(Assembly& assembly, Time now);
 
-/// What finish_checks has judged as lines for people. json: World::results.
-[[nodiscard]] std::string text_of_judgement(const std::string& json);
-
 }  // namespace tessera

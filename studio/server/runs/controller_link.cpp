@@ -129,8 +129,10 @@ std::optional<project::Snapshot> ControllerLink::snapshot() {
 
 std::optional<Problem> ControllerLink::command(const project::ControlCommand& command) {
   constexpr auto patience = std::chrono::seconds(5);
+  // On a busy machine a controller may take long to start. Its end ends the wait.
+  constexpr auto patience_with_start = std::chrono::seconds(60);
   std::unique_lock lock(mutex_);
-  if (!answered_.wait_for(lock, patience, [&] { return open_ || over_; }) || over_)
+  if (!answered_.wait_for(lock, patience_with_start, [&] { return open_ || over_; }) || over_)
     return Problem{over_ ? "the controller has ended" : "the controller does not listen yet"};
   const std::int64_t id = ++last_;
   if (!say(project::line_of(command, id))) return Problem{"the controller takes no commands"};

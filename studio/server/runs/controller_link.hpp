@@ -40,7 +40,7 @@ class ControllerLink {
   /// Asks for the scene of the controller's world, piece by piece: call it again and again. The whole scene,
   /// once it has come; empty: there is none. Does not wait.
   [[nodiscard]] std::optional<std::string> scene();
-  /// nullopt: done. Waits for the connection and the answer, at most five seconds each. Meanwhile somebody
+  /// nullopt: done. Waits for the connection, at most a minute, and five seconds for the answer. Meanwhile somebody
   /// has to call connect and snapshot.
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
   /// Who was connected to has closed, or `close` was called.

@@ -102,15 +102,17 @@ function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
   shown.current = { track, beside };
   const { hash } = world.scene;
   useEffect(() => {
+    // React forgets the element before it closes the view, which may draw meanwhile.
+    const element = canvas.current!;
     let closed = false;
     const open = async () => {
       try {
         const [{ World3d }, glb] = await Promise.all([import("./world_3d"), studio.api.scene(hash)]);
         if (closed) return;
-        const made = new World3d(canvas.current!, {
+        const made = new World3d(element, {
           poses: () => posesOf(shown.current.track),
           ghosts: () => (shown.current.beside?.world?.scene.hash === hash ? posesOf(shown.current.beside) : null),
-          background: () => getComputedStyle(canvas.current!).getPropertyValue("--sunken").trim(),
+          background: () => getComputedStyle(element).getPropertyValue("--sunken").trim(),
           picked: (body) => {
             const agent = world.scene.bodies[body]?.[1];
             if (agent) studio.flyTo(agent);
@@ -118,7 +120,7 @@ function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
           lost: () => onProblem("The view in three dimensions was lost."),
         });
         view.current = made;
-        Object.assign(canvas.current!, { view: made });
+        Object.assign(element, { view: made });
         await made.load(glb, world.scene.bodies.length);
       } catch (error) {
         if (!closed) onProblem(message(error));

@@ -42,7 +42,7 @@ class CameraView {
   [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] PictureKind kind() const { return kind_; }
   [[nodiscard]] mjvScene& scene() { return scene_; }
-  /// The body whose colour is (red, green, blue) in a picture of the kind `labels`; 0: the world, or nothing.
+  /// The body whose colour is (red, green, blue) in a picture of the kind `labels`; 0: the world, a skin, a tendon, or nothing.
   [[nodiscard]] std::uint16_t body_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const;
 
  private:

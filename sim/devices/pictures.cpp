@@ -67,8 +67,8 @@ PictureSize picture_size(const DriverRequest& request, Options& options, const P
                         (right_type && divides ? "; " + example(pixel, *usual) : ""));
 }
 
-/// Gives the pictures of one camera. The scene is taken in while nobody else uses the physics, and drawn
-/// after that.
+/// Gives the pictures of one camera. The scene is taken in while nobody else uses the physics, and
+/// drawn after that.
 class Camera : public RealReceptor {
  public:
   Camera(const DeviceContext& context, const DriverRequest& request, PictureSize size, PictureKind kind)

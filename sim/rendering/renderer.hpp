@@ -27,8 +27,8 @@ enum class PictureKind : std::uint8_t {
   labels  ///< every body in a colour of its own, without light
 };
 
-/// What one camera of a world sees, to be drawn by a Renderer. Sites, range finders and geoms of the groups
-/// 3 to 5 are not seen.
+/// What one camera of a world sees, to be drawn by a Renderer. Sites, range finders and geoms of the
+/// groups 3 to 5 are not seen.
 class CameraView {
  public:
   CameraView(int camera, PictureSize size, PictureKind kind);
@@ -42,7 +42,8 @@ class CameraView {
   [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] PictureKind kind() const { return kind_; }
   [[nodiscard]] mjvScene& scene() { return scene_; }
-  /// The body whose colour is (red, green, blue) in a picture of the kind `labels`; 0: the world, a skin, a tendon, or nothing.
+  /// The body whose colour is (red, green, blue) in a picture of the kind `labels`.
+  /// 0: the world, a skin, a tendon, or nothing.
   [[nodiscard]] std::uint16_t body_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const;
 
  private:
@@ -74,8 +75,8 @@ class Renderer {
 
   /// The view as it was when it last looked, rows from the top. Three numbers a pixel.
   void draw_colours(CameraView& view, std::span<std::uint8_t> rgb);
-  /// In metres along the direction of the camera. What is farther than the far clipping plane, or nothing at
-  /// all, has the distance of that plane.
+  /// In metres along the direction of the camera. What is farther than the far clipping plane, or
+  /// nothing at all, has the distance of that plane.
   void draw_depths(CameraView& view, std::span<float> metres);
 
  private:

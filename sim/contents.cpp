@@ -58,6 +58,7 @@ void describe_actuator(const mjModel& model, int id, Json& entry) {
 void describe_body(const mjModel& model, int id, Json& entry) {
   const int joint = model.body_jntadr[id];
   entry["kind"] = "pose";
+  entry["label"] = id;
   entry["type"] = "float64[7]";
   entry["moved_by"] = model.body_mocapid[id] >= 0                         ? "mocap"
                       : joint >= 0 && model.jnt_type[joint] == mjJNT_FREE ? "place"
@@ -86,7 +87,11 @@ std::string contents_as_json(const mjModel& model) {
     entry["kind"] = "scan";
     entry["type"] = "float32[N]";
   });
-  json["cameras"] = list(model, mjOBJ_CAMERA, [](int, Json&) {});
+  json["cameras"] = list(model, mjOBJ_CAMERA, [](int, Json& entry) {
+    entry["kind"] = "camera";
+    entry["type"] = "uint8[9216]";
+    entry["picture"] = {64, 48};
+  });
   json["bodies"] = list(model, mjOBJ_BODY, [&](int id, Json& entry) { describe_body(model, id, entry); });
   json["geoms"] = list(model, mjOBJ_GEOM, [&](int, Json& entry) {
     entry["kind"] = "colour";

@@ -135,8 +135,8 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
   }
   auto simulation = std::make_shared<Simulation>(std::move(*physics), std::move(floor), options.trace);
   if (auto problem = simulation->judge_by(options.checks)) return std::move(*problem);
-  return std::unique_ptr<World>(
-      std::make_unique<MujocoWorld>(DeviceContext{std::move(simulation), options.footprint_m, options.seed}));
+  return std::unique_ptr<World>(std::make_unique<MujocoWorld>(
+      DeviceContext{std::move(simulation), options.footprint_m, options.seed, std::make_shared<Renderer>()}));
 }
 
 Result<std::string> list(const WorldOptions& options) {

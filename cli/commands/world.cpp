@@ -36,13 +36,21 @@ constexpr Group groups[] = {{"sensors", "Sensors"}, {"joints", "Joints"},       
 
 std::string text_of(const Json& entry, const char* key) { return entry.value(key, std::string()); }
 
+/// ", width: 64, height: 48": of a camera.
+std::string picture_of(const Json& entry) {
+  const Json& size = entry["picture"];
+  return fmt::format(", width: {}, height: {}", size[0].get<int>(), size[1].get<int>());
+}
+
 /// "gyro  sensor  float64[3]", and what else there is to say.
 std::string line_of(const Json& entry) {
   std::string more;
   if (entry.contains("joint")) more += "  " + text_of(entry, "joint");
   if (entry.contains("range"))
     more += fmt::format("  {} .. {}", entry["range"][0].get<double>(), entry["range"][1].get<double>());
+  if (entry.contains("picture")) more += " " + picture_of(entry).substr(1);
   if (entry.contains("velocity_type")) more += "  joint_velocity " + text_of(entry, "velocity_type");
+  if (entry.contains("label")) more += fmt::format("  label {}", entry["label"].get<int>());
   if (const std::string by = text_of(entry, "moved_by"); !by.empty()) more += "  " + by + " float64[7]";
   return fmt::format("  {:<24} {:<15} {:<11}{}", text_of(entry, "name"), text_of(entry, "kind"),
                      text_of(entry, "type"), more);
@@ -90,23 +98,28 @@ struct Section {
   std::string buffers, drivers;
   std::set<std::string> taken;
 
-  void add(const Json& entry, const std::string& kind, const std::string& type) {
+  /// options: after the target, such as ", width: 64".
+  void add(const Json& entry, const std::string& kind, const std::string& type,
+           const std::string& options = {}) {
     const std::string name = text_of(entry, "name"), buffer = buffer_name(name, taken);
     buffers += fmt::format("#     {}: {}\n", buffer, type);
-    drivers +=
-        fmt::format("    robot.{}.{}: {{ {}: {} }}  # {}\n", subsystem, buffer, kind, yaml_text(name), type);
+    drivers += fmt::format("    robot.{}.{}: {{ {}: {}{} }}  # {}\n", subsystem, buffer, kind,
+                           yaml_text(name), options, type);
   }
 };
 
-/// A ready section `drivers` with a buffer for every sensor, joint and actuator.
+/// A ready section `drivers` with a buffer for every sensor, camera, joint and actuator.
 std::string drivers_section(const Json& contents) {
-  Section sensors{"sensors", "", "", {}}, joints{"joints", "", "", {}}, motors{"motors", "", "", {}};
+  Section sensors{"sensors", "", "", {}}, joints{"joints", "", "", {}}, motors{"motors", "", "", {}},
+      cameras{"cameras", "", "", {}};
   for (const Json& entry : contents["sensors"])
     if (!text_of(entry, "kind").empty()) sensors.add(entry, "sensor", text_of(entry, "type"));
+  for (const Json& entry : contents["cameras"])
+    cameras.add(entry, "camera", text_of(entry, "type"), picture_of(entry));
   for (const Json& entry : contents["joints"]) joints.add(entry, "joint_position", text_of(entry, "type"));
   for (const Json& entry : contents["actuators"]) motors.add(entry, "actuator", text_of(entry, "type"));
   std::string drivers, buffers;
-  for (const Section* section : {&sensors, &joints, &motors}) {
+  for (const Section* section : {&sensors, &cameras, &joints, &motors}) {
     if (section->drivers.empty()) continue;
     drivers += section->drivers;
     buffers += fmt::format("#   {}, real:\n{}", section->subsystem, section->buffers);

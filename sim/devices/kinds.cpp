@@ -18,6 +18,9 @@ constexpr std::array receptors = std::to_array<Kind<RealReceptor>>({{"sensor", s
                                                                     {"scan", scan},
                                                                     {"pose", pose},
                                                                     {"contact", contact},
+                                                                    {"camera", camera},
+                                                                    {"depth", depth},
+                                                                    {"labels", labels},
                                                                     {"reflectance", reflectance}});
 constexpr std::array effectors = std::to_array<Kind<RealEffector>>({{"actuator", actuator},
                                                                     {"velocity", actuator},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/devices/device_error.hpp"
+#include "sim/rendering/renderer.hpp"
 #include "sim/simulation.hpp"
 #include "tessera/device.hpp"
 
@@ -21,6 +22,7 @@ struct DeviceContext {
   std::shared_ptr<Simulation> simulation;
   double footprint_m = 0.008;
   std::uint64_t seed = 1;
+  std::shared_ptr<Renderer> renderer{};  ///< of the cameras
 };
 
 /// Make the device that the request asks for. Throw DeviceError if the world has no such thing or it does
@@ -50,6 +52,12 @@ struct DeviceContext {
                                                     const DriverRequest& request);
 // scan.cpp
 [[nodiscard]] std::unique_ptr<RealReceptor> scan(const DeviceContext& context, const DriverRequest& request);
+// pictures.cpp
+[[nodiscard]] std::unique_ptr<RealReceptor> camera(const DeviceContext& context,
+                                                   const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealReceptor> depth(const DeviceContext& context, const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealReceptor> labels(const DeviceContext& context,
+                                                   const DriverRequest& request);
 // commands.cpp
 [[nodiscard]] std::unique_ptr<RealEffector> actuator(const DeviceContext& context,
                                                      const DriverRequest& request);

@@ -44,6 +44,17 @@ double Options::number_from_zero(const std::string& name, double otherwise, std:
   return value;
 }
 
+std::optional<int> Options::whole_number(const std::string& name, int least, int most) {
+  const WorldOption* const option = find(name);
+  if (option == nullptr) return std::nullopt;
+  const double* const number =
+      option->is_list || option->values.empty() ? nullptr : std::get_if<double>(&option->values[0].value);
+  if (number == nullptr || !option->values[0].unit.empty() || *number != std::floor(*number) ||
+      *number < least || *number > most)
+    refuse(name, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(*number);
+}
+
 std::vector<std::string> Options::names(const std::string& name) {
   const WorldOption* const option = find(name);
   if (option == nullptr) return {};

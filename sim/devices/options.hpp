@@ -20,6 +20,8 @@ class Options {
   [[nodiscard]] std::optional<double> number(const std::string& name, std::string_view unit = {});
   [[nodiscard]] double number_from_zero(const std::string& name, double otherwise,
                                         std::string_view unit = {});
+  /// nullopt: the option is not given.
+  [[nodiscard]] std::optional<int> whole_number(const std::string& name, int least, int most);
   /// One of `words`.
   [[nodiscard]] std::optional<std::string> word(const std::string& name,
                                                 const std::vector<std::string>& words);

@@ -37,7 +37,8 @@ TEST(WorldErrors, SaysWhatItHasWhenAskedForWhatItHasNot) {
            Case{{"a.b.c", "reflectence", {"eye_left"}, {}},
                 true,
                 "a.b.c: the world has no receptor 'reflectence'; did you mean 'reflectance'? the world has: "
-                "sensor, joint_position, joint_velocity, scan, pose, contact, reflectance"},
+                "sensor, joint_position, joint_velocity, scan, pose, contact, camera, depth, labels, "
+                "reflectance"},
            Case{{"a.b.c", "torque", {"wheel_left"}, {}},
                 false,
                 "a.b.c: the world has no effector 'torque'; the world has: actuator, velocity, weld, mocap, "

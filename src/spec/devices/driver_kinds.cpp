@@ -8,7 +8,8 @@ namespace {
 
 using Values = DriverKind::Values;
 
-constexpr std::string_view site = "a site of the world", body = "a body of the world";
+constexpr std::string_view site = "a site of the world", body = "a body of the world",
+                           camera = "a camera of the world";
 
 /// name, receptors, effectors, simulated only, lists, target, values
 constexpr std::array kinds = std::to_array<DriverKind>(
@@ -19,6 +20,9 @@ constexpr std::array kinds = std::to_array<DriverKind>(
      {"scan", true, false, true, false, site, Values::numbers},
      {"pose", true, false, true, false, "a body or site of the world", Values::numbers},
      {"contact", true, false, true, false, "a body or site of the world", Values::flag},
+     {"camera", true, false, true, false, camera, Values::colours},
+     {"depth", true, false, true, false, camera, Values::depths},
+     {"labels", true, false, true, false, camera, Values::labels},
      {"reflectance", true, false, true, false, site, Values::number},
      {"actuator", false, true, true, true, "an actuator of the world", Values::numbers},
      {"velocity", false, true, true, true, "an actuator of the world", Values::numbers},
@@ -27,17 +31,26 @@ constexpr std::array kinds = std::to_array<DriverKind>(
      {"place", false, true, true, false, body, Values::numbers},
      {"colour", false, true, true, false, "a geom of the world", Values::numbers}});
 
-/// Whether all numbers of a value are float32 or float64.
-bool is_real(const Type& type, const Model& model) {
-  if (type.kind == Type::Kind::scalar)
-    return type.scalar == Scalar::float32 || type.scalar == Scalar::float64;
+/// Whether all parts of a value are scalars of such a kind.
+template <class IsSuch>
+bool consists_of(const Type& type, const Model& model, IsSuch is_such) {
+  if (type.kind == Type::Kind::scalar) return is_such(type.scalar);
   if (type.kind != Type::Kind::structure) return false;
   if (type.structure >= model.structures.size()) return true;  // unknown, which is said elsewhere
   return std::ranges::all_of(model.structures[type.structure].fields, [&](const Field& field) {
     // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
     const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;
-    return cycle || is_real(field.type, model);
+    return cycle || consists_of(field.type, model, is_such);
   });
+}
+
+bool is_real(const Type& type, const Model& model) {
+  return consists_of(type, model,
+                     [](Scalar scalar) { return scalar == Scalar::float32 || scalar == Scalar::float64; });
+}
+
+bool consists_of(const Type& type, const Model& model, Scalar one) {
+  return consists_of(type, model, [one](Scalar scalar) { return scalar == one; });
 }
 
 }  // namespace
@@ -64,6 +77,12 @@ bool has_values_of(const DriverKind& kind, const Type& type, const Model& model)
       return is_real(type, model);
     case Values::flag:
       return one && type.scalar == Scalar::boolean;
+    case Values::colours:
+      return consists_of(type, model, Scalar::uint8);
+    case Values::depths:
+      return consists_of(type, model, Scalar::float32);
+    case Values::labels:
+      return consists_of(type, model, Scalar::uint16);
   }
   return false;
 }
@@ -74,6 +93,12 @@ std::string_view description_of(DriverKind::Values values) {
       return "a real buffer of type float64 or float32";
     case Values::flag:
       return "a real buffer of type bool";
+    case DriverKind::Values::colours:
+      return "a real buffer of uint8 numbers, such as uint8[9216] for 64 x 48 pixels";
+    case DriverKind::Values::depths:
+      return "a real buffer of float32 numbers, such as float32[3072] for 64 x 48 pixels";
+    case DriverKind::Values::labels:
+      return "a real buffer of uint16 numbers, such as uint16[3072] for 64 x 48 pixels";
     default:
       return "a real buffer of float64 or float32 numbers";
   }

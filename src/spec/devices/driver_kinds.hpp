@@ -15,7 +15,10 @@ struct DriverKind {
     any,      ///< the C++ class decides
     number,   ///< one float32 or float64
     numbers,  ///< any number of them, in arrays and structures
-    flag      ///< one bool
+    flag,     ///< one bool
+    colours,  ///< uint8 numbers
+    depths,   ///< float32 numbers
+    labels    ///< uint16 numbers
   };
   std::string_view name;
   bool receptors, effectors;

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "sim/engine/physics.hpp"
+#include "sim/rendering/offscreen.hpp"
+
+namespace tessera::sim {
+
+struct PictureSize {
+  int width = 0, height = 0;
+  [[nodiscard]] std::size_t pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+inline constexpr int longest_side = 4096;  ///< of a picture, in pixels
+
+enum class PictureKind : std::uint8_t {
+  colour,
+  depth,
+  labels  ///< every body in a colour of its own, without light
+};
+
+/// What one camera of a world sees, to be drawn by a Renderer. Sites, range finders and geoms of the
+/// groups 3 to 5 are not seen.
+class CameraView {
+ public:
+  CameraView(int camera, PictureSize size, PictureKind kind);
+  CameraView(const CameraView&) = delete;
+  CameraView& operator=(const CameraView&) = delete;
+  ~CameraView();
+
+  /// Takes in where everything is. Does not change the physics.
+  void look(const Physics& physics);
+
+  [[nodiscard]] PictureSize size() const { return size_; }
+  [[nodiscard]] PictureKind kind() const { return kind_; }
+  [[nodiscard]] mjvScene& scene() { return scene_; }
+  /// The body whose colour is (red, green, blue) in a picture of the kind `labels`.
+  /// 0: the world, a skin, a tendon, or nothing.
+  [[nodiscard]] std::uint16_t body_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const;
+
+ private:
+  void make_scene(const mjModel& model, int most_geoms);
+
+  int camera_;
+  PictureSize size_;
+  PictureKind kind_;
+  mjvScene scene_{};
+  mjvOption options_{};
+  std::vector<std::uint16_t> bodies_;  // by the number that the engine gives what it draws
+};
+
+/// Draws the pictures of all cameras of one world.
+///
+/// Threads: any.
+class Renderer {
+ public:
+  Renderer() = default;
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  ~Renderer();
+
+  /// Pictures of this size will be drawn.
+  void make_room_for(PictureSize size);
+  /// Hands meshes and textures over. Called before `draw`, while nobody changes the model. Throws
+  /// std::runtime_error if this machine cannot render.
+  void prepare(const mjModel& model);
+
+  /// The view as it was when it last looked, rows from the top. Three numbers a pixel.
+  void draw_colours(CameraView& view, std::span<std::uint8_t> rgb);
+  /// In metres along the direction of the camera. What is farther than the far clipping plane, or
+  /// nothing at all, has the distance of that plane.
+  void draw_depths(CameraView& view, std::span<float> metres);
+
+ private:
+  void release();
+  template <class Read>
+  void draw(CameraView& view, Read&& read);
+
+  std::mutex mutex_;
+  PictureSize room_;
+  OffscreenContext* context_ = nullptr;
+  std::unique_ptr<mjrContext> resources_;  // nullptr: not prepared
+};
+
+}  // namespace tessera::sim

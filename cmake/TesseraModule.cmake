@@ -23,7 +23,11 @@ endif()
 
 # For sources whose speed no user notices, and for tests. They then take two thirds of the time to compile, with
 # sanitizers less than half. Nets, search, generator and what fires in the runtime are optimised fully.
-set(TESSERA_COMPILE_QUICKLY $<IF:$<BOOL:${TESSERA_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+if(TESSERA_SANITIZE)
+  set(TESSERA_COMPILE_QUICKLY -O0)
+else()
+  set(TESSERA_COMPILE_QUICKLY $<$<CONFIG:Release>:-O1>)
+endif()
 macro(tessera_compile_quickly)
   add_compile_options(${TESSERA_COMPILE_QUICKLY})
 endmacro()

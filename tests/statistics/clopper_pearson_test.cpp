@@ -32,8 +32,8 @@ TEST(IncompleteBeta, HasTheValuesOfItsClosedForms) {
   }
 }
 
-// R 4: binom.test(events, runs)$conf.int
-TEST(ClopperPearson, HasThePublishedValues) {
+// Computed apart from the project: the binomial tails as exact fractions, solved by bisection.
+TEST(ClopperPearson, AgreesWithExactTails) {
   struct Case {
     std::uint64_t events, runs;
     double low, high;

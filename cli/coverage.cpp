@@ -23,13 +23,13 @@ using project::Specification;
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+[[noreturn]] void refuse_input(const std::string& file, const std::string& why) {
   throw std::runtime_error(fmt::format("{}: {}", file, why));
 }
 
 std::string content_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(file, "cannot be read");
+  if (!stream) refuse_input(file, "cannot be read");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -70,11 +70,12 @@ CoverageInput::~CoverageInput() = default;
 void CoverageInput::add_firings(const std::string& file, const std::string& net,
                                 const std::map<std::string, std::uint64_t>& firings, std::uint64_t runs) {
   if (net != state_->hash)
-    refuse(file,
-           fmt::format("it is of the net {}, and {} now gives {}: name the specification it was made with, "
-                       "with --spec",
-                       net, state_->specification, state_->hash));
-  if (const std::string why = state_->counts.add(firings, runs); !why.empty()) refuse(file, why);
+    refuse_input(
+        file,
+        fmt::format("it is of the net {}, and {} now gives {}: name the specification it was made with, "
+                    "with --spec",
+                    net, state_->specification, state_->hash));
+  if (const std::string why = state_->counts.add(firings, runs); !why.empty()) refuse_input(file, why);
 }
 
 void CoverageInput::add_file(const std::string& file) {
@@ -83,13 +84,13 @@ void CoverageInput::add_file(const std::string& file) {
     const std::optional<Recording> recording = read_recording(file, error);
     if (!recording) throw std::runtime_error(error);
     add_firings(file, recording->net_hash, {}, 0);
-    if (const std::string why = state_->counts.add(*recording); !why.empty()) refuse(file, why);
+    if (const std::string why = state_->counts.add(*recording); !why.empty()) refuse_input(file, why);
     return;
   }
   const Result<statistics::Results> results = statistics::parse_results(content_of(file));
-  if (!results) refuse(file, "is no recording, and " + results.problem());
+  if (!results) refuse_input(file, "is no recording, and " + results.problem());
   if (results->transitions.empty() && results->tried > 0)
-    refuse(file, "has no coverage: it comes from schedules without --coverage");
+    refuse_input(file, "has no coverage: it comes from schedules without --coverage");
   add_firings(file, results->identity.net, results->transitions, results->tried);
 }
 

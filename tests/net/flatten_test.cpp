@@ -99,7 +99,7 @@ TEST(Flatten, EntersAPageWhoseInputIsAPage) {
 /// nested() with a fused place `lock` (one token) in both nets, after which `t` and `enter` wait.
 HierarchicalNet locked() {
   HierarchicalNet net = nested();
-  net.fusions.push_back({"lock", 1, 3, {9, 1, 1}});
+  net.fusions.push_back({"lock", 1, ChannelId{3}, {9, 1, 1}});
   for (Page& page : net.pages) {
     page.nodes.push_back(Node{.name = "lock", .fusion = FusionId{0}, .tokens = 1});
     page.transitions[0].inputs.push_back(static_cast<std::uint32_t>(page.nodes.size() - 1));
@@ -142,7 +142,7 @@ TEST(Flatten, TwoArcsToOneFusedPlaceBecomeAHeavierOne) {
 
 TEST(Flatten, AFusionSetWithoutMembersIsNoPlace) {
   HierarchicalNet drawn = nested();
-  drawn.fusions.push_back({"nobody", 1, 0, {}});
+  drawn.fusions.push_back({"nobody", 1, ChannelId{0}, {}});
   Diagnostics out("n", "");
   ASSERT_TRUE(flatten(drawn, out));
   EXPECT_EQ(flatten(drawn, out)->places().size(), 4U);

@@ -32,6 +32,11 @@ macro(tessera_compile_quickly)
   add_compile_options(${TESSERA_COMPILE_QUICKLY})
 endmacro()
 
+# For tests that compute for long: naive answers to large questions.
+macro(tessera_compile_for_speed)
+  add_compile_options(-O1)
+endmacro()
+
 # tessera_module(NAME SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
 # A static library tessera_NAME whose headers are included as "NAME/header.hpp".
 function(tessera_module name)

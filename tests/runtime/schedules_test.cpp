@@ -40,6 +40,8 @@ struct Race : ::testing::Test {
     for (const int self : {1, 2}) {
       Script script;
       script.call = [this, self](ScriptState& state) {
+        // The run before may have ended while somebody held it.
+        if (state.context.iteration <= 1) holder = 0;
         state.context.assert_that(holder == 0 || holder == self, "{} takes what {} holds", self, holder);
         holder = self;
       };

@@ -69,6 +69,19 @@ double heading_now(const Physics& physics, const Frame& frame) {
   return std::atan2(axes[3], axes[0]);
 }
 
+/// A placed model stands in a body of its own name that never moves. Its pose would be a constant, where the
+/// pose of the robot was meant.
+void refuse_place_of_model(const mjModel& model, const Frame& frame) {
+  if (frame.type != mjOBJ_BODY || model.body_dofnum[frame.id] > 0) return;
+  const std::string name = name_of(model, mjOBJ_BODY, frame.id);
+  for (int body = frame.id + 1; body < model.nbody; ++body) {
+    const std::string part = name_of(model, mjOBJ_BODY, body);
+    if (!name.empty() && part.starts_with(name + "/"))
+      throw DeviceError("'" + name + "' is the place of a model, which never moves",
+                        "name a body in it, such as '" + part.substr(name.size() + 1) + "'");
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<RealReceptor> joint_position(const DeviceContext& context, const DriverRequest& request) {
@@ -83,8 +96,10 @@ std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverReq
   Buffer buffer(request);
   Options(request).refuse_others();
   Frame frame;
-  context.simulation->use(
-      [&](const Physics& physics) { frame = frame_of(physics, request, only_target(request)); });
+  context.simulation->use([&](const Physics& physics) {
+    frame = frame_of(physics, request, only_target(request));
+    refuse_place_of_model(physics.model(), frame);
+  });
   if (buffer.is_real() && buffer.size() == 7)
     return reading(context.simulation, std::move(buffer),
                    [frame](const Physics& physics, std::span<double> numbers) {

@@ -99,6 +99,28 @@ TEST(Judging, WhatTheWorldLacksIsNamed) {
   EXPECT_EQ(problem("contact(post)"), "");
 }
 
+/// The pose of a placed model would be that of the body it stands in, a constant.
+TEST(PlacedModels, HaveNoPoseOfTheirOwnButTheirBodiesHave) {
+  const std::string cart = file_with("posed.xml", R"(<mujoco><worldbody>
+    <body name="base"><joint name="x" type="slide" axis="1 0 0"/><geom size="0.1"/></body>
+    </worldbody></mujoco>)");
+  const std::string hall = file_with("posed_hall.xml", "<mujoco><worldbody/></mujoco>");
+  const json models = json::array({{{"instance", "cart"}, {"model", cart}, {"at_m", {3, 0, 0}}}});
+  auto world = open({.world = hall, .models = models.dump()});
+  using Pose = std::array<double, 7>;
+  const auto pose_of = [&](const char* name) {
+    return receptor<Pose>(*world, {.path = "cart.a.b", .kind = "pose", .targets = {name}});
+  };
+  EXPECT_EQ(read_as<Pose>(*pose_of("base"))[0], 3);
+  try {
+    pose_of("cart");
+    FAIL() << "a constant pose";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'cart' is the place of a model, which never moves"));
+    EXPECT_THAT(error.what(), HasSubstr("such as 'base'"));
+  }
+}
+
 /// A model that is placed stands in a body that never moves. What is meant is the robot in it.
 TEST(Judging, APlacedModelIsWhereItsFirstBodyIs) {
   const std::string cart = file_with("cart.xml", R"(<mujoco><worldbody>

@@ -91,6 +91,14 @@ json read_summary(const std::filesystem::path& file) {
   return stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
 }
 
+/// The places that hold a token before anything fires.
+std::vector<std::uint32_t> initially_marked(const net::Net& net) {
+  std::vector<std::uint32_t> marked;
+  for (std::size_t place = 0; place < net.places.size(); ++place)
+    if (net.places[place].tokens > 0) marked.push_back(static_cast<std::uint32_t>(place));
+  return marked;
+}
+
 }  // namespace
 
 /// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
@@ -124,7 +132,8 @@ Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
       request_(std::move(request)),
       spec_(std::move(spec)),
       analysis_(std::move(analysis)),
-      events_(events) {
+      events_(events),
+      marking_(initially_marked(*analysis_->net)) {
   thread_ = std::thread([this] { make_and_run(); });
 }
 
@@ -156,6 +165,7 @@ void Run::set_state(State state, const std::string& why) {
     why_ = why;
     told["outcome"] = outcome_;
     told["marking"] = marking_;
+    told["firings"] = firings_;
   }
   publish("run", std::move(told));
 }

@@ -555,6 +555,8 @@ export interface RunEvent {
   outcome: Outcome | null;
   /** Places that hold a token. */
   marking: number[];
+  /** Firings of the run so far: those that led to the marking. */
+  firings: number;
 }
 export interface FiringsEvent {
   /** Names the run. */

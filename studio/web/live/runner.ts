@@ -7,6 +7,7 @@ import { message, type Draft } from "./draft";
 import type {
   Breakpoint,
   ControlRequest,
+  Events,
   FiringsEvent,
   Outcome,
   PoseEvent,
@@ -14,6 +15,7 @@ import type {
   RunEvent,
   RunInfo,
   RunKind,
+  RunListed,
   RunRequest,
   RunState,
   SceneShown,
@@ -24,6 +26,9 @@ import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
 import { LiveWorld } from "./world";
+
+/** The events of a run. */
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify">;
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -80,6 +85,11 @@ export class Runner {
   readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
   track: Track | null = null;
   private asking = false;
+  /** Questions whose answers have not arrived; events wait for them. */
+  private asked = 0;
+  private readonly held: (() => void)[] = [];
+  /** The number of firings that led to the marking shown. */
+  private marked = 0;
   /** Lines that have not been passed to the page yet. */
   private lines: string[] = [];
 
@@ -88,22 +98,40 @@ export class Runner {
     private readonly draft: Draft,
     connection: Connection,
   ) {
-    for (const name of ["build", "log"] as const) connection.on(name, (event) => this.mine(event) && this.said(event.line));
-    connection.on("run", (event) => this.mine(event) && this.told(event));
-    connection.on("firings", (event) => this.mine(event) && this.fired(event));
-    connection.on("values", (event) => this.mine(event) && this.valued(event));
-    connection.on("pose", (event) => this.mine(event) && this.posed(event));
-    connection.on("scene", (event) => this.mine(event) && this.sawScene(event));
-    connection.on("poses", (event) => this.mine(event) && this.sawPoses(event));
-    connection.on("subsystems", (event) => this.mine(event) && this.reported(event));
+    const on = <Name extends RunEventName>(name: Name, take: (event: Events[Name]) => void) =>
+      connection.on(name, (event) => {
+        const mine = () => event.run === this.store.get().run && take(event);
+        if (this.asked > 0) this.held.push(mine);
+        else mine();
+      });
+    for (const name of ["build", "log"] as const) on(name, (event) => this.said(event.line));
+    on("run", (event) => this.told(event));
+    on("firings", (event) => this.fired(event));
+    on("values", (event) => this.valued(event));
+    on("pose", (event) => this.posed(event));
+    on("scene", (event) => this.sawScene(event));
+    on("poses", (event) => this.sawPoses(event));
+    on("subsystems", (event) => this.reported(event));
     connection.on("hello", () => void this.attach());
+  }
+
+  /**
+   * The events that come while `ask` waits for answers are taken after them: they are of a run whose name
+   * is not known yet, or newer than what is answered.
+   */
+  private async beforeEvents(ask: () => Promise<void>): Promise<void> {
+    this.asked += 1;
+    try {
+      await ask();
+    } finally {
+      this.asked -= 1;
+      if (this.asked === 0) for (const take of this.held.splice(0)) take();
+    }
   }
 
   get active(): boolean {
     return ["building", "running", "paused"].includes(this.store.get().state);
   }
-
-  private mine = (event: { run: string }): boolean => event.run === this.store.get().run;
 
   async start(request: RunRequest): Promise<void> {
     const { net } = this.draft.store.get();
@@ -116,45 +144,56 @@ export class Runner {
       speed: request.kind === "attach" ? 1 : (request.speed ?? 1),
     });
     this.watch(net, request.kind === "attach" ? null : request.track);
-    try {
-      const { run } = await this.api.start(request);
-      this.store.set({ run });
-      // Asks for everything that happened before the answer arrived.
-      this.told(await this.api.run(run));
-    } catch (error) {
-      this.store.set({ state: "failed", problem: message(error), shown: false });
-    }
+    await this.beforeEvents(async () => {
+      try {
+        const { run } = await this.api.start(request);
+        this.store.set({ run });
+        // Asks for everything that happened before the answer arrived.
+        this.told(await this.api.run(run));
+      } catch (error) {
+        this.store.set({ state: "failed", problem: message(error), shown: false });
+      }
+    });
   }
 
   /** After a reload or a lost connection, follows a running controller again. */
-  private async attach(): Promise<void> {
+  private attach(): Promise<void> {
+    return this.beforeEvents(async () => {
+      const { run } = this.store.get();
+      try {
+        const runs = await this.api.runs();
+        // Whoever starts a run meanwhile follows that one.
+        if (this.store.get().run === run && (run !== null || !this.active)) await this.followOneOf(runs);
+      } catch (error) {
+        this.store.set({ problem: message(error) });
+      }
+    });
+  }
+
+  private async followOneOf(runs: readonly RunListed[]): Promise<void> {
     const { net } = this.draft.store.get();
-    try {
-      const runs = await this.api.runs();
-      const own = this.active ? runs.find(({ run }) => run === this.store.get().run) : undefined;
-      const going = own ?? runs.find((run) => ["building", "running", "paused"].includes(run.state));
-      if (!going) {
-        if (this.active) this.store.set({ state: "ended", why: "the server was restarted" });
+    const own = this.active ? runs.find(({ run }) => run === this.store.get().run) : undefined;
+    const going = own ?? runs.find((run) => ["building", "running", "paused"].includes(run.state));
+    if (!going) {
+      if (this.active) this.store.set({ state: "ended", why: "the server was restarted" });
+      return;
+    }
+    const info = await this.api.run(going.run);
+    if (going.run !== this.store.get().run && net) {
+      if (!net.isNamed(info.net_hash)) {
+        this.store.set({ problem: "A run of another version of the specification goes on; this drawing cannot show it." });
         return;
       }
-      const info = await this.api.run(going.run);
-      if (going.run !== this.store.get().run && net) {
-        if (!net.isNamed(info.net_hash)) {
-          this.store.set({ problem: "A run of another version of the specification goes on; this drawing cannot show it." });
-          return;
-        }
-        this.store.set({ ...idle, run: info.run, state: info.state, kind: info.kind });
-        this.watch(net, info.track);
-      }
-      this.told(info);
-    } catch (error) {
-      this.store.set({ problem: message(error) });
+      this.store.set({ ...idle, run: info.run, state: info.state, kind: info.kind });
+      this.watch(net, info.track);
     }
+    this.told(info);
   }
 
   private watch(net: NetModel, floor: string | null | undefined): void {
     const track = (this.track = new Track(net));
     this.lines = [];
+    this.marked = 0;
     this.stage.reset(net, "live");
     this.show(true);
     void this.api.floor(floor).then((found) => (track.floor = found));
@@ -167,11 +206,11 @@ export class Runner {
 
   /** By an event, or by all that is known of the run. */
   private told(info: RunEvent | RunInfo): void {
-    const { state, why, outcome, marking } = info;
+    const { state, why, outcome, marking, firings } = info;
     this.store.set({ state, why, outcome });
-    if (this.track) this.stage.setMarked(marking);
+    this.setMarked(marking, firings);
     if ("values" in info) {
-      this.counted(info.firings);
+      this.counted(firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);
       if (info.scene) this.sawScene(info.scene);
@@ -197,6 +236,14 @@ export class Runner {
     }
   }
 
+  /** Shows a marking, unless it is older than the one shown: fewer firings have led to it. */
+  private setMarked(marking: readonly number[], firings: number): boolean {
+    if (!this.track || firings < this.marked) return false;
+    this.marked = firings;
+    this.stage.setMarked(marking);
+    return true;
+  }
+
   /** total: firings of the run so far. Events may have been lost since the last total. */
   private counted(total: number): void {
     const { track, stage } = this;
@@ -214,10 +261,10 @@ export class Runner {
     this.counted(total);
     for (const [time, transition] of firings) {
       track.timeline.add(time, transition);
-      stage.fired(transition, marking === undefined);
+      stage.fired(transition, marking === undefined && total > this.marked);
     }
-    if (!marking) return;
-    stage.setMarked(marking);
+    this.marked = Math.max(this.marked, total);
+    if (!marking || !this.setMarked(marking, total)) return;
     track.timeline.tell(t, runningBehaviours(track.net, stage.marking));
   }
 

@@ -36,6 +36,11 @@ export async function onPage(project, test, options = {}) {
     await page.getByText("Opening…").waitFor({ state: "detached" });
     await test(page, server, open);
     assert.deepEqual(problems, []);
+  } catch (error) {
+    // What a person would have seen, since nobody sees it where tests run.
+    for (const page of context.pages())
+      console.error(`-- the page when the test failed\n${await page.locator("body").innerText().catch(String)}\n--`);
+    throw error;
   } finally {
     await browser.close();
     await server.close();

@@ -26,7 +26,7 @@ struct Snapshot {
   };
   /// Additional state of a run in simulated time.
   struct Simulation {
-    bool paused = false;
+    bool paused = false;       ///< it stands, and all that it has fired is in its recording
     std::uint64_t pauses = 0;  ///< how often it has been paused
     double speed = 0;          ///< simulated seconds a second; 0: as fast as possible
     std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none

@@ -18,7 +18,11 @@ constexpr double fastest = 1000;
 }  // namespace
 
 RemoteControl::RemoteControl(Assembly& assembly, bool paused, double speed)
-    : assembly_(assembly), paused_(paused), speed_(speed), news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    : assembly_(assembly),
+      paused_(paused),
+      stands_(paused),
+      speed_(speed),
+      news_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   update();
 }
 
@@ -129,7 +133,7 @@ bool RemoteControl::find(Breakpoint& breakpoint) const {
 
 Snapshot::Simulation RemoteControl::shown() const {
   const std::lock_guard lock(mutex_);
-  return {.paused = resting(), .pauses = pauses_, .speed = speed_, .broke_at = broke_at_};
+  return {.paused = stands_ && resting(), .pauses = pauses_, .speed = speed_, .broke_at = broke_at_};
 }
 
 void RemoteControl::abandon() {
@@ -152,7 +156,8 @@ bool RemoteControl::wait_while_paused(const StopSignals& signals) {
   while (StopSignals::pending() == 0 && !assembly_.control.stopping()) {
     {
       const std::lock_guard lock(mutex_);
-      if (!resting()) return waited;
+      stands_ = resting();
+      if (!stands_) return waited;
       if (!waited) {
         ++pauses_;
         if (assembly_.recorder != nullptr) assembly_.recorder->flush();
@@ -164,6 +169,8 @@ bool RemoteControl::wait_while_paused(const StopSignals& signals) {
     take_news();
     waited = true;
   }
+  const std::lock_guard lock(mutex_);
+  stands_ = false;
   return waited;
 }
 

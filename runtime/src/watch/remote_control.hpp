@@ -76,6 +76,7 @@ class RemoteControl {
   Assembly& assembly_;
   mutable std::mutex mutex_;
   bool paused_;
+  bool stands_ = false;  ///< the run waits, and all that it has fired is in its recording
   std::uint64_t firings_left_ = 0;
   bool to_iteration_ = false;              ///< of iterating_, or of any subsystem
   std::uint32_t iterating_ = UINT32_MAX;   ///< UINT32_MAX: any

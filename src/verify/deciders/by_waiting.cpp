@@ -30,11 +30,11 @@ std::set<std::string> certainly_reached(const CommunicationStructure& structure,
   return reached;
 }
 
-/// Circles of subsystems that wait for each other: docs/waiting.md.
+/// Circular waits: subsystems that wait for each other: docs/waiting.md.
 class ByWaiting final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "waiting"; }
-  [[nodiscard]] const char* title() const override { return "circles of waiting"; }
+  [[nodiscard]] const char* title() const override { return "circular waits"; }
 
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& limits) const override {

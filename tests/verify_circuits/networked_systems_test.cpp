@@ -40,21 +40,21 @@ bool crosses(const spec::Model& model) {
                              [&](const spec::Channel& channel) { return model.crosses_processes(channel); });
 }
 
-bool some(const std::vector<bool>& flags) { return std::ranges::count(flags, true) > 0; }
+bool any_of(const std::vector<bool>& flags) { return std::ranges::count(flags, true) > 0; }
 
-struct Tally {
+struct NetworkTally {
   std::uint64_t compared = 0, too_large = 0, folded = 0, good = 0, stuck = 0, deadlocks = 0, dry = 0;
   std::uint64_t waiting = 0, survives = 0, strict = 0, only_by_cut = 0;
 };
 
 /// Circuits and waits, which read off the net what each side does, against all markings of the net.
-void compare_verdicts(const net::Net& net, const NaiveAnswers& naive, Tally& tally) {
+void compare_verdicts(const net::Net& net, const NaiveAnswers& naive, NetworkTally& tally) {
   const Judged judged = judge(net);
   const verify::CircuitReport& report = judged.report;
   if (report.goes_on != Answer::unknown) {
     ++tally.folded;
-    EXPECT_EQ(report.goes_on == Answer::yes, !some(naive.stuck));
-    ++(some(naive.stuck) ? tally.stuck : tally.good);
+    EXPECT_EQ(report.goes_on == Answer::yes, !any_of(naive.stuck));
+    ++(any_of(naive.stuck) ? tally.stuck : tally.good);
   }
   if (report.deadlock_free != Answer::unknown) {
     EXPECT_EQ(report.deadlock_free == Answer::yes, !naive.deadlock);
@@ -86,17 +86,19 @@ void compare_verdicts(const net::Net& net, const NaiveAnswers& naive, Tally& tal
 }
 
 /// The linear rule: a system survives if it goes on with a fair network and no side waits for it for ever.
-void compare_partition(const net::Net& net, const NaiveAnswers& fair, const NaiveAnswers& cut, Tally& tally) {
+void compare_partition(const net::Net& net, const NaiveAnswers& fair, const NaiveAnswers& cut,
+                       NetworkTally& tally) {
   const Judged judged = judge(net);
   const std::vector<verify::StrictSide> strict = verify::strict_sides(judged.structure);
-  EXPECT_EQ(strict.empty() && !some(fair.stuck), !some(cut.stuck));
+  EXPECT_EQ(strict.empty() && !any_of(fair.stuck), !any_of(cut.stuck));
   if (strict.empty()) {
     EXPECT_EQ(fair.deadlock, cut.deadlock);
   }
   for (const verify::StrictSide& side : strict)
-    EXPECT_TRUE(cut.stuck[judged.structure[side.subsystem].id.value]) << judged.structure[side.subsystem].name;
-  ++(some(cut.stuck) ? tally.strict : tally.survives);
-  tally.only_by_cut += some(cut.stuck) && !some(fair.stuck) ? 1 : 0;
+    EXPECT_TRUE(cut.stuck[judged.structure[side.subsystem].id.value])
+        << judged.structure[side.subsystem].name;
+  ++(any_of(cut.stuck) ? tally.strict : tally.survives);
+  tally.only_by_cut += any_of(cut.stuck) && !any_of(fair.stuck) ? 1 : 0;
 }
 
 void expect_safe_by_invariants(const spec::Model& model) {
@@ -114,7 +116,7 @@ void expect_safe_by_invariants(const spec::Model& model) {
     EXPECT_EQ(property.verdict, verify::Verdict::holds) << property.name << ": " << property.why;
 }
 
-void compare(spec::Model (*random)(std::uint64_t), std::uint64_t systems, Tally& tally) {
+void compare_deployed(spec::Model (*random)(std::uint64_t), std::uint64_t systems, NetworkTally& tally) {
   const std::uint64_t first = from_environment("TESSERA_RANDOM_SEED", 0);
   for (std::uint64_t seed = first; tally.compared < systems; ++seed) {
     const spec::Model model = deployed(random(seed), 1 + static_cast<spec::Index>(seed % 2));
@@ -141,8 +143,8 @@ void compare(spec::Model (*random)(std::uint64_t), std::uint64_t systems, Tally&
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
   const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300);
-  Tally tally;
-  compare(random_system, systems, tally);
+  NetworkTally tally;
+  compare_deployed(random_system, systems, tally);
   RecordProperty("compared", static_cast<int>(tally.compared));
   RecordProperty("too_large", static_cast<int>(tally.too_large));
   RecordProperty("survive", static_cast<int>(tally.survives));
@@ -154,8 +156,8 @@ TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearchWhereBehavioursDiffer) {
   const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300) / 2;
-  Tally tally;
-  compare(random_differing_system, systems, tally);
+  NetworkTally tally;
+  compare_deployed(random_differing_system, systems, tally);
   EXPECT_GT(tally.waiting, 0U);
   EXPECT_GT(tally.survives, 0U);
   EXPECT_GT(tally.only_by_cut, 0U);

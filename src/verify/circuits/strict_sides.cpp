@@ -38,7 +38,7 @@ std::string timeout_hint(const CommunicationStructure& structure, const net::Net
   constexpr std::size_t shown = 6;
   std::vector<std::uint32_t> lines(net.parts().channels.size(), 0);
   for (const net::Place& place : net.places())
-    if (place.fused()) lines[place.channel.value] = place.span.line;
+    if (place.fused() && place.span.line > 0) lines[place.channel.value] = place.span.line;
   struct Group {
     std::string first;
     std::size_t members = 0;

@@ -76,11 +76,12 @@ class SubsystemReader {
   }
 
   std::optional<PlaceId> advance(PlaceId at, std::vector<Stage>& stages) const {
-    if (const auto next = silent_step(at)) return next;
+    // A sender over a network begins to write without a look at the channel, so blocks come first.
     if (const auto block = block_at(steps_, at)) {
       stages.push_back({block->communication});
       return block->out;
     }
+    if (const auto next = silent_step(at)) return next;
     return parallel_transfer(at, stages);
   }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -101,7 +102,7 @@ class Subsystems {
     for (std::uint32_t page = 0; page < pages_.pages.size(); ++page)
       if (pages_.pages[page].subsystem.valid()) gather(net::PageId{page});
     std::vector<Invariant> all = tokens_;
-    for (const Detour& detour : detours_) all.push_back(by_way_of(detour));
+    for (const auto& [side, detours] : detours_) all.push_back(by_way_of(side, detours));
     for (Invariant& branch : branches_) all.push_back(std::move(branch));
     return all;
   }
@@ -124,33 +125,39 @@ class Subsystems {
       add(equal, places, found.branches[branch]);
       add(equal, places, found.branches.front(), -1);
       branches_.push_back(std::move(equal));
-      if (uses_network(page, found.branches[branch]))
-        detours_.push_back({id, found.branches.front(), found.branches[branch]});
+      for (const std::uint32_t node : found.branches[branch]) gather_detour(id, node, found, branch);
     }
   }
 
-  /// A branch of a parallel transfer, and the first one of its page.
+  /// A branch of a parallel transfer that counts in place of the first one of its page.
   struct Detour {
     net::PageId page;
     Nodes first, branch;
   };
+  /// One side of a channel; those of several behaviours use one memory.
+  using SideOfChannel = std::pair<std::uint32_t, bool>;
 
-  [[nodiscard]] bool uses_network(const net::Page& page, const Nodes& branch) const {
-    return std::ranges::any_of(branch, [&](std::uint32_t node) {
-      const net::BlockId block = page.nodes[node].block;
-      return block.valid() && model_.crosses_processes(model_.channels[pages_.parts[block].channel.value]);
-    });
+  void gather_detour(net::PageId id, std::uint32_t node, const Branches& found, std::size_t branch) {
+    const net::Node& drawn = pages_.pages[id.value].nodes[node];
+    if (!drawn.block.valid() || drawn.operation.kind == net::Operation::Kind::none) return;
+    const net::Parts::Block& block = pages_.parts[drawn.block];
+    if (!model_.crosses_processes(model_.channels[block.channel.value])) return;
+    detours_[{block.channel.value, block.sends}].push_back(
+        {id, found.branches.front(), found.branches[branch]});
   }
 
-  [[nodiscard]] Invariant by_way_of(const Detour& detour) const {
-    Invariant token = tokens_[pages_.pages[detour.page.value].subsystem.value];
-    token.name += ", by another branch of " + pages_.path(detour.page);
-    const auto places = places_.of(detour.page);
-    std::erase_if(token.terms, [&](const Invariant::Term& term) {
-      return std::ranges::any_of(detour.first,
-                                 [&](std::uint32_t node) { return places[node] == term.place; });
-    });
-    add(token, places, detour.branch);
+  [[nodiscard]] Invariant by_way_of(const SideOfChannel& side, const std::vector<Detour>& detours) const {
+    Invariant token = tokens_[pages_.pages[detours.front().page.value].subsystem.value];
+    token.name += ", by the branches that " + std::string(side.second ? "send " : "receive ") +
+                  pages_.parts[net::ChannelId{side.first}];
+    for (const Detour& detour : detours) {
+      const auto places = places_.of(detour.page);
+      std::erase_if(token.terms, [&](const Invariant::Term& term) {
+        return std::ranges::any_of(detour.first,
+                                   [&](std::uint32_t node) { return places[node] == term.place; });
+      });
+      add(token, places, detour.branch);
+    }
     return token;
   }
 
@@ -167,7 +174,7 @@ class Subsystems {
   const spec::Model& model_;
   const net::HierarchicalNet& pages_;
   const Places& places_;
-  std::vector<Detour> detours_;
+  std::map<SideOfChannel, std::vector<Detour>> detours_;
   std::vector<Invariant> tokens_;    // per instance
   std::vector<Invariant> branches_;  // second and later branches
 };

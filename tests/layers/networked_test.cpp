@@ -165,7 +165,7 @@ TEST(Networked, InProcessesOfTheirOwnMemoriesAreGuardedByTheTokensOfTheSubsystem
   const auto all = invariants(deployed.model, deployed.pages, deployed.flat);
   EXPECT_EQ(std::ranges::count_if(all,
                                   [](const net::Invariant& invariant) {
-                                    return invariant.name.find("by another branch of a.control.run.snd") !=
+                                    return invariant.name.find("by the branches that send a.control.z") !=
                                            std::string::npos;
                                   }),
             1);

@@ -123,8 +123,8 @@ void compare_deployed(spec::Model (*random)(std::uint64_t), std::uint64_t system
     if (!crosses(model)) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));
     const net::Net net = flat_net(model);
-    const auto fair = explore_naively(net, 4000);
-    const auto cut = fair ? explore_naively(verify::abstract_net(net, Assume::partition), 40'000)
+    const auto fair = explore_naively(net, 1500);
+    const auto cut = fair ? explore_naively(verify::abstract_net(net, Assume::partition), 6'000)
                           : std::optional<NaiveAnswers>();
     if (!cut) {
       ++tally.too_large;
@@ -142,7 +142,7 @@ void compare_deployed(spec::Model (*random)(std::uint64_t), std::uint64_t system
 }
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300);
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 200);
   NetworkTally tally;
   compare_deployed(random_system, systems, tally);
   RecordProperty("compared", static_cast<int>(tally.compared));
@@ -155,7 +155,7 @@ TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
 }
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearchWhereBehavioursDiffer) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300) / 2;
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 200) / 2;
   NetworkTally tally;
   compare_deployed(random_differing_system, systems, tally);
   EXPECT_GT(tally.waiting, 0U);

@@ -62,7 +62,7 @@ struct Judged {
   }
   /// The names of all properties that can be requested.
   [[nodiscard]] std::vector<std::string> properties() const {
-    std::vector<std::string> names = verify::default_properties();
+    std::vector<std::string> names = verify::default_properties_of(net());
     if (nets)
       for (const net::Property& property : nets->properties) names.push_back(property.name);
     return names;
@@ -124,6 +124,8 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Ver
   for (const verify::PropertyResult& property : report.properties)
     if (property.has_trace && (chosen == nullptr || (chosen->warning && !property.warning)))
       chosen = &property;
+  if (verify::is_deployed(judged.net()))
+    return complain("--scenario drives a controller of one process, and these runs are of a deployed system");
   if (judged.drawn) return complain("--scenario needs a specification: a PNML net has no controller");
   if (chosen == nullptr)
     return complain("no property is violated by a run, so there is no scenario to write");

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <string_view>
 
+#include "layers/networked.hpp"
+#include "layers/side_pen.hpp"
 #include "tessera/net_words.hpp"
 
 namespace tessera::layers {
@@ -13,43 +14,6 @@ namespace {
 using spec::CommunicationModel;
 using spec::Mode;
 using spec::ModelSide;
-
-/// One side in the making; arcs name places.
-class SidePen {
- public:
-  SidePen(const CommunicationModel& around, ModelSide& side) : around_(around), side_(side) {
-    place(words::input);
-    place(words::output);
-  }
-
-  void place(std::string_view name, std::uint32_t slot = ModelSide::no_slot) {
-    side_.places.push_back({std::string(name), slot, {}});
-  }
-
-  using Names = std::initializer_list<std::string_view>;
-  void transition(std::string_view name, Names from, Names to, bool elapsed = false) {
-    ModelSide::Transition transition;
-    transition.name = name;
-    transition.elapsed = elapsed;
-    for (const std::string_view end : from) join(end, transition.from, transition.takes);
-    for (const std::string_view end : to) join(end, transition.to, transition.gives);
-    side_.transitions.push_back(std::move(transition));
-  }
-
- private:
-  void join(std::string_view name, std::uint32_t& own, std::vector<std::uint32_t>& shared) const {
-    const auto place = std::ranges::find(side_.places, name, &ModelSide::Place::name);
-    if (place != side_.places.end()) {
-      own = static_cast<std::uint32_t>(place - side_.places.begin());
-      return;
-    }
-    const auto fused = std::ranges::find(around_.shared, name, &spec::SharedPlace::name);
-    shared.push_back(static_cast<std::uint32_t>(fused - around_.shared.begin()));
-  }
-
-  const CommunicationModel& around_;
-  ModelSide& side_;
-};
 
 /// Both sides non-blocking.
 CommunicationModel exchange() {
@@ -103,13 +67,17 @@ CommunicationModel hand_over(Mode send, Mode receive, bool send_timeout, bool re
   return model;
 }
 
-std::array<CommunicationModel, 16> all_built_in() {
-  std::array<CommunicationModel, 16> all;
-  for (std::size_t index = 0; index < all.size(); ++index) {
+/// By modes and timeouts, those within a process first.
+std::array<CommunicationModel, 32> all_built_in() {
+  std::array<CommunicationModel, 32> all;
+  for (std::size_t index = 0; index < 16; ++index) {
     const Mode send{static_cast<std::uint8_t>(index & 1U)},
         receive{static_cast<std::uint8_t>(index >> 1U & 1U)};
-    const bool blocks = send == Mode::blocking || receive == Mode::blocking;
-    all[index] = blocks ? hand_over(send, receive, (index & 4U) != 0, (index & 8U) != 0) : exchange();
+    const bool send_blocks = send == Mode::blocking, receive_blocks = receive == Mode::blocking;
+    const bool send_timeout = (index & 4U) != 0, receive_timeout = (index & 8U) != 0;
+    all[index] =
+        send_blocks || receive_blocks ? hand_over(send, receive, send_timeout, receive_timeout) : exchange();
+    all[16 + index] = networked({send_blocks, send_timeout}, {receive_blocks, receive_timeout});
   }
   return all;
 }
@@ -117,11 +85,12 @@ std::array<CommunicationModel, 16> all_built_in() {
 }  // namespace
 
 const CommunicationModel& model_of(const spec::Model& model, const spec::Channel& channel) {
-  static const std::array<CommunicationModel, 16> built_in = all_built_in();
+  static const std::array<CommunicationModel, 32> built_in = all_built_in();
   if (channel.model != spec::none) return model.models[channel.model];
   return built_in[static_cast<std::size_t>(channel.send) | static_cast<std::size_t>(channel.receive) << 1U |
                   static_cast<std::size_t>(channel.send_timeout.has_value()) << 2U |
-                  static_cast<std::size_t>(channel.receive_timeout.has_value()) << 3U];
+                  static_cast<std::size_t>(channel.receive_timeout.has_value()) << 3U |
+                  static_cast<std::size_t>(model.crosses_processes(channel)) << 4U];
 }
 
 net::PlaceRole role_of(const spec::SharedPlace& place) {
@@ -130,16 +99,28 @@ net::PlaceRole role_of(const spec::SharedPlace& place) {
     std::uint32_t tokens;
     net::PlaceRole role;
   };
-  constexpr std::array<Known, 4> known{{{words::lock, 1, net::PlaceRole::lock},
+  constexpr std::array<Known, 9> known{{{words::lock, 1, net::PlaceRole::lock},
                                         {words::empty, 1, net::PlaceRole::empty},
                                         {words::full, 0, net::PlaceRole::full},
-                                        {words::acknowledged, 0, net::PlaceRole::acknowledged}}};
+                                        {words::acknowledged, 0, net::PlaceRole::acknowledged},
+                                        {words::idle, 1, net::PlaceRole::idle},
+                                        {words::sent, 0, net::PlaceRole::sent},
+                                        {words::more, 0, net::PlaceRole::more},
+                                        {words::sent_memory, 1, net::PlaceRole::sent_memory},
+                                        {words::received_memory, 1, net::PlaceRole::received_memory}}};
   const auto found = std::ranges::find(known, place.name, &Known::name);
   return found != known.end() && found->tokens == place.tokens ? found->role : net::PlaceRole::none;
 }
 
 net::PlaceRole role_of(const ModelSide::Place& place) {
   return place.name == words::waiting ? net::PlaceRole::waiting : net::PlaceRole::none;
+}
+
+net::TransitionRole role_of(const spec::MediumTransition& transition) {
+  using Role = net::TransitionRole;
+  if (transition.name == words::replace) return Role::replace;
+  if (transition.name == words::deliver_older) return Role::deliver_older;
+  return transition.name == words::lose_older ? Role::lose_older : Role::deliver;
 }
 
 net::TransitionRole role_of(const ModelSide::Transition& transition) {

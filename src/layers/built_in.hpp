@@ -6,7 +6,7 @@
 namespace tessera::layers {
 
 /// The communication model of a channel: the one that the specification names, or the built-in one for its
-/// modes and timeouts. Valid as long as `model`.
+/// modes and timeouts, within a process or between two. Valid as long as `model`.
 ///
 /// Source: paper, sec. IV-E. Non-blocking at both ends is its fully asynchronous model; the other built-in
 /// models are made in the same way. docs/specification.md draws them.
@@ -18,5 +18,6 @@ namespace tessera::layers {
 [[nodiscard]] net::PlaceRole role_of(const spec::SharedPlace& place);
 [[nodiscard]] net::PlaceRole role_of(const spec::ModelSide::Place& place);
 [[nodiscard]] net::TransitionRole role_of(const spec::ModelSide::Transition& transition);
+[[nodiscard]] net::TransitionRole role_of(const spec::MediumTransition& transition);
 
 }  // namespace tessera::layers

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -90,16 +91,18 @@ void add(Invariant& invariant, std::span<const PlaceId> places, const Nodes& nod
 
 /// One token per subsystem, wherever it is: still above, in the subsystem, or waiting above for the others
 /// to end. In a parallel transfer it counts the first branch; `branches` says that the other branches
-/// hold as much.
+/// hold as much. The memory of a side over a network has no other guard than that token, so a branch with
+/// such a block also gets an invariant that counts it in place of the first.
 class Subsystems {
  public:
-  Subsystems(const net::HierarchicalNet& pages, const Places& places, std::size_t instances)
-      : pages_(pages), places_(places), tokens_(instances) {}
+  Subsystems(const spec::Model& model, const net::HierarchicalNet& pages, const Places& places)
+      : model_(model), pages_(pages), places_(places), tokens_(model.instances.size()) {}
 
   std::vector<Invariant> result() {
     for (std::uint32_t page = 0; page < pages_.pages.size(); ++page)
       if (pages_.pages[page].subsystem.valid()) gather(net::PageId{page});
-    std::vector<Invariant> all = std::move(tokens_);
+    std::vector<Invariant> all = tokens_;
+    for (const auto& [side, detours] : detours_) all.push_back(by_way_of(side, detours));
     for (Invariant& branch : branches_) all.push_back(std::move(branch));
     return all;
   }
@@ -122,7 +125,40 @@ class Subsystems {
       add(equal, places, found.branches[branch]);
       add(equal, places, found.branches.front(), -1);
       branches_.push_back(std::move(equal));
+      for (const std::uint32_t node : found.branches[branch]) gather_detour(id, node, found, branch);
     }
+  }
+
+  /// A branch of a parallel transfer that counts in place of the first one of its page.
+  struct Detour {
+    net::PageId page;
+    Nodes first, branch;
+  };
+  /// One side of a channel; those of several behaviours use one memory.
+  using SideOfChannel = std::pair<std::uint32_t, bool>;
+
+  void gather_detour(net::PageId id, std::uint32_t node, const Branches& found, std::size_t branch) {
+    const net::Node& drawn = pages_.pages[id.value].nodes[node];
+    if (!drawn.block.valid() || drawn.operation.kind == net::Operation::Kind::none) return;
+    const net::Parts::Block& block = pages_.parts[drawn.block];
+    if (!model_.crosses_processes(model_.channels[block.channel.value])) return;
+    detours_[{block.channel.value, block.sends}].push_back(
+        {id, found.branches.front(), found.branches[branch]});
+  }
+
+  [[nodiscard]] Invariant by_way_of(const SideOfChannel& side, const std::vector<Detour>& detours) const {
+    Invariant token = tokens_[pages_.pages[detours.front().page.value].subsystem.value];
+    token.name += ", by the branches that " + std::string(side.second ? "send " : "receive ") +
+                  pages_.parts[net::ChannelId{side.first}];
+    for (const Detour& detour : detours) {
+      const auto places = places_.of(detour.page);
+      std::erase_if(token.terms, [&](const Invariant::Term& term) {
+        return std::ranges::any_of(detour.first,
+                                   [&](std::uint32_t node) { return places[node] == term.place; });
+      });
+      add(token, places, detour.branch);
+    }
+    return token;
   }
 
   void begin(net::PageId id, Invariant& token) const {
@@ -135,8 +171,10 @@ class Subsystems {
     }
   }
 
+  const spec::Model& model_;
   const net::HierarchicalNet& pages_;
   const Places& places_;
+  std::map<SideOfChannel, std::vector<Detour>> detours_;
   std::vector<Invariant> tokens_;    // per instance
   std::vector<Invariant> branches_;  // second and later branches
 };
@@ -204,9 +242,13 @@ class Channels {
     return (unit ? "one of " : "") + more + less;
   }
 
-  /// Fused places follow one another, channel by channel, as the model has them.
+  /// Fused places follow one another, channel by channel, as the model has them, without those that nobody
+  /// uses.
   void gather_fused(PlaceId place) {
     Gathered& channel = at(net_[place].channel);
+    const std::vector<spec::SharedPlace>& shared = channel.model->shared;
+    while (channel.shared < shared.size() && !net_[place].name.ends_with("." + shared[channel.shared].name))
+      ++channel.shared;
     for (std::size_t index = 0; index < channel.invariants.size(); ++index)
       add_term(channel.invariants[index], place, (*channel.known)[index].shared[channel.shared]);
     ++channel.shared;
@@ -251,7 +293,7 @@ class Channels {
 std::vector<Invariant> invariants(const spec::Model& model, const net::HierarchicalNet& pages,
                                   const net::Net& net) {
   const Places places(pages, net);
-  std::vector<Invariant> all = Subsystems(pages, places, model.instances.size()).result();
+  std::vector<Invariant> all = Subsystems(model, pages, places).result();
   for (Invariant& invariant : Channels(model, pages, net, places).result())
     all.push_back(std::move(invariant));
   return all;

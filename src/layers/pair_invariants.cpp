@@ -35,7 +35,8 @@ class Columns {
 };
 
 std::vector<Row> start(const CommunicationModel& model, const Columns& columns) {
-  const std::size_t transitions = model.send.transitions.size() + model.receive.transitions.size();
+  const std::size_t transitions =
+      model.send.transitions.size() + model.receive.transitions.size() + model.medium.size();
   std::vector<Row> rows(columns.count(), {Vector(transitions, 0), Vector(columns.count(), 0)});
   for (std::size_t column = 0; column < rows.size(); ++column) rows[column].weights[column] = 1;
   std::size_t number = 0;
@@ -47,6 +48,11 @@ std::vector<Row> start(const CommunicationModel& model, const Columns& columns) 
       for (const std::uint32_t place : transition.gives) ++rows[place].change[number];
       ++number;
     }
+  for (const spec::MediumTransition& transition : model.medium) {
+    for (const std::uint32_t place : transition.takes) --rows[place].change[number];
+    for (const std::uint32_t place : transition.gives) ++rows[place].change[number];
+    ++number;
+  }
   return rows;
 }
 

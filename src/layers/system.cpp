@@ -1,7 +1,37 @@
+#include <string>
+#include <vector>
+
+#include "layers/built_in.hpp"
 #include "layers/sheet.hpp"
 #include "tessera/net_words.hpp"
 
 namespace tessera::layers {
+
+namespace {
+
+/// What carries the values of a channel between processes. It is drawn where both agents are seen, and
+/// belongs to neither.
+void draw_medium_of(const Draft& draft, Sheet& sheet, spec::Index channel) {
+  const spec::CommunicationModel& model = model_of(draft.model, draft.model.channels[channel]);
+  if (draft.memory[channel].empty() || model.medium.empty()) return;
+  const std::string prefix = draft.net.parts.channels[channel] + ".";
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t place = 0; place < model.shared.size(); ++place)
+    nodes.push_back(sheet.fused(prefix + model.shared[place].name, draft.memory[channel][place]));
+  const auto ends = [&](const std::vector<std::uint32_t>& places) {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t place : places) all.push_back(nodes[place]);
+    return all;
+  };
+  for (const spec::MediumTransition& transition : model.medium) {
+    net::PageTransition& drawn =
+        sheet.transition(prefix + transition.name, ends(transition.takes), ends(transition.gives));
+    drawn.role = role_of(transition);
+    drawn.span = draft.model.channels[channel].span;
+  }
+}
+
+}  // namespace
 
 /// Layer 1, the multi-agent system (paper, sec. IV-A). The paper draws no `in` and `out` here; without them
 /// `t_in` would fire for ever.
@@ -14,6 +44,8 @@ net::PageId draw_system(Draft& draft) {
   const std::uint32_t out = sheet.output();
   sheet.transition(words::start, {in}, agents).role = net::TransitionRole::start;
   sheet.transition(words::end, agents, {out}).role = net::TransitionRole::end;
+  for (spec::Index channel = 0; channel < draft.model.channels.size(); ++channel)
+    draw_medium_of(draft, sheet, channel);
   return sheet.finish(in, out);
 }
 

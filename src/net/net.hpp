@@ -86,21 +86,41 @@ enum class PlaceRole : std::uint8_t {
   waiting,       ///< of a block: until the value is acknowledged
   no_successor,  ///< a behaviour was left and no initial condition held: see verify::abstract_net
   // The memory of a channel, of the form that the built-in models have:
-  lock,         ///< both sides are non-blocking: neither uses the memory now
-  empty,        ///< no value
-  full,         ///< a value that has not been read
-  acknowledged  ///< a value was read, and the sender does not know it yet
+  lock,          ///< both sides are non-blocking: neither uses the memory now
+  empty,         ///< no value
+  full,          ///< a value that has not been read
+  acknowledged,  ///< a value was read, and the sender does not know it yet
+  // The memory of a channel between processes, besides `empty` and `full` of the receiver:
+  idle,             ///< no value is on the way
+  sent,             ///< the newest value is on the way, alone
+  more,             ///< the newest value and older ones are on the way
+  sent_memory,      ///< both sides are non-blocking: the sender does not use its memory now
+  received_memory,  ///< the same of the receiver
+  link              ///< it still works: see verify::abstract_net
 };
+
+/// Has only a channel between processes a place of this role?
+[[nodiscard]] constexpr bool is_networked(PlaceRole role) {
+  return role >= PlaceRole::idle && role <= PlaceRole::received_memory;
+}
 
 /// The role of a transition in the five layers, besides its condition.
 enum class TransitionRole : std::uint8_t {
   none,
-  start,        ///< enters the page: starts its agents, its subsystems, or its first behaviour
-  end,          ///< leaves the page
-  overwrite,    ///< of a block: replaces a value that has not been read
-  skip,         ///< of a block: there is nothing to read
-  no_successor  ///< a behaviour is left and no initial condition holds
+  start,         ///< enters the page: starts its agents, its subsystems, or its first behaviour
+  end,           ///< leaves the page
+  overwrite,     ///< of a block: replaces a value that has not been read
+  skip,          ///< of a block: there is nothing to read
+  no_successor,  ///< a behaviour is left and no initial condition holds
+  // Of the medium of a channel between processes; they belong to no subsystem:
+  deliver,        ///< the newest value arrives
+  replace,        ///< it arrives and overwrites one that has not been read
+  deliver_older,  ///< an older value arrives
+  lose_older,     ///< the older values never arrive
+  cut             ///< the link fails for ever: see verify::abstract_net
 };
+
+[[nodiscard]] constexpr bool is_of_medium(TransitionRole role) { return role >= TransitionRole::deliver; }
 
 /// The meaning of the numbers of a net's elements: the agents, subsystems, channels and blocks of the net.
 /// Empty for a net that was not made from a specification.

@@ -2,6 +2,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/buffers.hpp"
+#include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/models.hpp"
@@ -40,7 +41,7 @@ std::string read_system(const Section& file, Diagnostics& out) {
 Model read_model(const Document& document, Diagnostics& out) {
   const Section file(document.root(), document.root().span, "a specification",
                      {"tessera", "system", "types", "parameters", "templates", "agents", "channels",
-                      "drivers", "properties", "simulation", "models"},
+                      "drivers", "properties", "simulation", "models", "deploy"},
                      out);
   Model model;
   if (!file.readable()) return model;
@@ -61,6 +62,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
+  read_deployment(file.find("deploy"), groups, model, out);
   return model;
 }
 

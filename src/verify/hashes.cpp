@@ -104,4 +104,8 @@ std::string verification_hash(const Subject& subject, const std::vector<std::str
   return hash.hex();
 }
 
+std::string verification_hash(const Subject& subject) {
+  return verification_hash(subject, default_properties_of(subject.net));
+}
+
 }  // namespace tessera::verify

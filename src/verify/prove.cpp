@@ -42,6 +42,10 @@ const std::vector<Property>& defaults() {
        .sort = Sort::always_can,
        .questions = {Question::Kind::deadlock_free, Question::Kind::goes_on},
        .assume = Assume::exceptions},
+      {.name = "survives_partition",
+       .sort = Sort::always_can,
+       .questions = {Question::Kind::goes_on, Question::Kind::deadlock_free},
+       .assume = Assume::partition},
   };
   return all;
 }
@@ -103,6 +107,7 @@ class Answering {
       const bool holds = finding.kind == Finding::Kind::holds;
       result_.verdict = holds ? Verdict::holds : Verdict::violated;
       result_.why = std::move(finding.why);
+      result_.hint = std::move(finding.hint);
       if (!holds) show(finding);
     }
     result_.method = method;
@@ -145,6 +150,7 @@ class Prover {
  private:
   [[nodiscard]] bool asked_for(const Property& property) const {
     const bool named = options_.only.empty() || std::ranges::count(options_.only, property.name) > 0;
+    if (property.assume == Assume::partition && !is_deployed(facts_.subject().net)) return false;
     return named && (facts_.subject().pages != nullptr || property.of_any_net);
   }
 
@@ -162,7 +168,8 @@ class Prover {
     if (property.author != nullptr) result.asks = property.author->text;
     result.states = states;
     result.exceptions = property.assume == Assume::exceptions;
-    result.warning = result.exceptions;
+    result.partition = property.assume == Assume::partition;
+    result.warning = result.exceptions || result.partition;
     result.meaning = meaning_of(result.verdict, property.sort);
     return result;
   }
@@ -217,7 +224,9 @@ class Prover {
     for (const auto& decider : portfolio()) {
       const bool allowed = options_.method.empty() || options_.method == decider->name();
       if (!allowed || !answering.wants(*decider)) continue;
-      const explore::Limits limits = answering.only_run() ? limits_for(name, 0.15, 0.25) : limits_for(name);
+      // A cut link is simple to imagine: the run that shows it is not worth much time.
+      const double time = answering.question().assume == Assume::partition ? 0.02 : 0.15;
+      const explore::Limits limits = answering.only_run() ? limits_for(name, time, 0.25) : limits_for(name);
       if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
         answering.hear(std::move(*finding), *decider);
     }
@@ -254,12 +263,24 @@ bool shown_by_end(const Subject& subject, const PropertyResult& result) {
 
 void make_readable(const Subject& subject, PropertyResult& result) {
   if (!result.has_trace || subject.pages == nullptr) return;
-  const net::Net net = abstract_net(subject.net, result.exceptions ? Assume::exceptions : Assume::conditions);
+  const net::Net net = abstract_net(subject.net, assumed_by(result));
   if (shown_by_end(subject, result)) result.trace = tidy(net, std::move(result.trace));
   result.trace = with_fitting_endings(net, std::move(result.trace));
 }
 
 }  // namespace
+
+Assume assumed_by(const PropertyResult& property) {
+  if (property.partition) return Assume::partition;
+  return property.exceptions ? Assume::exceptions : Assume::conditions;
+}
+
+std::vector<std::string> default_properties_of(const net::Net& net) {
+  std::vector<std::string> names;
+  for (const Property& property : defaults())
+    if (property.assume != Assume::partition || is_deployed(net)) names.push_back(property.name);
+  return names;
+}
 
 const std::vector<std::string>& default_properties() {
   static const std::vector<std::string> names = [] {

@@ -46,6 +46,8 @@ struct PropertyResult {
   std::uint64_t states = 0;  ///< markings visited
   bool warning = false;      ///< a violation is only a warning
   bool exceptions = false;   ///< verdict and trace are about the net under Assume::exceptions
+  bool partition = false;    ///< the same under Assume::partition
+  std::string hint = {};     ///< violated: what would help; may be empty
 };
 
 struct Report {
@@ -115,16 +117,21 @@ struct Subject {
   std::span<const net::Property> properties{};
 };
 
-/// The names of the default properties, in the order in which they are reported.
+/// The names of all default properties, in the order in which they are reported. No property of an author
+/// may have one of them.
 [[nodiscard]] const std::vector<std::string>& default_properties();
+/// Those that are judged of a net: survives_partition only of one with channels between processes.
+[[nodiscard]] std::vector<std::string> default_properties_of(const net::Net& net);
 
 /// The identity of what prove is asked: net, pages, invariants, what is known of the conditions, names of the
 /// default properties, properties of the author, checker_version. Equal hashes have equal verdicts, as far as
 /// there is time to find them.
 ///
 /// Threads: pure. Linear in the net.
-[[nodiscard]] std::string verification_hash(
-    const Subject& subject, const std::vector<std::string>& properties = default_properties());
+[[nodiscard]] std::string verification_hash(const Subject& subject,
+                                            const std::vector<std::string>& properties);
+/// With all default properties of the net.
+[[nodiscard]] std::string verification_hash(const Subject& subject);
 
 /// Decides the default properties and those of the author (docs/verification.md).
 ///

@@ -48,8 +48,30 @@ inline constexpr std::string_view empty = "empty";
 inline constexpr std::string_view full = "full";
 inline constexpr std::string_view acknowledged = "ack";
 
+// The memory of a channel between processes, and what moves values from one side to the other.
+inline constexpr std::string_view idle = "idle";                ///< nothing is on the way
+inline constexpr std::string_view sent = "sent";                ///< the newest value is on the way
+inline constexpr std::string_view more = "more";                ///< the newest value and older ones are
+inline constexpr std::string_view sent_memory = "sent_memory";  ///< both sides are non-blocking:
+inline constexpr std::string_view received_memory = "received_memory";  ///< each side has a lock of its own
+inline constexpr std::string_view end_transfer_second = "t2n";
+inline constexpr std::string_view end_transfer_more = "t2m";
+inline constexpr std::string_view withdraw = "withdraw";  ///< the time is up: the value never arrives
+inline constexpr std::string_view withdraw_newest = "withdraw_m";
+inline constexpr std::string_view recall = "recall";  ///< the time is up: the value is taken back unread
+inline constexpr std::string_view deliver = "deliver";
+inline constexpr std::string_view replace = "replace";  ///< the newest value overwrites one that was not read
+inline constexpr std::string_view deliver_older = "older";
+inline constexpr std::string_view lose_older = "lost";
+
 /// After the name of a behaviour's output: none of its initial conditions holds. A transition of the net that
 /// is judged (verify/communication/abstraction.hpp), and of scenarios.
 inline constexpr std::string_view no_successor = " none";
+
+/// After the name of a channel between processes: what is added to the net that is judged if links may fail.
+inline constexpr std::string_view link = ".link";
+inline constexpr std::string_view link_back = ".link_back";  ///< for acknowledgements
+inline constexpr std::string_view cut = ".cut";
+inline constexpr std::string_view cut_back = ".cut_back";
 
 }  // namespace tessera::words

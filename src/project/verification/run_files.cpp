@@ -68,6 +68,7 @@ json report_json(const net::Net& net, const net::HierarchicalNet* pages, const v
              {"waits", property.waits},
              {"behaviours", behaviours_json(property)},
              {"trace", nullptr}};
+    if (!property.hint.empty()) one["hint"] = property.hint;
     if (property.has_trace) one["trace"] = firings_json(net_of_run(net, property), pages, property.trace);
     properties.push_back(std::move(one));
   }

@@ -38,7 +38,9 @@ json to_json(const verify::PropertyResult& property) {
           {"seconds", property.seconds},
           {"states", property.states},
           {"warning", property.warning},
-          {"exceptions", property.exceptions}};
+          {"exceptions", property.exceptions},
+          {"partition", property.partition},
+          {"hint", property.hint}};
 }
 
 verify::PropertyResult property_from(const json& kept) {
@@ -61,6 +63,8 @@ verify::PropertyResult property_from(const json& kept) {
   kept.at("states").get_to(property.states);
   kept.at("warning").get_to(property.warning);
   kept.at("exceptions").get_to(property.exceptions);
+  property.partition = kept.value("partition", false);
+  property.hint = kept.value("hint", std::string());
   return property;
 }
 

@@ -53,8 +53,7 @@ bool of_layers(const net::Net& net) {
 }  // namespace
 
 net::Net net_of_run(const net::Net& judged, const verify::PropertyResult& property) {
-  return verify::abstract_net(judged,
-                              property.exceptions ? verify::Assume::exceptions : verify::Assume::conditions);
+  return verify::abstract_net(judged, verify::assumed_by(property));
 }
 
 std::vector<std::string> marked_after(const net::Net& net, const std::vector<net::TransitionId>& run,
@@ -119,6 +118,7 @@ std::string text_of(const net::Net& judged, const verify::PropertyResult& proper
   std::string text = headline(property);
   for (const std::string& wait : property.waits) text += "  " + wait + "\n";
   if (property.has_trace && !property.warning) text += run_text(judged, property);
+  if (!property.hint.empty()) text += "  hint: " + property.hint + "\n";
   return text;
 }
 

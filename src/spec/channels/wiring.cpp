@@ -32,9 +32,9 @@ bool is_listed(const std::optional<Indices>& list, Index buffer) {
   return !list || std::find(list->begin(), list->end(), buffer) != list->end();
 }
 
-class Check {
+class WiringCheck {
  public:
-  Check(const Model& model, const WiringExcuses& excuses, Diagnostics& out)
+  WiringCheck(const Model& model, const WiringExcuses& excuses, Diagnostics& out)
       : model_(model),
         excuses_(excuses),
         out_(out),
@@ -179,7 +179,7 @@ class Check {
 }  // namespace
 
 void check_wiring(const Model& model, const WiringExcuses& excuses, Diagnostics& out) {
-  Check(model, excuses, out).run();
+  WiringCheck(model, excuses, out).run();
 }
 
 }  // namespace tessera::spec

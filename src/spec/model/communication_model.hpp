@@ -46,11 +46,18 @@ struct ModelSide {
   [[nodiscard]] bool has_timeout() const;
 };
 
+/// A transition between shared places alone: what a network does between the two sides.
+struct MediumTransition {
+  std::string name;
+  std::vector<std::uint32_t> takes, gives;  ///< into CommunicationModel::shared
+};
+
 struct CommunicationModel {
   std::string name;
   std::uint32_t slots = 1;  ///< values that the memory holds
   std::vector<SharedPlace> shared;
   ModelSide send, receive;
+  std::vector<MediumTransition> medium{};  ///< only of a channel between processes
   diagnostics::Span span;
 };
 

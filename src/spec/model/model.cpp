@@ -79,4 +79,15 @@ bool Model::receiver_waits(const Channel& channel) const {
   return channel.model == none ? channel.receive == Mode::blocking : models[channel.model].receive.waits;
 }
 
+bool Model::crosses_processes(const Channel& channel) const {
+  const auto process = [&](const ChannelEnd& end) { return agents[instances[end.instance].agent].process; };
+  return process(channel.from) != process(channel.to);
+}
+
+Model in_one_process(Model model) {
+  model.deployment.reset();
+  for (Agent& agent : model.agents) agent.process = 0;
+  return model;
+}
+
 }  // namespace tessera::spec

@@ -14,6 +14,7 @@
 #include "checks/checks.hpp"
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
+#include "spec/model/deployment.hpp"
 
 /// The specification as data, as section "The specification file" of docs/specification.md describes it.
 /// Every default is filled in, and every name is resolved to an index. Nothing here depends on nets.
@@ -197,6 +198,7 @@ struct Agent {
   Index fleet = none;        ///< agents of one `count` share a number
   Index number = 0;          ///< within the fleet
   Index first_instance = 0;  ///< into Model::instances; the instances of the agent follow one another
+  Index process = 0;         ///< into Deployment::processes; without a deployment 0
   Span span;
 };
 
@@ -360,6 +362,7 @@ struct Model {
   std::vector<Driver> drivers;             ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
   std::optional<Simulation> simulation;
+  std::optional<Deployment> deployment;
 
   /// The type of a value as recordings describe it: "float64[3]", "{x: float64, y: float64}".
   [[nodiscard]] std::string layout_of(const Type& type) const;
@@ -378,6 +381,11 @@ struct Model {
   /// Whether a sender or receiver may have to wait at the channel.
   [[nodiscard]] bool sender_waits(const Channel& channel) const;
   [[nodiscard]] bool receiver_waits(const Channel& channel) const;
+  /// Whether the two ends of a channel are in different processes.
+  [[nodiscard]] bool crosses_processes(const Channel& channel) const;
 };
+
+/// The same system without its deployment: all agents in one process, as controllers are made today.
+[[nodiscard]] Model in_one_process(Model model);
 
 }  // namespace tessera::spec

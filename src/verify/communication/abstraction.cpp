@@ -64,17 +64,74 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   net.add(std::move(none), std::vector<Arc>{{exit, 1}}, std::vector<Arc>{{to, 1}});
 }
 
+/// The links of channels between processes, one for each direction that carries something.
+class Links {
+ public:
+  explicit Links(net::Net& to) : to_(to) {}
+
+  /// The link that a transition needs; invalid: none.
+  PlaceId needed_by(const net::Net& net, TransitionId id) {
+    const net::TransitionRole role = net[id].role;
+    const bool delivers = role == net::TransitionRole::deliver || role == net::TransitionRole::replace ||
+                          role == net::TransitionRole::deliver_older;
+    if (!delivers && !acknowledges(net, id)) return {};
+    const auto [link, added] = links_.emplace(std::pair(net.channel_of(id), !delivers), PlaceId{});
+    if (added) {
+      net::Place place{
+          .name = net.parts()[net.channel_of(id)] + std::string(delivers ? words::link : words::link_back),
+          .tokens = 1,
+          .layer = net::Layer::communication,
+          .channel = net.channel_of(id)};
+      place.role = net::PlaceRole::link;
+      link->second = to_.add(std::move(place));
+    }
+    return link->second;
+  }
+
+  /// Each may fail once, for ever.
+  void add_cuts() {
+    for (const auto& [of, link] : links_) {
+      net::Transition cut;
+      cut.name = to_.parts()[of.first] + std::string(of.second ? words::cut_back : words::cut);
+      cut.role = net::TransitionRole::cut;
+      to_.add(std::move(cut), std::vector<Arc>{{link, 1}}, {});
+    }
+  }
+
+ private:
+  /// A blocking sender learns over the network that its value was taken.
+  static bool acknowledges(const net::Net& net, TransitionId id) {
+    const auto has = [&](net::PlaceRole role) {
+      return std::ranges::any_of(net.preset(id), [&](const Arc& arc) { return net[arc.place].role == role; });
+    };
+    return net[id].subsystem.valid() && net[id].condition.kind == Condition::Kind::none &&
+           has(net::PlaceRole::idle) && has(net::PlaceRole::empty);
+  }
+
+  net::Net& to_;
+  std::map<std::pair<net::ChannelId, bool>, PlaceId> links_;  // by channel and whether it leads back
+};
+
 net::Net copied(const net::Net& net, Assume assume) {
   net::Net copy(net.shared_parts());
   for (const net::Place& place : net.places()) copy.add(place);
+  Links links(copy);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
     net::Transition transition = net[id];
     const Condition::Known known = transition.condition.known(assume == Assume::exceptions);
     transition.condition.truth = known.truth;
     transition.condition.exhaustive = known.exhaustive;
-    copy.add(std::move(transition), net.preset(id), net.postset(id));
+    const PlaceId link = assume == Assume::partition ? links.needed_by(net, id) : PlaceId{};
+    std::vector<Arc> from(net.preset(id).begin(), net.preset(id).end());
+    std::vector<Arc> to(net.postset(id).begin(), net.postset(id).end());
+    if (link.valid()) {
+      from.push_back({link, 1});
+      to.push_back({link, 1});
+    }
+    copy.add(std::move(transition), from, to);
   }
+  links.add_cuts();
   return copy;
 }
 
@@ -98,6 +155,11 @@ std::vector<bool> last_transitions(const net::Net& net) {
 }
 
 }  // namespace
+
+bool is_deployed(const net::Net& net) {
+  return std::ranges::any_of(net.places(),
+                             [](const net::Place& place) { return net::is_networked(place.role); });
+}
 
 bool possible(const net::Net& net, net::TransitionId id) {
   return net[id].condition.truth != net::Condition::Truth::never;

@@ -8,13 +8,25 @@
 
 namespace tessera::verify {
 
+struct PropertyResult;
+
+/// The assumption under which a property was judged, and its run is one.
+[[nodiscard]] Assume assumed_by(const PropertyResult& property);
+
 /// The net that is judged. Its conditions are free choices; a condition that is known never to hold is
 /// marked so (Condition::Truth::never). If it can happen that no initial condition holds after a
 /// behaviour, a transition "... none" is added for that outcome: it puts the token into a place
 /// without output transitions.
 ///
+/// Under Assume::partition each channel between processes has a link for its values, which delivery needs,
+/// and one for its acknowledgements, which the end of a blocking send needs. A transition `cut` takes the link
+/// away for ever. A peer that dies without return is a peer whose links are cut.
+///
 /// Places and transitions of `net` keep their ids; added ones follow them. Linear in the net.
 [[nodiscard]] net::Net abstract_net(const net::Net& net, Assume assume = Assume::conditions);
+
+/// Does a channel of the net cross processes?
+[[nodiscard]] bool is_deployed(const net::Net& net);
 
 /// The condition of the transition is not known to be always false.
 [[nodiscard]] bool possible(const net::Net& net, net::TransitionId transition);

@@ -13,6 +13,8 @@ using net::PlaceId;
 std::uint8_t memory_of(const net::Place& place) {
   switch (place.role) {
     case net::PlaceRole::lock:
+    case net::PlaceRole::sent_memory:
+    case net::PlaceRole::received_memory:
       return free_to_use;
     case net::PlaceRole::empty:
       return empty;
@@ -20,6 +22,12 @@ std::uint8_t memory_of(const net::Place& place) {
       return full;
     case net::PlaceRole::acknowledged:
       return acknowledged;
+    case net::PlaceRole::idle:
+      return idle;
+    case net::PlaceRole::sent:
+      return sent;
+    case net::PlaceRole::more:
+      return more;
     default:
       return 0;
   }
@@ -33,7 +41,7 @@ struct Move {
   bool operator==(const Move&) const = default;
 };
 
-/// Do exactly these moves of one channel start at the place?
+/// Do exactly these moves start at the place? Those that touch memory touch that of the channel.
 bool moves_are(const Steps& steps, PlaceId from, net::ChannelId channel, std::span<const Move> expected) {
   const auto found = steps.from(from);
   if (found.size() != expected.size()) return false;
@@ -41,7 +49,8 @@ bool moves_are(const Steps& steps, PlaceId from, net::ChannelId channel, std::sp
     const net::Condition& condition = steps.net()[step.id].condition;
     const bool elapsed = condition.kind == net::Condition::Kind::elapsed;
     if (!elapsed && condition.kind != net::Condition::Kind::none) return false;
-    return step.from.valid() && step.channel == channel && !step.own_model &&
+    const bool here = step.channel == channel || (!step.channel.valid() && step.takes == 0);
+    return step.from.valid() && here && !step.own_model &&
            std::ranges::count(expected, Move{step.to, step.takes, step.gives, elapsed}) == 1;
   });
 }
@@ -59,16 +68,17 @@ class Match {
       const Operation::Kind kind = steps_.net()[step.to].operation.kind;
       return kind == Operation::Kind::write || kind == Operation::Kind::read;
     });
-    if (start == starts.end() || !start->channel.valid()) return std::nullopt;
+    if (start == starts.end()) return std::nullopt;
     work_ = start->to;
-    channel_ = start->channel;
     const Operation& operation = steps_.net()[work_].operation;
-    if (operation.channel != channel_ || steps_.from(work_).size() != 1) return std::nullopt;
+    channel_ = operation.channel;
+    if (channel_.value >= steps_.channel_count() || steps_.from(work_).empty()) return std::nullopt;
     after_work_ = steps_.from(work_).front().to;
     if (!after_work_.valid()) return std::nullopt;
     const bool sends = operation.kind == Operation::Kind::write;
     if (exchanges()) return block(sends ? Side::send : Side::receive, false, false, after_work_);
-    return sends ? send() : receive();
+    if (!sends) return receive();
+    return steps_.networked(channel_) ? send_over_network() : send();
   }
 
  private:
@@ -92,6 +102,28 @@ class Match {
     const PlaceId out = steps_.from(wait).front().to;
     if (moves(wait, {{out, acknowledged, 0}})) return block(Side::send, true, false, out);
     if (moves(wait, {{out, acknowledged, 0}, {out, full, empty, true}}))
+      return block(Side::send, true, true, out);
+    return std::nullopt;
+  }
+
+  std::optional<Block> send_over_network() {
+    const PlaceId wait = after_work_;
+    const bool one_at_most = moves(work_, {{wait, idle, sent}});
+    const bool several = moves(work_, {{wait, idle, sent}, {wait, sent, more}, {wait, more, more}});
+    if (!moves(in_, {{work_, 0, 0}}) || (!one_at_most && !several)) return std::nullopt;
+    const auto after = steps_.from(wait);
+    const auto taken = std::ranges::find_if(
+        after, [](const Step& step) { return step.takes == (idle | empty) && step.gives == (idle | empty); });
+    if (taken == after.end())
+      return several ? std::optional(block(Side::send, false, false, wait)) : std::nullopt;
+    const PlaceId out = taken->to;
+    const Move end{out, idle | empty, idle | empty};
+    if (one_at_most && moves(wait, {end})) return block(Side::send, true, false, out);
+    if (several && moves(wait, {end,
+                                {out, 0, 0, true},
+                                {out, sent, idle, true},
+                                {out, more, sent, true},
+                                {out, idle | full, idle | empty, true}}))
       return block(Side::send, true, true, out);
     return std::nullopt;
   }
@@ -146,6 +178,8 @@ Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 
   for (const net::Place& place : net.places()) {
     if (!place.fused()) continue;
     if (acknowledges_.size() <= place.channel.value) acknowledges_.resize(place.channel.value + 1, false);
+    networked_.resize(acknowledges_.size(), false);
+    if (net::is_networked(place.role)) networked_[place.channel.value] = true;
     if (memory_of(place) == acknowledged) acknowledges_[place.channel.value] = true;
   }
   std::vector<std::pair<PlaceId, Step>> found;

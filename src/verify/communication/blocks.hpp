@@ -10,7 +10,16 @@
 namespace tessera::verify {
 
 /// The fused places of a channel, as bits.
-enum Memory : std::uint8_t { free_to_use = 1, empty = 2, full = 4, acknowledged = 8 };
+enum Memory : std::uint8_t {
+  free_to_use = 1,
+  empty = 2,
+  full = 4,
+  acknowledged = 8,
+  // of a channel between processes
+  idle = 16,
+  sent = 32,
+  more = 64
+};
 
 /// A transition of one subsystem. It uses places of this subsystem, and of the memory of at most one channel.
 struct Step {
@@ -30,10 +39,12 @@ class Steps {
     return std::span(steps_).subspan(starts_[place.value], starts_[place.value + 1] - starts_[place.value]);
   }
   [[nodiscard]] const net::Net& net() const { return net_; }
-  /// A transition that is neither a step of one subsystem nor a transition of the upper layers.
+  /// A transition that is neither a step of one subsystem nor a transition of the upper layers or of a medium.
   [[nodiscard]] std::optional<net::TransitionId> stray() const { return stray_; }
   /// Does the memory of the channel include acknowledgements?
   [[nodiscard]] bool acknowledges(net::ChannelId channel) const { return acknowledges_[channel.value]; }
+  /// Does the channel cross processes?
+  [[nodiscard]] bool networked(net::ChannelId channel) const { return networked_[channel.value]; }
   [[nodiscard]] std::uint32_t channel_count() const {
     return static_cast<std::uint32_t>(acknowledges_.size());
   }
@@ -45,6 +56,7 @@ class Steps {
   std::vector<Step> steps_;
   std::vector<std::uint32_t> starts_;
   std::vector<bool> acknowledges_;  // per channel
+  std::vector<bool> networked_;     // the same
   std::optional<net::TransitionId> stray_;
 };
 

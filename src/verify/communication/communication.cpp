@@ -76,11 +76,12 @@ class SubsystemReader {
   }
 
   std::optional<PlaceId> advance(PlaceId at, std::vector<Stage>& stages) const {
-    if (const auto next = silent_step(at)) return next;
+    // A sender over a network begins to write without a look at the channel, so blocks come first.
     if (const auto block = block_at(steps_, at)) {
       stages.push_back({block->communication});
       return block->out;
     }
+    if (const auto next = silent_step(at)) return next;
     return parallel_transfer(at, stages);
   }
 
@@ -182,7 +183,8 @@ class Start {
     for (std::uint32_t place = 0; place < tokens_.size(); ++place)
       if (!net.places()[place].fused()) tokens_[place] = net.places()[place].tokens;
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-      if (!net.transitions()[index].subsystem.valid()) upper_.push_back({index});
+      if (!net.transitions()[index].subsystem.valid() && !net::is_of_medium(net.transitions()[index].role))
+        upper_.push_back({index});
     // Parents come before children, so one pass in order starts everything.
     for (const net::TransitionId id : upper_)
       if (net::enabled(net_, id, tokens_)) net::fire(net_, id, tokens_);
@@ -214,10 +216,15 @@ class Start {
 /// Numbers the channels that are used and gathers who holds which end, and how.
 class Channels {
  public:
-  explicit Channels(const net::Net& net, std::uint32_t count)
-      : parts_(net.parts()), flows_(count), exchanges_(count, false) {
-    for (const net::Place& place : net.places())
-      if (place.role == net::PlaceRole::lock) exchanges_[place.channel.value] = true;
+  explicit Channels(const Steps& steps)
+      : steps_(steps),
+        parts_(steps.net().parts()),
+        flows_(steps.channel_count()),
+        exchanges_(steps.channel_count(), false) {
+    for (const net::Place& place : steps.net().places())
+      if (place.role == net::PlaceRole::lock || place.role == net::PlaceRole::sent_memory ||
+          place.role == net::PlaceRole::received_memory)
+        exchanges_[place.channel.value] = true;
   }
 
   /// Sets the flow of the communication; false if another subsystem or another mode holds the same end.
@@ -230,6 +237,7 @@ class Channels {
                      .name = parts_[id],
                      .sender = {},
                      .receiver = {},
+                     .networked = steps_.networked(id),
                      .always_readable = exchanges_[id.value]});
     }
     communication.flow = flow;
@@ -250,10 +258,20 @@ class Channels {
   std::vector<ChannelFlow> all;
 
  private:
+  const Steps& steps_;
   const net::Parts& parts_;
   std::vector<ChannelFlowId> flows_;  // per channel of the net
   std::vector<bool> exchanges_;       // the same
 };
+
+/// Does the transition touch nothing but the memory of one channel between processes?
+bool joins_one_channel(const net::Net& net, net::TransitionId id) {
+  for (const auto& arcs : {net.preset(id), net.postset(id)})
+    for (const net::Arc& arc : arcs)
+      if (!net[arc.place].fused() || net[arc.place].channel != net.channel_of(id) || arc.weight != 1)
+        return false;
+  return net.channel_of(id).valid();
+}
 
 /// Transitions that would move tokens behind the back of the readers.
 std::string stray_transition(const net::Net& net, const Steps& steps) {
@@ -264,6 +282,10 @@ std::string stray_transition(const net::Net& net, const Steps& steps) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
     if (net[id].subsystem.valid()) continue;
+    if (net::is_of_medium(net[id].role)) {
+      if (!joins_one_channel(net, id)) return "'" + net[id].name + "' joins more than one channel";
+      continue;
+    }
     if (net.preset(id).empty()) return "'" + net[id].name + "' needs no token";
     for (const auto& arcs : {net.preset(id), net.postset(id)})
       for (const net::Arc& arc : arcs)
@@ -286,7 +308,7 @@ CommunicationResult communication_structure(const net::Net& net, Assume assume) 
   if (!result.why_not.empty()) return result;
 
   CommunicationStructure structure;
-  Channels channels(net, steps.channel_count());
+  Channels channels(steps);
   for (const PlaceId entry : entries) {
     SubsystemReader reader(steps, assume);
     std::optional<SubsystemFlow> flow = reader.read(entry);

@@ -56,6 +56,7 @@ struct ChannelFlow {
   bool send_blocks = false, send_timeout = false;
   bool receive_blocks = false, receive_timeout = false;
   bool own_model = false;  ///< a model of the author, at one end at least
+  bool networked = false;  ///< its ends are in different processes
   bool always_readable =
       false;  ///< both sides non-blocking: reading never depends on a value having been sent
 };
@@ -71,7 +72,8 @@ struct CommunicationStructure {
 /// Which conditions may hold.
 enum class Assume : std::uint8_t {
   conditions,  ///< as given: constants are known, the rest are free choices
-  exceptions   ///< also every error condition (t6) is a free choice, as user code may throw
+  exceptions,  ///< also every error condition (t6) is a free choice, as user code may throw
+  partition    ///< as `conditions`; and delivery between processes may stop for ever at any time
 };
 
 struct CommunicationResult {

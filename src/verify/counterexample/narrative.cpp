@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "tessera/net_words.hpp"
+
 namespace tessera::verify {
 namespace {
 
@@ -94,7 +96,7 @@ class Teller {
     const std::string buffer = deed.block.valid() ? net_.parts()[deed.block].name : std::string();
     const bool overwrites = net_[id].role == net::TransitionRole::overwrite;
     if (net_[id].condition.kind == Condition::Kind::elapsed) {
-      deed.text = "waits for " + buffer + " until its timeout";
+      deed.text = "waits for " + buffer + " until its timeout" + fate_of_value(id);
       return;
     }
     for (const Arc& arc : net_.postset(id)) {
@@ -111,6 +113,17 @@ class Teller {
     if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
     if (net_[id].role == net::TransitionRole::skip) deed.text = "finds nothing new in " + buffer;
     deed.then_waits = touches_wait(net_, net_.postset(id));
+  }
+
+  /// The end of a wait over a network: what becomes of the value, which the sender does not know.
+  [[nodiscard]] std::string fate_of_value(TransitionId id) const {
+    const auto takes = [&](net::PlaceRole role) {
+      return std::ranges::any_of(net_.preset(id),
+                                 [&](const Arc& arc) { return net_[arc.place].role == role; });
+    };
+    if (takes(net::PlaceRole::sent) || takes(net::PlaceRole::more)) return ", and the value never arrives";
+    if (takes(net::PlaceRole::idle)) return ", and the value is called back unread";
+    return "";
   }
 
   const net::Net& net_;
@@ -196,6 +209,36 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   return text;
 }
 
+/// What the network between processes does.
+std::string medium_text(const net::Net& net, std::span<const TransitionId> run) {
+  using Role = net::TransitionRole;
+  std::string text;
+  for (const TransitionId id : run) {
+    const std::string& channel = net.parts()[net.channel_of(id)];
+    std::string one;
+    switch (net[id].role) {
+      case Role::deliver:
+        one = "delivers " + channel;
+        break;
+      case Role::replace:
+        one = "delivers " + channel + " over a value that was not read";
+        break;
+      case Role::deliver_older:
+        one = "delivers an older value of " + channel;
+        break;
+      case Role::lose_older:
+        one = "loses the older values of " + channel + " on the way";
+        break;
+      default:
+        one = net[id].name.ends_with(words::cut_back) ? "is cut for acknowledgements of " + channel
+                                                      : "is cut for " + channel;
+        break;
+    }
+    text += (text.empty() ? "" : ", ") + one;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& run) {
@@ -203,13 +246,22 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
   std::vector<Act> acts;
   for (std::size_t first = 0, end = 0; first < run.size(); first = end) {
     const net::SubsystemId subsystem = net[run[first]].subsystem;
-    for (end = first; end < run.size() && net[run[end]].subsystem == subsystem;) ++end;
+    const bool medium = net::is_of_medium(net[run[first]].role);
+    const auto same = [&](TransitionId id) {
+      return net[id].subsystem == subsystem && net::is_of_medium(net[id].role) == medium;
+    };
+    for (end = first; end < run.size() && same(run[end]);) ++end;
     const std::span<const TransitionId> part = std::span(run).subspan(first, end - first);
     Act& act = acts.emplace_back();
     act.first = first + 1;
     act.last = end;
     act.who = teller.subsystem(part.front());
     act.line = net[part.front()].span.line;
+    if (medium) {
+      act.who = "the network";
+      act.text = medium_text(net, part);
+      continue;
+    }
     if (!subsystem.valid()) {
       act.text = upper_text(net, part);
       continue;

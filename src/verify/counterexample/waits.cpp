@@ -4,24 +4,50 @@
 #include <utility>
 
 #include "net/token_game.hpp"
+#include "tessera/net_words.hpp"
 
 namespace tessera::verify {
 namespace {
 
 using net::TransitionId;
 
-/// What a subsystem waits for at a channel, or gives there.
-enum class Good : std::uint8_t { memory, value, acknowledgement };
+}  // namespace
 
-Good good_of(const net::Place& place) {
+Waits::Good Waits::good_of(const net::Place& place) const {
   if (place.role == net::PlaceRole::full) return Good::value;
+  if (place.fused() && crosses(place)) return Good::acknowledgement;
   return place.role == net::PlaceRole::acknowledged ? Good::acknowledgement : Good::memory;
 }
 
-}  // namespace
+/// Over a network a value arrives if its sender sends it, and it was taken if its receiver has an empty slot.
+bool Waits::is_given(std::uint32_t place, const net::Arc& arc) const {
+  const net::Place& wanted = net_.places()[place];
+  const net::Place& given = net_[arc.place];
+  if (!wanted.fused() || !crosses(wanted)) return arc.place.value == place;
+  if (given.channel != wanted.channel) return false;
+  if (good_of(wanted) == Good::value)
+    return given.role == net::PlaceRole::sent || given.role == net::PlaceRole::more;
+  return given.role == net::PlaceRole::empty;
+}
+
+std::string Waits::cut_at(const net::Place& place) const {
+  if (!place.fused() || !crosses(place)) return {};
+  const bool back = good_of(place) == Good::acknowledgement;
+  for (std::uint32_t link = 0; link < tokens_.size(); ++link) {
+    const net::Place& one = net_.places()[link];
+    if (one.role != net::PlaceRole::link || one.channel != place.channel || tokens_[link] > 0) continue;
+    if (back || !one.name.ends_with(words::link_back)) return ", and the network is cut";
+  }
+  return {};
+}
 
 Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
-    : net_(net), tokens_(std::move(tokens)), transitions_(net.parts().subsystems.size()) {
+    : net_(net),
+      tokens_(std::move(tokens)),
+      transitions_(net.parts().subsystems.size()),
+      networked_(net.parts().channels.size(), false) {
+  for (const net::Place& place : net.places())
+    if (net::is_networked(place.role)) networked_[place.channel.value] = true;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::Transition& transition = net.transitions()[index];
     if (transition.subsystem.value < transitions_.size() &&
@@ -81,7 +107,8 @@ std::string Waits::line(net::SubsystemId subsystem, std::uint32_t missing) const
   std::string from;
   for (const net::SubsystemId giver : givers(missing, subsystem))
     from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : name(giver));
-  return name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from);
+  return name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from) +
+         cut_at(place);
 }
 
 std::set<net::SubsystemId> Waits::givers(std::uint32_t place, net::SubsystemId waiting) const {
@@ -93,7 +120,7 @@ std::set<net::SubsystemId> Waits::givers(std::uint32_t place, net::SubsystemId w
 }
 
 std::vector<TransitionId> Waits::giving(net::SubsystemId subsystem, std::uint32_t place) const {
-  const auto here = [&](const net::Arc& arc) { return arc.place.value == place; };
+  const auto here = [&](const net::Arc& arc) { return is_given(place, arc); };
   std::vector<TransitionId> all;
   for (const TransitionId id : transitions_[subsystem.value])
     if (std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here))

@@ -46,6 +46,17 @@ class Waits {
   [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
+  /// What a subsystem waits for at a channel, or gives there.
+  enum class Good : std::uint8_t { memory, value, acknowledgement };
+
+  /// The subsystem that waits does not know what is on the way: places of a medium stand for what a
+  /// peer has to do.
+  [[nodiscard]] Good good_of(const net::Place& place) const;
+  [[nodiscard]] bool crosses(const net::Place& place) const { return networked_[place.channel.value]; }
+  [[nodiscard]] bool is_given(std::uint32_t place, const net::Arc& arc) const;
+  /// ", and the network is cut" at the link of a place's channel that the waiting subsystem needs.
+  [[nodiscard]] std::string cut_at(const net::Place& place) const;
+
   /// Is it a place of a channel's memory into which no other subsystem can put a token?
   [[nodiscard]] bool is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const;
   [[nodiscard]] std::string line(net::SubsystemId subsystem, std::uint32_t missing) const;
@@ -56,6 +67,7 @@ class Waits {
   const net::Net& net_;
   std::vector<std::uint32_t> tokens_;
   std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
+  std::vector<bool> networked_;                              // per channel
 };
 
 /// The channel places without a token that keep the transitions from firing, if nothing else does. tokens:

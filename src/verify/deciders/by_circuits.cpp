@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "verify/circuits/strict_sides.hpp"
 #include "verify/deciders/decider.hpp"
 #include "verify/deciders/running_claims.hpp"
 
@@ -58,6 +59,17 @@ Finding goes_on(const NetUnderAssumption& given, std::vector<std::uint32_t> subj
         decided.insert((*given.communication.structure)[subsystem].id.value);
   std::erase_if(subjects, [&](std::uint32_t subsystem) { return decided.contains(subsystem); });
   return open(given, std::move(subjects));
+}
+
+/// Without strict sides over a network, a cut link changes no answer.
+std::optional<Finding> stopped_by_cut(const NetUnderAssumption& given) {
+  const CommunicationStructure& structure = *given.communication.structure;
+  const std::vector<StrictSide> sides = strict_sides(structure);
+  if (sides.empty()) return std::nullopt;
+  Finding finding = violated(in_words(structure, sides), {structure[sides.front().subsystem].id.value});
+  finding.method = "sides that wait for the network";
+  finding.hint = timeout_hint(structure, given.abstract, sides);
+  return finding;
 }
 
 Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
@@ -151,6 +163,8 @@ class ByCircuits final : public Decider {
       return std::nullopt;
     const NetUnderAssumption& given = facts.under(question.assume);
     if (!given.circuits) return open(given, question.subjects);
+    if (question.assume == Assume::partition && question.kind == Kind::goes_on)
+      if (std::optional<Finding> stopped = stopped_by_cut(given)) return stopped;
     switch (question.kind) {
       case Kind::deadlock_free:
         return deadlock_free(given);

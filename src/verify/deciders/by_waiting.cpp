@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "verify/circuits/strict_sides.hpp"
 #include "verify/deciders/decider.hpp"
 #include "verify/waiting/waiting.hpp"
 
@@ -43,6 +44,8 @@ class ByWaiting final : public Decider {
                        question.kind == Kind::channels_flow || question.kind == Kind::live_behaviours;
     if (!asked || !facts.under(question.assume).communication.structure) return std::nullopt;
     const NetUnderAssumption& given = facts.under(question.assume);
+    if (question.assume == Assume::partition && !strict_sides(*given.communication.structure).empty())
+      return std::nullopt;
     const WaitingReport& report = facts.waiting(question.assume, limits);
     Finding finding = judge(question, given, report);
     finding.explanation = std::to_string(report.stops) + " places to wait at, " +

@@ -43,9 +43,7 @@ const UnitInvariants& Facts::units() {
 }
 
 const NetUnderAssumption& Facts::under(Assume assume) {
-  std::optional<NetUnderAssumption>& wanted = assume == Assume::conditions ? conditions_ : exceptions_;
-  if (!wanted) wanted.emplace(subject_, assume);
-  return *wanted;
+  return under_.try_emplace(assume, subject_, assume).first->second;
 }
 
 const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {

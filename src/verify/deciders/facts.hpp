@@ -60,7 +60,7 @@ class Facts {
   std::vector<std::string> wrong_;
   std::optional<bool> safe_;
   std::optional<UnitInvariants> units_;
-  std::optional<NetUnderAssumption> conditions_, exceptions_;
+  std::map<Assume, NetUnderAssumption> under_;
   std::map<Assume, WaitingReport> waiting_;
 };
 

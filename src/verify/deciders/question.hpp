@@ -41,6 +41,7 @@ struct Finding {
   std::string method{};       ///< name of the method; empty: the title of the decider
   std::string why{};          ///< violated, unknown: the reason, in one line
   std::string explanation{};  ///< what the method did
+  std::string hint{};         ///< violated: what would help
   /// unknown: the subjects that are still open. violated: subjects, some of which violate the property, for
   /// methods that look for a run.
   std::vector<std::uint32_t> subjects{};

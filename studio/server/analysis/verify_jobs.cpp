@@ -49,7 +49,7 @@ VerifyJobs::~VerifyJobs() {
 VerifyJobs::Started VerifyJobs::start(Request request) {
   const std::shared_ptr<const Analysis> analysis = analyses_.of(request.text);
   if (!analysis->net) return {0, 422, "a specification with errors has no net to verify", ""};
-  std::vector<std::string> names = verify::default_properties();
+  std::vector<std::string> names = verify::default_properties_of(*analysis->net);
   for (const net::Property& property : analysis->properties) names.push_back(property.name);
   for (const std::string& name : request.properties)
     if (std::ranges::find(names, name) == names.end())

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, example, onPage, tab, until } from "./page.mjs";
+import { button, element, example, onPage, tab, until } from "./page.mjs";
 import { writeWorld } from "./recorded_world.mjs";
 
 const api = (server, path) => fetch(`${server.address}${path}`, { headers: { Authorization: `Bearer ${server.token}` } });
@@ -74,7 +74,11 @@ test("a recorded world is seen in three dimensions at every time of the timeline
     }, "the followed body is in the middle"); // prettier-ignore
 
     await button(page, "3D").click();
-    await page.getByRole("img", { name: "The robot's path from above" }).waitFor();
+    await page.getByRole("img", { name: "The robots from above" }).waitFor();
+    const legend = page.getByRole("list", { name: "Robots" });
+    assert.deepEqual(await legend.getByRole("listitem").allInnerTexts(), ["robot[0]", "robot[1]", "robot[2]"]);
+    await legend.getByText("robot[1]").click();
+    await element(page, "robot").and(page.locator(".selected")).waitFor();
   }));
 
 test("the scene goes to those with the token only, and only by its hash", () =>

@@ -22,6 +22,12 @@ class FiringCounts {
   /// Adds runs of which only the firings are known, by the names of the transitions.
   [[nodiscard]] std::string add(const std::map<std::string, std::uint64_t>& firings, std::uint64_t runs);
 
+  /// The same for a run that is followed event by event, from its beginning on.
+  void begin_run() { ++runs_; }
+  void fire(net::TransitionId id) { ++firings_[id.value]; }
+  void mark(net::PlaceId id) { marked_[id.value] = true; }
+  void lack_events() { lacks_events_ = true; }
+
   [[nodiscard]] std::uint64_t of(net::TransitionId id) const { return firings_[id.value]; }
   /// A run was there, in whatever way it began, and the place was marked at some time without a firing.
   [[nodiscard]] bool was_marked(net::PlaceId id) const { return marked_[id.value]; }

@@ -13,7 +13,7 @@ namespace tessera::statistics {
 namespace {
 
 /// Of a fleet, the rows of its first members are shown; the JSON has all.
-constexpr std::size_t most_rows_of_a_kind = 12, most_commands = 12, longest_text = 160;
+constexpr std::size_t most_rows_of_a_kind = 12, most_commands = 12, longest_text = 160, label_width = 32;
 
 std::string interval_text(std::uint64_t events, std::uint64_t runs) {
   const Interval interval = clopper_pearson(events, runs);
@@ -26,8 +26,12 @@ std::string cut(const std::string& text) {
 
 std::string row(const Outcome& outcome, const std::string& label, const Results& results) {
   const double share = static_cast<double>(outcome.runs) / static_cast<double>(results.tried);
-  std::string text = fmt::format("{:<32} {:>9} {:>9}   {:<22} {:>10}", label, outcome.runs, percent(share),
-                                 interval_text(outcome.runs, results.tried), outcome.first_seed);
+  // The name of a check may be its whole formula.
+  const bool fits = label.size() <= label_width;
+  std::string text = fits ? "" : label + "\n";
+  text += fmt::format("{:<{}} {:>9} {:>9}   {:<22} {:>10}", fits ? label : "", label_width, outcome.runs,
+                      percent(share), interval_text(outcome.runs, results.tried),
+                      outcome.runs == 0 ? "-" : std::to_string(outcome.first_seed));
   if (outcome.failed < outcome.runs)
     text +=
         fmt::format("   {}", outcome.failed == 0 ? "none of these runs failed"
@@ -40,12 +44,20 @@ std::string first_of(const Outcome& outcome) {
   return fmt::format("    {}{}\n", time, cut(outcome.text));
 }
 
+/// What has happened, or could have and never did.
+bool has_rows(const Outcome& kind, const Results& results) {
+  return kind.runs > 0 || std::ranges::any_of(results.outcomes, [&](const Outcome& outcome) {
+           return outcome.kind == kind.kind && !outcome.name.empty();
+         });
+}
+
 std::string rows_of(const Outcome& kind, const Results& results) {
-  std::vector<const Outcome*> named;
+  std::vector<const Outcome*> named, never;
   for (const Outcome& outcome : results.outcomes)
-    if (outcome.kind == kind.kind && outcome.runs > 0) named.push_back(&outcome);
+    if (outcome.kind == kind.kind) (outcome.runs > 0 ? named : never).push_back(&outcome);
   std::string text = row(kind, kind.kind, results);
-  const bool has_names = std::ranges::any_of(named, [](const Outcome* one) { return !one->name.empty(); });
+  const bool has_names =
+      !never.empty() || std::ranges::any_of(named, [](const Outcome* one) { return !one->name.empty(); });
   if (!has_names) return text + first_of(kind);
   std::ranges::stable_sort(named, std::greater{}, &Outcome::runs);
   for (std::size_t index = 0; index < std::min(named.size(), most_rows_of_a_kind); ++index) {
@@ -55,17 +67,19 @@ std::string rows_of(const Outcome& kind, const Results& results) {
   }
   if (named.size() > most_rows_of_a_kind)
     text += fmt::format("  ... and {} more\n", named.size() - most_rows_of_a_kind);
+  for (std::size_t index = 0; index < std::min(never.size(), most_rows_of_a_kind); ++index)
+    text += row(*never[index], "  " + never[index]->name, results);
+  if (never.size() > most_rows_of_a_kind)
+    text += fmt::format("  ... and {} more that never failed\n", never.size() - most_rows_of_a_kind);
   return text;
 }
 
-/// What never happened, in one sentence. Checks are named.
+/// What never happened and has no row, in one sentence.
 std::string rest_of(const Results& results) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
   for (const Outcome& kind : results.kinds)
-    if (kind.runs == 0) add(kind.kind);
-  for (const Outcome& outcome : results.outcomes)
-    if (outcome.runs == 0) add(fmt::format("{} '{}'", outcome.kind, outcome.name));
+    if (!has_rows(kind, results)) add(kind.kind);
   if (names.empty()) return "";
   return fmt::format("In none of {} runs (each at most {}): {}\n", results.tried,
                      percent(clopper_pearson(0, results.tried).high), names);
@@ -113,13 +127,14 @@ std::string to_table(const Results& results) {
   if (results.tried == 0) return text;
   text += fmt::format("A run fails with a probability of {} ({:.0f} % confidence).\n",
                       interval_text(results.failed, results.tried), usual_confidence * 100);
-  const bool has_rows = std::ranges::any_of(results.kinds, [](const Outcome& kind) { return kind.runs > 0; });
-  if (has_rows)
-    text += fmt::format("\n{:<32} {:>9} {:>9}   {:<22} {:>10}\n", "", "runs", "share", "95 % interval",
-                        "first seed");
+  const bool has_any =
+      std::ranges::any_of(results.kinds, [&](const Outcome& kind) { return has_rows(kind, results); });
+  if (has_any)
+    text += fmt::format("\n{:<{}} {:>9} {:>9}   {:<22} {:>10}\n", "", label_width, "runs", "share",
+                        "95 % interval", "first seed");
   for (const Outcome& kind : results.kinds)
-    if (kind.runs > 0) text += rows_of(kind, results);
-  if (has_rows) text += "\n";
+    if (has_rows(kind, results)) text += rows_of(kind, results);
+  if (has_any) text += "\n";
   return text + rest_of(results) + commands(results);
 }
 

@@ -78,6 +78,8 @@ void Api::serve_files(HttpServer& server) {
              [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
   server.Get("/api/recordings/([^/]+)",
              [this](const Request& request, Response& response) { get_recording(request, response); });
+  server.Get("/api/recordings/([^/]+)/coverage",
+             [this](const Request& request, Response& response) { get_coverage(request, response); });
   server.Get("/api/recordings/([^/]+)/poses",
              [this](const Request& request, Response& response) { get_poses(request, response); });
   server.Get("/api/scenes/([0-9a-f]{16})\\.glb",
@@ -102,6 +104,8 @@ void Api::serve_work(HttpServer& server) {
   });
   server.Get("/api/runs/(\\d+)",
              [this](const Request& request, Response& response) { get_run(request, response); });
+  server.Get("/api/runs/(\\d+)/coverage",
+             [this](const Request& request, Response& response) { get_run_coverage(request, response); });
   server.Post("/api/runs/(\\d+)/control",
               [this](const Request& request, Response& response) { control_run(request, response); });
 }
@@ -285,6 +289,18 @@ void Api::get_recording(const Request& request, Response& response) {
   std::optional<std::string> content = parts_.recordings.content(request.matches[1], *span);
   if (!content) return answer_error(response, 404, "there is no such recording");
   answer(response, std::move(*content));
+}
+
+void Api::get_coverage(const Request& request, Response& response) {
+  std::optional<std::string> coverage = parts_.recordings.coverage(request.matches[1]);
+  if (!coverage) return answer_error(response, 404, "there is no such recording");
+  answer(response, std::move(*coverage));
+}
+
+void Api::get_run_coverage(const Request& request, Response& response) {
+  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
+  if (run == nullptr) return answer_error(response, 404, "there is no such run");
+  answer(response, text_of(run->coverage()));
 }
 
 void Api::get_poses(const Request& request, Response& response) {

@@ -43,6 +43,8 @@ class Api {
   void control_run(const Request& request, Response& response);
   [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
   void get_recording(const Request& request, Response& response);
+  void get_coverage(const Request& request, Response& response);
+  void get_run_coverage(const Request& request, Response& response);
   void get_poses(const Request& request, Response& response);
   void get_scene(const Request& request, Response& response);
   void get_track(const Request& request, Response& response);

@@ -9,5 +9,5 @@ export default defineConfig({
   build: { target: "es2022", chunkSizeWarningLimit: 1800 },
   server: { host: "127.0.0.1", proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" } },
   // ELK takes seconds while many builds run at once.
-  test: { include: ["tests/{model,live}/**/*.test.ts"], testTimeout: 60_000 },
+  test: { include: ["tests/{model,live,panels}/**/*.test.ts"], testTimeout: 60_000 },
 });

@@ -31,6 +31,26 @@ namespace {
   return found == report.outcomes.end() ? ScheduleOutcome{} : found->second;
 }
 
+TEST(ScheduleReport, NamesChecksThatNeverFailed) {
+  ScheduleReport report;
+  report.add({.seed = 1,
+              .failed = true,
+              .interrupted = false,
+              .simulated = 1s,
+              .firings = 5,
+              .ended = "a check failed: apart",
+              .events = {{.kind = "assertion", .name = "apart", .at_s = 0.5, .text = "apart: at 0.500 s"}}});
+  report.add_checks("");
+  report.add_checks(R"({"measures": {}})");
+  EXPECT_EQ(report.outcomes.size(), 1U);
+  // Faults of the system go by what stands before a colon.
+  report.add_checks(R"({"checks": [{"name": "apart"}, {"name": "robot: upright"}]})");
+  EXPECT_EQ(report.outcomes.size(), 2U);
+  EXPECT_EQ(outcome_of(report, "assertion", "apart").runs, 1U);
+  EXPECT_EQ(report.outcomes.at({"assertion", "robot"}).runs, 0U);
+  EXPECT_NE(schedules_text(report).find("assertion robot: in none of 1 runs\n"), std::string::npos);
+}
+
 /// Two subsystems that write and read a variable outside the net in two steps: a race that only some
 /// interleavings of their firings show.
 struct Race : ::testing::Test {

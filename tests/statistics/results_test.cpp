@@ -70,9 +70,31 @@ TEST(Table, NamesWhatHappenedWithIntervalsAndCommands) {
   const std::string table = to_table(example_results(101, 201));
   for (const char* part :
        {"100 of 300 schedules from seed 1 on (seeds 101 to 200), 10 fail", "4.9 % to 17.6 %", "assertion",
-        "robot.control", "0.250000 s: blind", "deadlock, assertion 'nobody touches'", "each at most 3.62 %",
+        "robot.control", "0.250000 s: blind", "each at most 3.62 %): deadlock\n",
+        "\n  nobody touches                         0       0 %   0 % to 3.62 %                   -\n",
         "tessera simulate rover --interleave --for 1s --seed 110\n"})
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+}
+
+TEST(Table, HasARowForEachCheckThatNeverFailed) {
+  Results results = example_results(1, 10);
+  results.outcomes.push_back({"assertion", "always: distance(robot[i], robot[i+1]) > 20 cm", 0, 0, 0, 0, ""});
+  EXPECT_EQ(
+      to_table(results),
+      R"(9 of 300 schedules from seed 1 on (seeds 1 to 9), none fails (9.0 s simulated in 0.50 s, 5940 firings)
+A run fails with a probability of 0 % to 33.6 % (95 % confidence).
+
+                                      runs     share   95 % interval          first seed
+assertion                                0       0 %   0 % to 33.6 %                   -
+  nobody touches                         0       0 %   0 % to 33.6 %                   -
+  always: distance(robot[i], robot[i+1]) > 20 cm
+                                         0       0 %   0 % to 33.6 %                   -
+
+In none of 9 runs (each at most 33.6 %): deadlock
+)");
+  const json written = json::parse(to_json(results));
+  EXPECT_EQ(written.at("outcomes").at(1).at("interval").at(0), 0);
+  EXPECT_NEAR(written.at("outcomes").at(1).at("interval").at(1).get<double>(), 0.3363, 1e-4);
 }
 
 TEST(Table, WarnsOfASeedThatGoesOtherwiseAlone) {

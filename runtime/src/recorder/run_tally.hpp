@@ -11,6 +11,11 @@
 
 namespace tessera {
 
+/// By what faults of the system, "NAME: what", are told from each other.
+[[nodiscard]] inline std::string_view name_in_fault(std::string_view text) {
+  return text.substr(0, text.find(": "));
+}
+
 /// Counts what happens in one run where nothing is recorded: firings, and faults by class and name.
 ///
 /// Threads: the one of a simulated run.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "recorder/run_tally.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera {
@@ -94,6 +95,16 @@ void ScheduleReport::add(const ScheduleResult& result) {
     first_failure = {result.seed, is_known_when ? seconds(result.simulated) : unknown_time, result.ended};
 }
 
+void ScheduleReport::add_checks(const std::string& checks) {
+  if (checks.empty()) return;
+  const auto json = nlohmann::json::parse(checks);
+  if (!json.contains("checks")) return;
+  for (const auto& check : json.at("checks")) {
+    const std::string name(name_in_fault(check.at("name").get_ref<const std::string&>()));
+    outcomes.try_emplace({std::string(name_of(Fault::assertion)), name});
+  }
+}
+
 std::string schedules_text(const ScheduleReport& report) {
   std::string text =
       fmt::format("{} of {} schedules from seed {} on, {} ({:.1f} s simulated in {:.2f} s, {} firings){}\n",
@@ -101,11 +112,16 @@ std::string schedules_text(const ScheduleReport& report) {
                   report.failed == 0 ? std::string("none fails") : fmt::format("{} fail", report.failed),
                   seconds(report.simulated), report.wall_s, report.firings,
                   report.interrupted == 0 ? "" : "; interrupted");
-  for (const auto& [key, outcome] : report.outcomes)
+  for (const auto& [key, outcome] : report.outcomes) {
+    if (outcome.runs == 0) {
+      text += fmt::format("  {} {}: in none of {} runs\n", key.first, key.second, report.tried);
+      continue;
+    }
     text +=
         fmt::format("  {}{}{}: in {} of {} runs; first seed {}{}: {}\n", key.first,
                     key.second.empty() ? "" : " ", key.second, outcome.runs, report.tried, outcome.first_seed,
                     std::isnan(outcome.at_s) ? "" : fmt::format(" at {:.6f} s", outcome.at_s), outcome.text);
+  }
   return text;
 }
 

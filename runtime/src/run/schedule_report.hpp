@@ -78,6 +78,8 @@ struct ScheduleReport {
 
   ScheduleReport();
   void add(const ScheduleResult& result);
+  /// Checks that have not failed in any run get an outcome, too. checks: WorldOptions::checks.
+  void add_checks(const std::string& checks);
 };
 
 /// A few lines for people.

@@ -54,8 +54,8 @@ RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, 
       values(*recording),
       has_changed(recording->buffers.size()) {}
 
-RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net)
-    : names_(net), stream_(std::move(source)), tokens_(net) {}
+RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached)
+    : names_(net), stream_(std::move(source)), tokens_(net), reached_(reached) {}
 
 void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   const Event& event = entry.event;
@@ -65,15 +65,21 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     const net::TransitionId transition = segment_->transitions[event.subject];
     if (!transition.valid()) return;
     tokens_.fire(transition);
+    if (reached_ != nullptr) fired_.push_back(transition);
     batch.firings.emplace_back(event.time_ns, transition.value);
   } else if (event.kind() == Event::Kind::value) {
     const auto change = segment_->values.follow(entry);
     if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
     segment_->has_changed[change->number] = true;
     segment_->changed.push_back(change->number);
-  } else if (event.kind() == Event::Kind::marking && event.version == 0) {
-    tokens_.set(names_.marked(entry.text));
+  } else if (event.kind() == Event::Kind::marking) {
+    const std::vector<net::PlaceId> places = names_.marked(entry.text);
+    if (reached_ != nullptr) marked_.insert(marked_.end(), places.begin(), places.end());
+    if (event.version != 0) return;
+    tokens_.set(places);
     batch.jumped = true;
+  } else if (event.kind() == Event::Kind::end && event.subject > 0 && reached_ != nullptr) {
+    reached_->lack_events();
   }
 }
 
@@ -97,10 +103,12 @@ RecordingTail::Batch RecordingTail::next() {
       values_ = take_changed_values();
       segment_.emplace(stream_.recording(), names_);
       poses_.begin(*stream_.recording());
+      if (reached_ != nullptr) reached_->begin(*stream_.recording());
     }
     if (!stream_.recording()) continue;
     for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);
     keep_the_last(batch);
+    if (reached_ != nullptr) reached_->add(std::exchange(fired_, {}), std::exchange(marked_, {}));
   } while (stream_.more() && Clock::now() < until);
   batch.more = stream_.more();
   return batch;

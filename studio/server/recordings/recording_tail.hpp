@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "net/net.hpp"
+#include "replay/coverage.hpp"
 #include "replay/values.hpp"
 #include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/pose_track.hpp"
@@ -38,12 +41,30 @@ class NetNames {
   Ids<net::TransitionId> transitions_;
 };
 
+/// What a run has reached of the net so far.
+///
+/// Threads: any.
+class Reached {
+ public:
+  explicit Reached(const net::Net& net) : counts_(net) {}
+  /// The header of a segment. The first one begins the run.
+  void begin(const Recording& header);
+  void add(const std::vector<net::TransitionId>& fired, const std::vector<net::PlaceId>& marked);
+  void lack_events();
+  /// {"behaviours", "places", "transitions", "conditions", "missing", ...} of docs/studio.md.
+  [[nodiscard]] nlohmann::json coverage(const net::HierarchicalNet& pages, const net::Net& net) const;
+
+ private:
+  mutable std::mutex mutex_;
+  replay::FiringCounts counts_;
+};
+
 /// Follows a run by its recording: which transitions fired, where the tokens are,
 /// and what the buffers hold.
 class RecordingTail {
  public:
-  /// net: must outlive this object.
-  RecordingTail(RecordingStream::Source source, const net::Net& net);
+  /// net, reached: must outlive this object. reached: nullptr if nobody asks.
+  RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached = nullptr);
 
   static constexpr std::size_t most_firings = 2000, largest_value = 4096;
   struct Batch {
@@ -59,6 +80,12 @@ class RecordingTail {
   /// The places with a token after everything that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
   [[nodiscard]] PoseTrack& poses() { return poses_; }
+  /// Whether the end of the recording is missing so far.
+  [[nodiscard]] bool is_cut() const { return stream_.is_cut(); }
+  /// Of the net that is recorded; nullopt: nothing has been read.
+  [[nodiscard]] std::optional<std::string> net_hash() const {
+    return segment_ ? std::optional(segment_->recording->net_hash) : std::nullopt;
+  }
   /// {"robot.sensor.line": number, bool, text, list or object} for the buffers whose values have changed
   /// since they were last taken, about `most` bytes of them; the others come next time. Leaves out values
   /// that are not recorded completely, or are larger than largest_value.
@@ -81,6 +108,9 @@ class RecordingTail {
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
   MarkingTracker tokens_;
   PoseTrack poses_;
+  Reached* reached_;
+  std::vector<net::TransitionId> fired_;  // since reached_ was told
+  std::vector<net::PlaceId> marked_;
 };
 
 }  // namespace tessera::server

@@ -40,6 +40,9 @@ class Recordings {
   /// std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> poses(const std::string& name, Span span) const;
   static constexpr std::size_t most_pose_bytes = 1'500'000;
+  /// What the recorded run has reached of the net of the specification: docs/studio.md. nullopt: no recording
+  /// has that name. Throws std::runtime_error if it cannot be read, or is of another net.
+  [[nodiscard]] std::optional<std::string> coverage(const std::string& name) const;
   /// The glTF file of the scene beside a recording; nullopt: none has it.
   [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
 

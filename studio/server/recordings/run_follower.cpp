@@ -28,8 +28,8 @@ std::int64_t nanoseconds(double seconds) {
 }  // namespace
 
 RunFollower::RunFollower(RecordingStream::Source recording, const std::filesystem::path& path,
-                         const Analysis& analysis)
-    : recording_(std::move(recording), *analysis.net), path_(path) {}
+                         const Analysis& analysis, Reached* reached)
+    : recording_(std::move(recording), *analysis.net, reached), path_(path) {}
 
 void RunFollower::rest() { std::this_thread::sleep_for(between_looks); }
 

@@ -21,7 +21,9 @@ namespace tessera::server {
 class RunFollower {
  public:
   /// path: file that the run writes; empty: none that can be read.
-  RunFollower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis);
+  /// reached: gets what the run reaches of the net; must outlive this object.
+  RunFollower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis,
+              Reached* reached = nullptr);
 
   struct News {
     nlohmann::json firings, values, pose, poses, subsystems;  ///< data of the events; null: nothing new

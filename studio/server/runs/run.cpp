@@ -133,6 +133,7 @@ Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
       spec_(std::move(spec)),
       analysis_(std::move(analysis)),
       events_(events),
+      reached_(*analysis_->net),
       marking_(initially_marked(*analysis_->net)) {
   thread_ = std::thread([this] { make_and_run(); });
 }
@@ -260,7 +261,7 @@ void Run::execute(project::Controller controller) {
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
   RunFollower follower(
       RecordingStream::of_file(folder / project::file_names::recording, GrowingRecording::From::newest),
-      folder / project::file_names::path, *analysis_);
+      folder / project::file_names::path, *analysis_, &reached_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
@@ -349,7 +350,8 @@ void Run::attach() {
   const std::filesystem::path file = readable_recording(*snapshot);
   RunFollower follower(file.empty() ? [this] { return link_.recording(); }
                                     : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                       file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_);
+                       file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_,
+                       &reached_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
     if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();
@@ -381,6 +383,8 @@ json Run::info(bool all) const {
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
 }
+
+json Run::coverage() const { return reached_.coverage(*analysis_->pages, *analysis_->net); }
 
 std::optional<std::string> Run::scene(const std::string& hash) const {
   const std::lock_guard lock(mutex_);

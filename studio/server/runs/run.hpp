@@ -59,6 +59,8 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
+  /// What it has reached of the net so far: docs/studio.md.
+  [[nodiscard]] nlohmann::json coverage() const;
   /// The scene with that hash, if it came through a tunnel.
   [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
   /// nullopt: done.
@@ -85,6 +87,7 @@ class Run {
   const std::filesystem::path spec_;
   const std::shared_ptr<const Analysis> analysis_;
   Events& events_;
+  Reached reached_;
   ControllerLink link_;
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
   std::thread follower_, thread_;

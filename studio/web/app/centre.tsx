@@ -1,6 +1,7 @@
 import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
 import { StructureCanvas } from "../canvas/structure_canvas";
 import { ComparisonBar } from "../panels/comparison";
+import { CoverageLegend } from "../panels/coverage";
 import { PaneHead } from "../panels/pane_head";
 import { usePaneTitle } from "../panels/pane_title";
 import { Player } from "../panels/player";
@@ -49,7 +50,7 @@ function Nets({ players }: { players: React.ReactNode[] }) {
     const net = pane.track?.net ?? (desk.mode === "edit" ? edited : desk.net);
     if (!net) return [];
     const head = beside && <PaneHead pane={pane} title={title(pane)} />;
-    return [{ pane, net, title: title(pane), head, foot: players[at] }];
+    return [{ pane, net, title: title(pane), head, foot: players[at], legend: pane.track && <CoverageLegend pane={pane} /> }];
   });
   if (drawn.length === 0)
     return (

@@ -2,12 +2,13 @@ import {
   Background,
   BackgroundVariant,
   Controls,
+  Panel,
   ReactFlow,
   useReactFlow,
   useStore as useFlow,
   type ReactFlowState,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent, type ReactNode } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
@@ -35,12 +36,13 @@ interface DrawingProps {
   /** The other panes follow this one. */
   lead: boolean;
   label: string;
+  legend: ReactNode;
   /** Receives the current page. */
   onCurrent: (page: number) => void;
 }
 
 /** A net in one pane: its visible part, with the tokens of the pane's stage. */
-export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: DrawingProps) {
+export function Drawing({ pane, net, sheets, version, lead, label, legend, onCurrent }: DrawingProps) {
   const studio = useStudio();
   const flow = useReactFlow();
   const { stage } = pane;
@@ -110,6 +112,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, onCurrent }: 
         proOptions={{ hideAttribution: true }}
       >
         <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+        {legend && <Panel position="bottom-left">{legend}</Panel>}
         {lead && <Controls showInteractive={false} position="bottom-right" />}
       </ReactFlow>
     </div>

@@ -16,6 +16,8 @@ export interface DrawnPane {
   /** The elements above and below its drawing. */
   head: ReactNode;
   foot: ReactNode;
+  /** A legend in a corner of it. */
+  legend: ReactNode;
 }
 
 /** The net, once or twice side by side. All panes show the same part of it. */
@@ -44,6 +46,7 @@ export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; bet
                 lead={at === 0}
                 label={panes.length > 1 ? `Drawing of the net: ${drawn.title}` : "Drawing of the net"}
                 onCurrent={setCurrent}
+                legend={drawn.legend}
               />
             </ReactFlowProvider>
             {drawn.foot}

@@ -9,12 +9,13 @@ import type { Stage } from "../live/stage";
  */
 export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
   if (!stage.is(net)) return;
-  const { marking, occupied, counts, firedAt, mode, differing, sampled } = stage;
+  const { marking, occupied, counts, firedAt, mode, differing, sampled, unreached } = stage;
   const playing = mode !== "edit";
   const now = performance.now();
   root.querySelectorAll<SVGGElement>("[data-place]").forEach((group) => {
     const tokens = marking[Number(group.dataset.place)] ?? 0;
     group.style.display = tokens > 0 ? "" : "none";
+    group.parentElement!.classList.toggle("unreached", unreached?.places.has(Number(group.dataset.place)) ?? false);
     const text = group.lastElementChild!;
     const many = tokens > 1 ? String(tokens) : "";
     if (text.textContent !== many) text.textContent = many;
@@ -23,6 +24,9 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     const index = Number(group.dataset.transition);
     group.classList.toggle("enabled", mode === "game" && isActive(net, marking, index));
     group.classList.toggle("fired", playing && now - firedAt[index]! < 350);
+    const isUnreached = unreached?.transitions.has(index) ?? false;
+    group.classList.toggle("unreached", isUnreached);
+    group.classList.toggle("one-sided", !isUnreached && (unreached?.oneSided.has(index) ?? false));
     const text = group.lastElementChild!;
     const count = playing && counts[index]! > 0 ? `${sampled ? "≥" : "×"}${short(counts[index]!)}` : "";
     if (text.textContent !== count) text.textContent = count;
@@ -32,6 +36,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     const layer = net.page(page).layer;
     const idle = layer === "system";
     group.classList.toggle("occupied", playing && !idle && occupied[page] === 1);
+    group.classList.toggle("unreached", unreached?.pages.has(net.page(page).path) ?? false);
     group.classList.toggle("differs", layer === "subsystem" && differing.has(net.page(page).path));
   });
   if (root instanceof SVGElement) root.classList.toggle("runs", playing && occupied[Number(root.dataset.of)] === 1);

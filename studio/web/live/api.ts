@@ -113,6 +113,9 @@ export class Api {
   /** As much of it as is sent at once; from a moment on. */
   recording = (name: string, from?: number) =>
     this.ask("GET /api/recordings/NAME", { of: name, query: from === undefined ? {} : { from: String(from) } });
+  /** What a recording has reached of the net of the specification; and a run, so far. */
+  coverage = (name: string) => this.ask("GET /api/recordings/NAME/coverage", { of: name });
+  runCoverage = (run: string) => this.ask("GET /api/runs/RUN/coverage", { of: run });
   /** The poses of a recording between two times. */
   poses = (name: string, from: number, to: number) =>
     this.ask("GET /api/recordings/NAME/poses", { of: name, query: { from: String(from), to: String(to) } });

@@ -73,6 +73,7 @@ export interface Requests {
   };
   "GET /api/runs": { status: 200; answer: RunListed[] };
   "GET /api/runs/RUN": { status: 200; answer: RunInfo };
+  "GET /api/runs/RUN/coverage": { status: 200; answer: Coverage };
   "POST /api/runs/RUN/control": { body: ControlRequest; status: 200; answer: Nothing };
   "GET /api/recordings": {
     status: 200;
@@ -89,6 +90,7 @@ export interface Requests {
     status: 200;
     answer: Recording;
   };
+  "GET /api/recordings/NAME/coverage": { status: 200; answer: Coverage };
   "GET /api/recordings/NAME/poses": {
     query?: {
       /** Nanoseconds of the run's clock. */
@@ -450,6 +452,31 @@ export interface MeasureOutcome {
   greatest_at_s: number;
   mean: number;
   last: number;
+}
+/** What a run has reached of the net, as `tessera simulate --coverage` counts it. */
+export interface Coverage {
+  behaviours: Share;
+  places: Share;
+  transitions: Share;
+  conditions: Share;
+  /** Places and transitions that no run can reach. They are left out. */
+  unreachable: number;
+  /** What seems not to be reached may have been. */
+  lacks_events: boolean;
+  /** What was not reached: behaviours by path, places and transitions by index. */
+  missing: {
+    behaviours: string[];
+    places: number[];
+    transitions: number[];
+    /** Transitions whose condition never held. */
+    never_held: number[];
+    /** Transitions whose condition always held. */
+    never_false: number[];
+  };
+}
+export interface Share {
+  reached: number;
+  all: number;
 }
 export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";

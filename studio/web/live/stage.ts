@@ -1,8 +1,18 @@
 import { fire, initialMarking, isEnabled, type Marking } from "../model/game";
 import type { NetModel } from "../model/net";
+import type { Coverage } from "./protocol";
 import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
+
+/** What a run has never reached, by the numbers of the net; pages by their paths. */
+export interface Unreached {
+  places: ReadonlySet<number>;
+  transitions: ReadonlySet<number>;
+  /** Transitions that have fired, but whose condition was never false. */
+  oneSided: ReadonlySet<number>;
+  pages: ReadonlySet<string>;
+}
 
 /** Milliseconds between two pictures. */
 const pause = 30;
@@ -24,6 +34,8 @@ export class Stage {
   occupied = new Uint8Array();
   /** Paths of the subsystems that do something else in the other pane. */
   differing: ReadonlySet<string> = new Set();
+  /** Shaded on the drawing; null: no shade. */
+  unreached: Unreached | null = null;
   /** The net that is shown, and its mode. */
   readonly shown = new Store<{ net: NetModel | null; mode: StageMode }>({ net: null, mode: "edit" });
   private net: NetModel | null = null;
@@ -33,6 +45,7 @@ export class Stage {
 
   /** Shows a net with its initial marking, or with a token in each of the places. */
   reset(net: NetModel, mode: StageMode, marked?: readonly number[] | null): void {
+    if (net !== this.net) this.unreached = null;
     this.net = net;
     this.mode = mode;
     this.marking = initialMarking(net);
@@ -79,6 +92,16 @@ export class Stage {
   differ(paths: ReadonlySet<string>): void {
     if (paths.size === this.differing.size && [...paths].every((path) => this.differing.has(path))) return;
     this.differing = paths;
+    this.touch();
+  }
+
+  shade(missing: Coverage["missing"] | null): void {
+    this.unreached = missing && {
+      places: new Set(missing.places),
+      transitions: new Set(missing.transitions),
+      oneSided: new Set(missing.never_false),
+      pages: new Set(missing.behaviours),
+    };
     this.touch();
   }
 

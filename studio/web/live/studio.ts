@@ -1,6 +1,7 @@
 import { Api, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
 import { Connection } from "./connection";
+import { Coverages } from "./coverage";
 import { Draft, message } from "./draft";
 import type { Project, RunRequest } from "./protocol";
 import { Play } from "./play";
@@ -53,6 +54,7 @@ export class Studio {
   readonly runner = new Runner(this.api, this.draft, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({

@@ -1,3 +1,4 @@
+import { Paths } from "../model/robots";
 import { PoseFrames } from "../model/pose_frames";
 import { count } from "../model/sorted";
 import { message } from "./draft";
@@ -11,6 +12,8 @@ export interface World {
   readonly scene: SceneShown;
   /** Why there are no poses; empty: there are. */
   readonly problem: string;
+  /** Of all robots, as far as they have been seen. */
+  readonly paths: Paths;
   /** Null: not known, or not loaded yet. */
   at(time: number): Poses | null;
 }
@@ -18,15 +21,19 @@ export interface World {
 /** The world of a run that goes on. It is shown as it is now. */
 export class LiveWorld implements World {
   readonly problem = "";
+  readonly paths: Paths;
   private readonly frames: PoseFrames;
   private poses: Poses | null = null;
 
   constructor(readonly scene: SceneShown) {
     this.frames = new PoseFrames(scene.bodies.length);
+    this.paths = new Paths(scene.bodies);
   }
 
-  take({ frame }: PoseFrame): void {
-    if (this.frames.take(frame)) this.poses = this.frames.poses();
+  take({ t, frame }: PoseFrame): void {
+    if (!this.frames.take(frame)) return;
+    this.poses = this.frames.poses();
+    this.paths.take(t, this.poses);
   }
 
   at(): Poses | null {
@@ -54,11 +61,14 @@ export class RecordedWorld implements World {
   private next: Part | null = null;
   private loading = false;
   problem = "";
+  readonly paths: Paths;
 
   constructor(
     readonly scene: SceneShown,
     private readonly source: PoseSource,
-  ) {}
+  ) {
+    this.paths = new Paths(scene.bodies);
+  }
 
   at(time: number): Poses | null {
     if (this.next && time >= this.next.from && time > this.part.until) [this.part, this.next] = [this.next, null];
@@ -90,7 +100,9 @@ export class RecordedWorld implements World {
       reader.take(frame);
       if (!reader.known) continue;
       part.times.push(time);
-      part.poses.push(reader.poses());
+      const poses = reader.poses();
+      part.poses.push(poses);
+      this.paths.take(time, poses);
     }
     return part;
   }

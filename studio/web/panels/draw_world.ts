@@ -22,7 +22,7 @@ export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours
   const driven = track.driven;
   drawPath(context, colours, path, driven, x, y);
   const robot = path[Math.max(0, driven - 1)]!;
-  drawRobot(context, colours, x(robot.x), y(robot.y), robot.heading);
+  drawRobot(context, colours.text, x(robot.x), y(robot.y), robot.heading);
   drawScale(context, size, colours, scale);
 }
 
@@ -60,7 +60,7 @@ function drawPath(
 }
 
 /** The picture's lower left corner is the floor's origin. */
-function drawFloor(
+export function drawFloor(
   context: CanvasRenderingContext2D,
   floor: Track["floor"],
   x: (at: number) => number,
@@ -75,7 +75,7 @@ function drawFloor(
   context.restore();
 }
 
-function boundsOf(path: Track["path"], floor: Track["floor"]) {
+export function boundsOf(path: readonly { x: number; y: number }[], floor: Track["floor"]) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   if (floor)
     Object.assign(box, {
@@ -97,7 +97,7 @@ function boundsOf(path: Track["path"], floor: Track["floor"]) {
   return { left: box.left - across, right: box.right + across, bottom: box.bottom - along, top: box.top + along };
 }
 
-function drawRobot(context: CanvasRenderingContext2D, colours: Colours, x: number, y: number, heading: number): void {
+export function drawRobot(context: CanvasRenderingContext2D, colour: string, x: number, y: number, heading: number): void {
   context.save();
   context.translate(x, y);
   context.rotate(-heading);
@@ -107,12 +107,12 @@ function drawRobot(context: CanvasRenderingContext2D, colours: Colours, x: numbe
   context.lineTo(-3.5, 0);
   context.lineTo(-6, -5.5);
   context.closePath();
-  context.fillStyle = colours.text;
+  context.fillStyle = colour;
   context.fill();
   context.restore();
 }
 
-function drawScale(context: CanvasRenderingContext2D, size: Size, colours: Colours, scale: number): void {
+export function drawScale(context: CanvasRenderingContext2D, size: Size, colours: Colours, scale: number): void {
   const metres = niceStep(50 / scale);
   const y = size.height - 8.5;
   context.strokeStyle = colours.faint;

@@ -7,7 +7,6 @@ import {
   Group,
   InstancedMesh,
   Material,
-  Matrix4,
   Mesh,
   MeshLambertMaterial,
   type MeshStandardMaterial,
@@ -23,17 +22,8 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Poses } from "../live/world";
 import { perBody } from "../model/pose_frames";
-
-/** From so many equal parts on, they are drawn together. */
-const together = 20;
-
-/** A mesh that belongs to a body, drawn together with others. */
-interface Instance {
-  mesh: InstancedMesh;
-  index: number;
-  /** Its place in the body. */
-  local: Matrix4;
-}
+import { Bodies3d, still } from "./bodies_3d";
+import { Pace } from "./pace";
 
 /** Whether WebGL runs on the processor, where every pixel counts. Throws if there is none. */
 function isSoftware(): boolean {
@@ -53,15 +43,21 @@ export class World3d {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(45, 1, 0.01, 500);
   private readonly controls: OrbitControls;
-  private readonly bodies: Group[] = [];
-  private readonly instances: Instance[][] = [];
+  private readonly isSoftware = isSoftware();
+  private readonly pace = new Pace();
+  /** Their places; what is drawn of them is in `drawn`. */
+  private bodies: Object3D[] = [];
+  private drawn: Bodies3d | null = null;
   private root: Object3D = new Group();
   private poses: Poses | null = null;
-  /** Per body; made with the first ghosts. */
-  private ghosts: Object3D[] = [];
+  /** The poses in which the bodies are drawn. */
+  private shown: Poses | null = null;
+  /** Made with the first ghosts. */
+  private ghosts: Bodies3d | null = null;
   private ghostPoses: Poses | null = null;
   private changed = true;
   private frame = 0;
+  private waiting: ReturnType<typeof setTimeout> | undefined;
   private size = "";
   private pressed = new Vector2();
 
@@ -80,7 +76,7 @@ export class World3d {
       lost: () => void;
     },
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware() });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware });
     this.camera.up.set(0, 1, 0);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 0.55 * Math.PI;
@@ -97,25 +93,26 @@ export class World3d {
     const { scene } = await new GLTFLoader().parseAsync(glb, "");
     this.scene.add(scene);
     this.root = scene.children[0]!;
-    for (let body = 0; body < bodies; body += 1) {
-      this.bodies.push(new Group());
-      this.instances.push([]);
-    }
+    this.bodies = Array.from({ length: bodies }, () => new Group());
     scene.traverse((node) => {
       const body: unknown = node.userData.body;
-      if (typeof body === "number" && body < bodies) this.bodies[body] = node as Group;
+      if (typeof body === "number" && body < bodies) this.bodies[body] = node;
     });
     scene.updateMatrixWorld(true);
     lookPlain(scene);
-    // Before equal parts leave their bodies to be drawn together.
-    this.ghosts = this.bodies.map((group) => ghostOf(group));
-    this.drawTogether();
     this.lookAtAll();
+    // What is still goes last: then the bodies are no part of it.
+    this.drawn = Bodies3d.of(this.bodies);
+    const fixed = still(this.root);
+    this.root.clear();
+    this.root.add(...this.bodies, ...this.drawn.meshes, ...fixed);
+    this.root.updateMatrixWorld(true);
     this.tick();
   }
 
   close(): void {
     cancelAnimationFrame(this.frame);
+    clearTimeout(this.waiting);
     this.canvas.removeEventListener("pointerdown", this.press);
     this.canvas.removeEventListener("click", this.click);
     this.canvas.removeEventListener("webglcontextlost", this.given.lost);
@@ -144,91 +141,95 @@ export class World3d {
   private tick = (): void => {
     this.frame = requestAnimationFrame(this.tick);
     const poses = this.given.poses();
-    if (poses && poses !== this.poses) this.move(poses);
+    if (poses && poses !== this.poses) {
+      this.poses = poses;
+      this.changed = true;
+    }
     this.haunt(this.given.ghosts());
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const background = this.given.background();
     const size = [width, height, devicePixelRatio, background].join();
     if (size !== this.size && width > 0 && height > 0) {
       this.size = size;
-      this.renderer.setPixelRatio(devicePixelRatio);
+      this.renderer.setPixelRatio(this.isSoftware ? 1 : devicePixelRatio);
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
       this.scene.background = new Color(background);
       this.changed = true;
     }
-    if (!this.changed) return;
-    this.changed = false;
-    this.renderer.render(this.scene, this.camera);
-    this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
+    if (this.changed && this.pace.isDue(performance.now())) this.draw();
   };
 
-  private move(poses: Poses): void {
-    const { poses: before } = this;
-    this.poses = poses;
+  private draw(): void {
+    this.changed = false;
+    this.pace.begin(performance.now());
+    this.show();
+    this.renderer.render(this.scene, this.camera);
+    this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
+    this.pace.ordered(performance.now());
+    this.waitUntilDrawn();
+  }
+
+  /** `render` only orders what another process draws. */
+  private waitUntilDrawn(): void {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (fence && !gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+        this.waiting = setTimeout(look, 1);
+        return;
+      }
+      gl.deleteSync(fence);
+      this.pace.drawn(performance.now());
+    };
+    this.waiting = setTimeout(look);
+  }
+
+  /** Moves all bodies to their poses, and the view with the one that it follows. */
+  private show(): void {
+    const { poses, shown } = this;
+    if (!poses || poses === shown) return;
+    this.shown = poses;
     const old = this.bodies[this.followed]?.getWorldPosition(new Vector3());
     this.bodies.forEach((group, body) => {
       const at = body * perBody;
-      let same = before !== null;
-      for (let part = at; same && part < at + perBody; part += 1) same = before![part] === poses[part];
+      let same = shown !== null;
+      for (let part = at; same && part < at + perBody; part += 1) same = shown![part] === poses[part];
       if (same) return;
-      place(group, poses, body);
-      for (const { mesh, index, local } of this.instances[body]!) {
-        mesh.setMatrixAt(index, scratch.multiplyMatrices(group.matrix, local));
-        mesh.instanceMatrix.needsUpdate = true;
-      }
+      put(group, poses, body);
+      this.drawn?.place(body, group.matrix);
     });
-    this.changed = true;
     if (!old) return;
     const now = this.bodies[this.followed]!.getWorldPosition(new Vector3());
     this.camera.position.add(now).sub(old);
     this.controls.target.add(now).sub(old);
     this.controls.update();
+    // What has turned with the body is drawn now, not once more.
+    this.changed = false;
   }
 
   private haunt(poses: Poses | null): void {
     if (poses === this.ghostPoses) return;
     this.ghostPoses = poses;
     this.changed = true;
-    this.ghosts.forEach((ghost, body) => {
-      if (poses) place(ghost, poses, body);
-      if (poses) this.root.add(ghost);
-      else ghost.removeFromParent();
-    });
-  }
-
-  /** Parts of bodies with the same triangles and the same look become one thing to draw. */
-  private drawTogether(): void {
-    const equal = new Map<string, { mesh: Mesh; body: number }[]>();
-    this.bodies.forEach((group, body) =>
-      group.traverse((node) => {
-        if (!(node instanceof Mesh)) return;
-        node.userData.body = body;
-        const key = `${node.geometry.uuid} ${(node.material as Material).uuid}`;
-        equal.set(key, [...(equal.get(key) ?? []), { mesh: node, body }]);
-      }),
-    );
-    for (const parts of equal.values()) {
-      if (parts.length < together) continue;
-      const { geometry, material } = parts[0]!.mesh;
-      const mesh = new InstancedMesh(geometry, material, parts.length);
-      mesh.frustumCulled = false;
-      mesh.userData.bodies = parts.map(({ body }) => body);
-      parts.forEach(({ mesh: part, body }, index) => {
-        const local = new Matrix4().copy(this.bodies[body]!.matrixWorld).invert().multiply(part.matrixWorld);
-        this.instances[body]!.push({ mesh, index, local });
-        mesh.setMatrixAt(index, scratch.multiplyMatrices(this.bodies[body]!.matrix, local));
-        part.removeFromParent();
-      });
-      this.root.add(mesh);
+    if (!poses) {
+      this.ghosts?.meshes.forEach((mesh) => mesh.removeFromParent());
+      return;
     }
+    this.ghosts ??= this.drawn!.ghosts(ghostly);
+    for (let body = 0; body < this.bodies.length; body += 1) {
+      put(scratch, poses, body);
+      this.ghosts.place(body, scratch.matrix);
+    }
+    if (!this.ghosts.meshes[0]?.parent && this.ghosts.meshes.length > 0) this.root.add(...this.ghosts.meshes);
   }
 
   /** Bodies and floor picture, but not the endless plane below them. */
   private lookAtAll(): void {
-    const poses = this.given.poses();
-    if (poses) this.move(poses);
+    this.poses = this.given.poses();
+    this.show();
     this.scene.updateMatrixWorld(true);
     const box = new Box3();
     for (const group of this.bodies) box.expandByPoint(group.getWorldPosition(new Vector3()));
@@ -269,7 +270,7 @@ export class World3d {
     const hit = ray.intersectObject(this.scene)[0];
     if (!hit) return;
     const several = hit.object.userData.bodies as number[] | undefined;
-    const body = several ? several[hit.instanceId ?? 0] : (hit.object.userData.body as number | undefined);
+    const body = several?.[hit.instanceId ?? 0];
     if (body !== undefined) this.given.picked(body);
   };
 
@@ -284,9 +285,9 @@ export class World3d {
   }
 }
 
-const scratch = new Matrix4();
+const scratch = new Group();
 
-function place(node: Object3D, poses: Poses, body: number): void {
+function put(node: Object3D, poses: Poses, body: number): void {
   const [x, y, z, w, i, j, k] = poses.subarray(body * perBody) as unknown as [
     number,
     number,
@@ -302,17 +303,6 @@ function place(node: Object3D, poses: Poses, body: number): void {
 }
 
 const ghostly = new MeshLambertMaterial({ color: 0x3b82c4, transparent: true, opacity: 0.35, depthWrite: false });
-
-/** A copy that can be seen through, and not be clicked. */
-function ghostOf(group: Object3D): Object3D {
-  const ghost = group.clone(true);
-  ghost.traverse((node) => {
-    if (!(node instanceof Mesh)) return;
-    node.material = ghostly;
-    node.raycast = () => undefined;
-  });
-  return ghost;
-}
 
 /** Simple light, which a processor can compute; a picture on the floor is drawn above the floor. */
 function lookPlain(scene: Object3D): void {

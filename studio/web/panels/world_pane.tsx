@@ -1,8 +1,10 @@
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useMemo, useRef, useState } from "react";
 import { useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import type { Track } from "../live/track";
 import type { World } from "../live/world";
+import { robotsOf, type Robot } from "../model/robots";
+import { colourOf, cut, drawFleet } from "./draw_fleet";
 import { drawWorld } from "./draw_world";
 import { Painted } from "./painted";
 import type { World3d } from "./world_3d";
@@ -22,6 +24,8 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
     return () => clearInterval(timer);
   }, [world]);
   const inSpace = world !== null && !above && !problem;
+  const robots = useMemo(() => (world ? robotsOf(world.scene.bodies) : []), [world]);
+  const fleet = !inSpace && robots.filter(({ agent }) => agent).length > 1;
   const look = (next: boolean) => {
     sessionStorage.setItem(kept, next ? "above" : "space");
     setAbove(next);
@@ -31,7 +35,7 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
     <div className={`watch-pane world${large && inSpace ? " large" : ""}`}>
       <div className="watch-title">
         <h2>World</h2>
-        {inSpace && <Followed world={world} followed={followed} onFollow={setFollowed} />}
+        {(inSpace || fleet) && world && <Followed world={world} followed={followed} onFollow={setFollowed} />}
         <span className="spring" />
         {inSpace && (
           <button className="small" aria-pressed={large} onClick={() => setLarge(!large)}>
@@ -47,6 +51,19 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
       </div>
       {inSpace ? (
         <Space track={track} beside={beside} world={world} followed={followed} onProblem={setProblem} />
+      ) : fleet ? (
+        <>
+          <Painted
+            label="The robots from above"
+            draw={(context, size, colours) => {
+              const { now, floor } = track;
+              const poses = world!.at(now);
+              if (poses) drawFleet(context, size, colours, { robots, poses, paths: world!.paths, now, floor, followed });
+            }}
+            of={() => `${track.id} ${track.now} ${world!.paths.times.length} ${world!.at(track.now) !== null} ${followed}`}
+          />
+          <Legend robots={robots} />
+        </>
       ) : (
         <Painted
           label="The robot's path from above"
@@ -55,6 +72,25 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
         />
       )}
     </div>
+  );
+}
+
+/** The colours of the robots. A name chooses its agent in the drawing. */
+function Legend({ robots }: { robots: readonly Robot[] }) {
+  const studio = useStudio();
+  return (
+    <ul className="robots" aria-label="Robots">
+      {robots.map(({ name, agent }, at) =>
+        agent ? (
+          <li key={name}>
+            <button className="link" title={name} onClick={() => studio.flyTo(agent)}>
+              <i style={{ background: colourOf(at) }} />
+              <span>{cut(name, 20)}</span>
+            </button>
+          </li>
+        ) : null,
+      )}
+    </ul>
   );
 }
 

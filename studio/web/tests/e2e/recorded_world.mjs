@@ -124,8 +124,8 @@ export function glbOf(robots, parts) {
  * Writes NAME.tsr and its scene beside the specification: robots that drive in circles for ten seconds, side by side.
  * net: as the server analyses it; agent: the one that has all bodies.
  */
-export function writeWorld(folder, name, { hash, net_hash, transitions, agent, robots, parts = 6, shift = 0 }) {
-  const bodies = Array.from({ length: robots }, (_, at) => [`robot[${at}]/base`, agent]);
+export function writeWorld(folder, name, { hash, net_hash, transitions, agent, robots, parts = 6, shift = 0, prefix = "robot" }) {
+  const bodies = Array.from({ length: robots }, (_, at) => [`${prefix}[${at}]/base`, agent]);
   const header = Buffer.from(
     JSON.stringify({
       system: "line_follower",

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, example, onPage, tab, until } from "./page.mjs";
+import { button, element, example, onPage, tab, until } from "./page.mjs";
 import { writeWorld } from "./recorded_world.mjs";
 
 const api = (server, path) => fetch(`${server.address}${path}`, { headers: { Authorization: `Bearer ${server.token}` } });
@@ -74,7 +74,11 @@ test("a recorded world is seen in three dimensions at every time of the timeline
     }, "the followed body is in the middle"); // prettier-ignore
 
     await button(page, "3D").click();
-    await page.getByRole("img", { name: "The robot's path from above" }).waitFor();
+    await page.getByRole("img", { name: "The robots from above" }).waitFor();
+    const legend = page.getByRole("list", { name: "Robots" });
+    assert.deepEqual(await legend.getByRole("listitem").allInnerTexts(), ["robot[0]", "robot[1]", "robot[2]"]);
+    await legend.getByText("robot[1]").click();
+    await element(page, "robot").and(page.locator(".selected")).waitFor();
   }));
 
 test("the scene goes to those with the token only, and only by its hash", () =>
@@ -103,7 +107,10 @@ test("two runs in one world are seen as ghosts of each other", () =>
     const ghosts = (at) =>
       space(page)
         .nth(at)
-        .evaluate(({ view }) => (view?.ghosts[0]?.parent ? view.ghosts[0].position.x - view.bodies[0].position.x : null));
+        .evaluate(({ view }) => {
+          const ghost = view?.ghosts?.meshes[0];
+          return ghost?.parent ? ghost.instanceMatrix.array[12] - view.bodies[0].position.x : null;
+        });
     await until(page, async () => (await drawn(page)) > 0, "the world is drawn");
     assert.equal(await ghosts(0), null, "alone it has none");
     await button(page, "Show two.tsr beside one.tsr").click();

@@ -1,0 +1,35 @@
+/** The largest part of the time of the page that drawing may take. */
+const ownShare = 1 / 3;
+/** The largest part of the time in which a picture may be under way, in this process or in the one that draws. */
+const wholeShare = 1 / 2;
+
+/**
+ * When the next picture may be drawn. Where WebGL runs on the processor, it takes the time of everything else:
+ * after a picture, the view rests in proportion. All times are those of performance.now().
+ */
+export class Pace {
+  /** Milliseconds of the last picture: in the page, and until it was drawn. */
+  own = 0;
+  whole = 0;
+  private begun = 0;
+  private due = 0;
+
+  isDue(now: number): boolean {
+    return now >= this.due;
+  }
+
+  begin(now: number): void {
+    this.begun = now;
+    this.due = Infinity;
+  }
+
+  /** What the page has to do is done; the picture is drawn elsewhere. */
+  ordered(now: number): void {
+    this.own = now - this.begun;
+  }
+
+  drawn(now: number): void {
+    this.whole = now - this.begun;
+    this.due = this.begun + Math.max(this.own / ownShare, this.whole / wholeShare);
+  }
+}

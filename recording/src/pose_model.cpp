@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::size_t first_of_rotation = 3;
+constexpr std::size_t rotation_begins = 3;
 constexpr std::int64_t unit = 8191;
 
 /// How the body goes on if it moves and turns steadily. A point that turns steadily about a fixed axis has
@@ -15,10 +15,10 @@ constexpr std::int64_t unit = 8191;
 [[nodiscard]] RoundedPose going_on(const RoundedPose& last, const RoundedPose& before) {
   RoundedPose next;
   std::int64_t cosine = 0;
-  for (std::size_t at = first_of_rotation; at < next.steps.size(); ++at)
+  for (std::size_t at = rotation_begins; at < next.steps.size(); ++at)
     cosine += last.steps[at] * before.steps[at];
   for (std::size_t at = 0; at < next.steps.size(); ++at) {
-    const bool is_position = at < first_of_rotation;
+    const bool is_position = at < rotation_begins;
     next.steps[at] =
         (is_position ? 2 * last.steps[at]
                      : (4 * cosine * last.steps[at] / (unit * unit) + (last.steps[at] < 0 ? -1 : 1)) / 2) -
@@ -30,7 +30,7 @@ constexpr std::int64_t unit = 8191;
 
 [[nodiscard]] bool within_limits(const RoundedPose& pose) {
   for (std::size_t at = 0; at < pose.steps.size(); ++at) {
-    const std::int64_t limit = at < first_of_rotation ? farthest_pose_step : unit;
+    const std::int64_t limit = at < rotation_begins ? farthest_pose_step : unit;
     if (pose.steps[at] < -limit || pose.steps[at] > limit) return false;
   }
   return true;
@@ -89,7 +89,7 @@ bool PoseModel::code_moved(Coder& coder, Body& body, RoundedPose& pose) {
     const std::array<std::int64_t, 2> guesses{body.last.steps[at], on.steps[at]};
     const std::int64_t guess = guesses[misses[1] <= misses[0] ? 1 : 0];
     std::int64_t surprise = pose.steps[at] - guess;
-    NumberModel& model = moved_[at < first_of_rotation ? 0 : 1][body.sizes[at]];
+    NumberModel& model = moved_[at < rotation_begins ? 0 : 1][body.sizes[at]];
     if (!code_number(coder, model, surprise)) return false;
     pose.steps[at] = guess + surprise;
     const auto width = std::bit_width(static_cast<std::uint64_t>(std::abs(surprise)));
@@ -114,7 +114,7 @@ bool PoseModel::code_frame(Coder& coder, bool whole, std::vector<RoundedPose>& p
     if (whole) {
       // Bodies of one robot are near each other.
       for (std::size_t at = 0; at < components; ++at) {
-        const std::int64_t base = at < first_of_rotation ? neighbour.steps[at] : 0;
+        const std::int64_t base = at < rotation_begins ? neighbour.steps[at] : 0;
         std::int64_t number = pose.steps[at] - base;
         if (!code_number(coder, whole_[at], number)) return false;
         pose.steps[at] = base + number;

@@ -47,6 +47,11 @@ Option& Option::excludes(Option other) {
   return *this;
 }
 
+Option& Option::needs(Option other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
 Option Subcommand::option(const std::string& names, std::string& value, const std::string& help) {
   return Option(*app_->add_option(names, value, help));
 }

@@ -35,6 +35,8 @@ class Option {
   Option& repeated();
   /// Makes it a usage mistake to give both.
   Option& excludes(Option other);
+  /// It has no meaning without the other.
+  Option& needs(Option other);
 
  private:
   CLI::Option* option_;

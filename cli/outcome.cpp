@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
+#include "cli/film.hpp"
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/terminal.hpp"
@@ -36,13 +38,50 @@ T value_or_throw(Result<T> result) {
   return std::move(*result);
 }
 
-report::DrivenPath drive_over(const Floor& floor, sim::Trace trace) {
+report::DrivenPath drive_over(const sim::Track& floor, sim::Trace trace) {
   report::DrivenPath drive;
-  drive.floor = value_or_throw(sim::Track::load(floor.image.string(), floor.metres_per_pixel));
+  drive.floor = floor;
   drive.trace = std::move(trace);
   drive.line = sim::skeleton(drive.floor);
   if (!drive.line.points.empty()) drive.metrics = sim::measure(drive.line, drive.trace);
   return drive;
+}
+
+std::vector<report::JudgedCurve> judged_in(const RunOutcome& outcome) {
+  std::vector<report::JudgedCurve> all;
+  const json checks = outcome.summary.value("checks", json::array());
+  for (const json& written : outcome.curves) {
+    report::JudgedCurve& curve = all.emplace_back();
+    curve.name = written.value("name", "");
+    curve.is_check = written.value("check", false);
+    curve.is_truth = written.value("truth", false);
+    curve.every_s = written.value("every_s", curve.every_s);
+    if (written.contains("limit")) curve.limit = written.at("limit").get<double>();
+    for (const json& span : written.value("spans", json::array()))
+      curve.spans.push_back(
+          span.is_null() ? std::nullopt
+                         : std::optional(std::pair(span.at(0).get<double>(), span.at(1).get<double>())));
+    // The curves of the checks come first, in their order.
+    if (!curve.is_check || all.size() > checks.size()) continue;
+    const json& check = checks[all.size() - 1];
+    curve.verdict = check.value("verdict", "");
+    curve.text = check.value("text", "");
+    curve.detail = check.value("detail", "");
+    if (curve.verdict == "failed" && check.contains("time_s"))
+      curve.failed_s = check.at("time_s").get<double>();
+  }
+  return all;
+}
+
+/// A report without a picture of the world is better than none.
+void put_poster(const std::string& recording, report::ReportInput& input) {
+  if (!input.paths || !input.paths->has_poses) return;
+  constexpr int width = 1000, height = 562;
+  try {
+    input.poster = report::Poster{poster_of(recording, world_of_recording(recording, ""), width, height), 0};
+  } catch (const std::exception& error) {
+    input.why_no_poster = error.what();
+  }
 }
 
 report::ReportInput report_input(RunOutcome outcome, const verify::Report& verification) {
@@ -52,7 +91,10 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
   if (!recording) throw std::runtime_error(error);
   input.recording = std::move(*recording);
   input.drive = std::move(outcome.drive);
-  input.robots = outcome.robots;
+  input.paths = std::move(outcome.paths);
+  input.floor = std::move(outcome.floor);
+  input.judged = judged_in(outcome);
+  put_poster(outcome.recording.string(), input);
   input.simulated_s = outcome.summary.value("simulated_s", 0.0);
   input.wall_s = outcome.summary.value("wall_s", 0.0);
   input.firings = outcome.summary.value("firings", 0ULL);
@@ -71,15 +113,20 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(options);
-  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}};
+  RunOutcome outcome{.summary = read_summary(files.summary), .recording = files.recording};
+  if (outcome.summary.is_object()) {
+    outcome.curves = outcome.summary.value("curves", json::array());
+    outcome.summary.erase("curves");
+  }
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
-  if (!has_world || !fs::exists(files.trace)) return outcome;
-  sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string()));
-  outcome.robots = trace.robots;
-  if (!outcome.robots.empty()) return outcome;
+  if (!has_world) return outcome;
   if (const std::optional<Floor> floor = floor_of(specification, options))
-    outcome.drive = drive_over(*floor, std::move(trace));
+    outcome.floor = value_or_throw(sim::Track::load(floor->image.string(), floor->metres_per_pixel));
+  outcome.paths = report::paths_in(files.recording.string(), outcome.floor ? &*outcome.floor : nullptr);
+  if (outcome.paths->robots.size() > 1) outcome.robots = outcome.paths->names();
+  if (outcome.floor && outcome.paths->trace)
+    outcome.drive = drive_over(*outcome.floor, *std::exchange(outcome.paths->trace, std::nullopt));
   return outcome;
 }
 
@@ -128,7 +175,8 @@ void print(const RunOutcome& outcome) {
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",
                line.laps, line.line_lost_s, line.mean_error_m * 1000, line.max_error_m * 1000);
   }
-  if (!outcome.robots.empty()) fmt::print("{}\n", report::several_robots(outcome.robots));
+  if (outcome.paths && !outcome.paths->has_poses)
+    fmt::print("the recording has no poses of the world, so there is no path\n");
   fmt::print("recording: {}\n", outcome.recording.string());
 }
 

@@ -11,6 +11,7 @@
 #include "sim/compose/compose.hpp"
 #include "sim/compose/layout.hpp"
 #include "sim/engine/seeds.hpp"
+#include "sim/track.hpp"
 #include "sim/variation.hpp"
 
 namespace tessera::sim {
@@ -81,25 +82,66 @@ std::vector<Variation> variations_of(const json& models) {
   return variations;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
-  if (options.models.empty()) return Physics::load(options.world);
-  const json models = json::parse(options.models);
+/// Of the placed models.
+Result<Composition> composition_of(const WorldOptions& options, const json& models) {
   std::vector<Placement> placements;
   for (const json& one : models) placements.push_back(placement_of(one));
   if (auto problem = scatter_groups(options, models, placements)) return std::move(*problem);
-  const Result<Composition> composition = compose(options.world, placements);
-  if (!composition) return Problem{composition.problem()};
-  Result<ComposedWorld> world = load(*composition);
+  return compose(options.world, placements);
+}
+
+Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options, const Composition& composition,
+                                            const json& variations) {
+  Result<ComposedWorld> world = load(composition);
   if (!world) return Problem{world.problem()};
   for (const std::string& warning : world->warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  if (auto problem = vary(*world->model, variations_of(models), options.seed)) return std::move(*problem);
+  if (auto problem = vary(*world->model, variations_of(variations), options.seed)) return std::move(*problem);
   auto physics = Physics::of(std::move(world->model), options.world);
   if (physics)
     (*physics)->start_with(
         [&](const mjModel& model, mjData& data) { set_state(model, world->initial, data); });
   return physics;
+}
+
+/// Text of an attribute.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    result += c == '&' ? "&amp;" : c == '"' ? "&quot;" : c == '<' ? "&lt;" : std::string(1, c);
+  return result;
+}
+
+/// The picture of the track, a hair above the floor.
+std::string floor_elements(const std::string& image, const Track& track) {
+  const std::string half_x = std::to_string(track.width_m() / 2),
+                    half_y = std::to_string(track.height_m() / 2);
+  return "<asset><texture name=\"tessera floor\" type=\"2d\" file=\"" + escaped(image) +
+         "\"/><material name=\"tessera floor\" texture=\"tessera floor\" reflectance=\"0\" specular=\"0\" "
+         "rgba=\"1 1 1 1\"/></asset><worldbody><geom name=\"tessera floor\" type=\"plane\" group=\"0\" "
+         "contype=\"0\" conaffinity=\"0\" material=\"tessera floor\" size=\"" +
+         half_x + " " + half_y + " 1\" pos=\"" + half_x + " " + half_y + " 0.0004\"/></worldbody>";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
+  if (options.models.empty()) return Physics::load(options.world);
+  const json models = json::parse(options.models);
+  const Result<Composition> composition = composition_of(options, models);
+  if (!composition) return Problem{composition.problem()};
+  return physics_of(options, *composition, models);
+}
+
+Result<std::unique_ptr<Physics>> physics_to_look_at(const WorldOptions& options) {
+  if (options.track.empty()) return physics_of(options);
+  const Result<Track> track = Track::load(options.track, options.metres_per_pixel);
+  if (!track) return Problem{track.problem()};
+  const json models = options.models.empty() ? json::array() : json::parse(options.models);
+  Result<Composition> composition = composition_of(options, models);
+  const auto end = composition ? composition->mjcf.rfind("</mujoco>") : std::string::npos;
+  if (end == std::string::npos) return physics_of(options);  // without the floor
+  composition->mjcf.insert(end, floor_elements(options.track, *track));
+  return physics_of(options, *composition, json::array());
 }
 
 }  // namespace tessera::sim

@@ -1,5 +1,6 @@
 #include "sim/pose_sampler.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -16,8 +17,15 @@ WorldScene PoseSampler::scene(const Physics& physics, const Track* floor,
     picture = {floor->width_m(), floor->height_m(), floor->width_px(), floor->height_px(), floor->pixels()};
   WorldScene scene{.glb = glb_of(model, bodies, picture), .bodies = {}};
   const std::vector<std::string> agents = agents_of_bodies(model, bodies, devices);
-  for (std::size_t index = 0; index < bodies.size(); ++index)
+  for (std::size_t index = 0; index < bodies.size(); ++index) {
     scene.bodies.push_back({body_name(model, bodies[index]), agents[index]});
+    for (int above = model.body_parentid[bodies[index]]; above != 0; above = model.body_parentid[above]) {
+      const auto found = std::ranges::find(bodies, above);
+      if (found == bodies.end()) continue;
+      scene.bodies.back().parent = static_cast<std::size_t>(found - bodies.begin());
+      break;
+    }
+  }
   return scene;
 }
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/scene/scene.hpp"
+
 namespace tessera::sim {
 namespace {
 
@@ -20,6 +22,23 @@ Point middle_of(const std::vector<Point>& points) {
   }
   return *std::ranges::min_element(
       points, {}, [&](const Point& p) { return std::hypot(p.x_m - mean.x_m, p.y_m - mean.y_m); });
+}
+
+/// nullopt: no body that can move carries it.
+std::optional<WorldScene::Eye> eye_of_scene(const Physics& physics, int site, double footprint_m) {
+  const mjModel& model = physics.model();
+  const mjData& now = physics.positions();
+  const std::vector<int> bodies = moving_bodies(model);
+  for (int body = model.site_bodyid[site]; body > 0; body = model.body_parentid[body]) {
+    const auto found = std::ranges::find(bodies, body);
+    if (found == bodies.end()) continue;
+    mjtNum from_body[3];
+    mju_sub3(from_body, now.site_xpos + 3 * site, now.xpos + 3 * body);
+    WorldScene::Eye eye{.body = static_cast<std::size_t>(found - bodies.begin()), .footprint_m = footprint_m};
+    mju_rotVecMatT(eye.at_m.data(), from_body, now.xmat + 9 * body);
+    return eye;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -67,7 +86,10 @@ std::string Simulation::results() {
 
 WorldScene Simulation::scene(std::span<const DriverRequest> devices) const {
   const std::scoped_lock lock(mutex_);
-  return PoseSampler::scene(*physics_, floor_ ? &*floor_ : nullptr, devices);
+  WorldScene scene = PoseSampler::scene(*physics_, floor_ ? &*floor_ : nullptr, devices);
+  for (const Eye& eye : eyes_)
+    if (const auto seen = eye_of_scene(*physics_, eye.site, eye.footprint_m)) scene.eyes.push_back(*seen);
+  return scene;
 }
 
 void Simulation::show_poses(PoseSink& sink) {

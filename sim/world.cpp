@@ -8,6 +8,7 @@
 
 #include "sim/contents.hpp"
 #include "sim/devices/kinds.hpp"
+#include "sim/painter.hpp"
 #include "sim/placed_world.hpp"
 #include "sim/simulation.hpp"
 #include "sim/view_of_world.hpp"
@@ -168,4 +169,12 @@ extern "C" __attribute__((visibility("default"))) bool tessera_list_world_2(
   else
     error = listed.problem();
   return static_cast<bool>(listed);
+}
+
+/// Opens a MuJoCo world to be drawn; throws nothing. See tessera::OpenPainter.
+extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::WorldPainter>
+tessera_open_painter_1(const tessera::WorldOptions& options, const tessera::PictureOptions& picture,
+                       std::string& error) {
+  return tessera::sim::value_or_null(
+      tessera::sim::without_exceptions([&] { return tessera::sim::open_painter(options, picture); }), error);
 }

@@ -11,6 +11,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/coverage.hpp"
+#include "cli/film.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
@@ -43,6 +44,7 @@ struct ReplayOptions {
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
   bool check = false, print = false;
+  FilmOptions film;
   std::string values;  ///< of buffers whose path contains this; all_values; empty: none
 };
 
@@ -257,12 +259,22 @@ int coverage_command(const ReplayOptions& options) {
   return ok;
 }
 
+int film_command(const ReplayOptions& options) {
+  FilmOptions film = options.film;
+  film.recording = options.recording;
+  film.spec = options.spec;
+  film.from_s = options.from_s;
+  film.to_s = options.to_s;
+  return make_film(film);
+}
+
 int replay_command(ReplayOptions options) {
   if (options.recordings.empty()) options.recordings.push_back(last_recording());
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
   if (options.recordings.size() > 1)
     return complain("several recordings are read together with --coverage only"), usage;
+  if (!options.film.file.empty()) return film_command(options);
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
   if (!recording) return complain(error);
@@ -317,14 +329,29 @@ void add_replay(CommandLine& app, int& exit_code) {
   command.flag("--values", options->values, all_values,
                "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
                "--csv a row per change and a column per field");
-  command.option("--from", options->from_s, "Events from this time on, in seconds");
-  command.option("--to", options->to_s, "Events up to this time, in seconds");
+  command.option("--from", options->from_s, "Events, or a film, from this time on, in seconds");
+  command.option("--to", options->to_s, "Events, or a film, up to this time, in seconds");
   command.option("--last", options->last, "The last so many of the events");
   command.option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
   command.option("--containing", options->transition, "Events whose text contains this: t6, .snd.motion");
   command.option("--csv", options->csv, "Write the events as CSV (- is standard output)");
   command.option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
   command.option("--json", options->json, "Write summary and check as JSON (- is standard output)");
+  Option film =
+      command.option("--film", options->film.file,
+                     "Draw the simulated run: FILE.png (animated) or FILE.y4m; with ffmpeg also .mp4, "
+                     ".webm and .gif");
+  command
+      .option("--camera", options->film.camera,
+              "Of a film: a camera of the world (default: all robots in view)")
+      .needs(film);
+  command.option("--speed", options->film.speed, "Of a film: so many times as fast as the run").needs(film);
+  command.option("--size", options->film.size, "Of a film: WIDTHxHEIGHT in pixels")
+      .shows_default()
+      .needs(film);
+  for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",
+                            "--coverage", "--last", "--subsystem", "--containing"})
+    film.excludes(command.declared(other));
   command.footer(
       "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 3 if "
       "events\n"
@@ -333,6 +360,7 @@ void add_replay(CommandLine& app, int& exit_code) {
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"
       "         tessera replay --to-perfetto run.json\n"
+      "         tessera replay --film run.mp4 --speed 2\n"
       "         tessera replay --coverage monday.tsr tuesday.tsr all.json");
   command.callback([options, &exit_code] { exit_code = replay_command(*options); });
 }

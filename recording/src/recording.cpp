@@ -46,8 +46,15 @@ void read_run(const nlohmann::json& header, Recording& recording) {
 [[nodiscard]] bool read_scene(const nlohmann::json& scene, Recording& recording) {
   Recording::Scene& read = recording.scene.emplace();
   scene.at("hash").get_to(read.hash);
-  for (const nlohmann::json& body : scene.at("bodies"))
+  for (const nlohmann::json& body : scene.at("bodies")) {
     read.bodies.push_back({body.at(0).get<std::string>(), body.at(1).get<std::string>()});
+    if (body.size() > 2) read.bodies.back().parent = body.at(2).get<std::size_t>();
+  }
+  for (const nlohmann::json& eye : scene.value("eyes", nlohmann::json::array())) {
+    read.eyes.push_back({eye.at(0).get<std::size_t>(), eye.at(1).get<double>(), eye.at(2).get<double>(),
+                         eye.at(3).get<double>(), eye.at(4).get<double>()});
+    if (read.eyes.back().body >= read.bodies.size()) return false;
+  }
   return is_scene_hash(read.hash);
 }
 

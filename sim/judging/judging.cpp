@@ -57,6 +57,16 @@ json json_of(const checks::MeasureResult& result) {
           {"mean", result.mean},         {"last", result.last}};
 }
 
+json json_of(const checks::Judge::Plotted& plotted) {
+  json one{{"name", plotted.name}, {"check", plotted.is_check}, {"every_s", plotted.curve.every_s()}};
+  if (plotted.is_truth) one["truth"] = true;
+  if (plotted.limit) one["limit"] = *plotted.limit;
+  json& spans = one["spans"] = json::array();
+  for (const checks::Curve::Span& span : plotted.curve.spans())
+    spans.push_back(span.known ? json::array({span.least, span.greatest}) : json(nullptr));
+  return one;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Judging>> Judging::read(const std::string& text, const Physics& physics) {
@@ -110,6 +120,8 @@ std::string Judging::results() const {
   json results{{"checks", json::array()}, {"measures", json::object()}};
   for (const CheckResult& one : judge_->results()) results["checks"].push_back(json_of(one));
   for (const checks::MeasureResult& one : judge_->measures()) results["measures"][one.name] = json_of(one);
+  results["curves"] = json::array();
+  for (const checks::Judge::Plotted& one : judge_->plotted()) results["curves"].push_back(json_of(one));
   return results.dump();
 }
 

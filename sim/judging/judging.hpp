@@ -25,7 +25,8 @@ class Judging {
   void finish();
   [[nodiscard]] std::vector<WorldFailure> take_failures();
   /// {"checks": [{"name", "text", "verdict", "time_s"?, "detail"?}], "measures": {NAME: {"least",
-  /// "least_at_s", "greatest", "greatest_at_s", "mean", "last"}}} as JSON; empty: there are none.
+  /// "least_at_s", "greatest", "greatest_at_s", "mean", "last"}}, "curves": [{"name", "check", "truth"?,
+  /// "limit"?, "every_s", "spans": [[least, greatest] or null...]}]} as JSON; empty: there are none.
   [[nodiscard]] std::string results() const;
 
  private:

@@ -58,16 +58,19 @@ void CameraView::make_scene(const mjModel& model, int most_geoms) {
 }
 
 void CameraView::look(const Physics& physics) {
-  constexpr int seen = mjCAT_STATIC | mjCAT_DYNAMIC;
-  const mjModel& model = physics.model();
   // The engine computes the scene from the state, and only reads it.
   auto& state = const_cast<mjData&>(physics.state());
   if (!physics.failure().empty()) return;
-  if (scene_.maxgeom == 0) make_scene(model, model.ngeom + 2 * model.nwrap + model.nskin + 100);
   mjvCamera camera;
   mjv_defaultCamera(&camera);
   camera.type = mjCAMERA_FIXED;
   camera.fixedcamid = camera_;
+  look(physics.model(), state, camera);
+}
+
+void CameraView::look(const mjModel& model, mjData& state, mjvCamera& camera) {
+  constexpr int seen = mjCAT_STATIC | mjCAT_DYNAMIC;
+  if (scene_.maxgeom == 0) make_scene(model, model.ngeom + 2 * model.nwrap + model.nskin + 100);
   for (;;) {
     // A full scene is a warning, and is made larger here.
     static_cast<void>(

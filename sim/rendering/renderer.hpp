@@ -38,6 +38,8 @@ class CameraView {
 
   /// Takes in where everything is. Does not change the physics.
   void look(const Physics& physics);
+  /// From any camera. state: the engine only reads it.
+  void look(const mjModel& model, mjData& state, mjvCamera& camera);
 
   [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] PictureKind kind() const { return kind_; }

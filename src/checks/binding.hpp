@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +50,13 @@ struct BoundFormulas {
 
 [[nodiscard]] double value_of(const BoundNumber& number, Scene& scene);
 [[nodiscard]] bool holds(const BoundFormula& formula, Scene& scene);
+/// What a check is about, for a plot: of a comparison with a constant the other side (the worst of all i), of
+/// everything else 1 if it holds and 0 if not. forbids: the check demands that the formula never holds.
+struct Shown {
+  double value = 0;
+  std::optional<double> limit;  ///< of a comparison
+};
+[[nodiscard]] Shown shown(const BoundFormulas& formulas, bool forbids, Scene& scene);
 /// The facts that a formula speaks of: "distance(a, b) = 0.183", "robot[0], robot[3] touch". At most three.
 [[nodiscard]] std::string facts_of(const BoundFormula& formula, Scene& scene);
 

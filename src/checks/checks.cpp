@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tessera::checks {
@@ -64,6 +65,8 @@ Result<Judge> Judge::bind(std::vector<Check> checks, const std::vector<Measure>&
     CheckResult result;
     result.name = check.name;
     result.text = written(check);
+    judge.plotted_.emplace_back().name = check.name;
+    judge.plotted_.back().is_check = true;
     judge.checks_.push_back({std::move(check), std::move(*formulas), std::move(result)});
   }
   for (const Measure& measure : measures) {
@@ -71,6 +74,7 @@ Result<Judge> Judge::bind(std::vector<Check> checks, const std::vector<Measure>&
     if (!number) return Problem{fmt::format("measure '{}': {}", measure.name, number.problem())};
     judge.numbers_.push_back(std::move(*number));
     judge.measures_.emplace_back().name = measure.name;
+    judge.plotted_.emplace_back().name = measure.name;
   }
   return judge;
 }
@@ -111,6 +115,23 @@ void Judge::observe(double time_s) {
     if (!one.decided) look(one, time_s);
   for (std::size_t index = 0; index < numbers_.size(); ++index)
     add(measures_[index], value_of(numbers_[index], *scene_), time_s);
+  plot(time_s);
+}
+
+/// Rarer than it is judged, since it costs as much.
+void Judge::plot(double time_s) {
+  constexpr double every_s = 0.04;
+  for (std::size_t index = 0; index < measures_.size(); ++index)
+    plotted_[checks_.size() + index].curve.add(time_s, measures_[index].last);
+  if (time_s < next_plot_s_) return;
+  next_plot_s_ = (std::floor(time_s / every_s + 1e-6) + 1) * every_s - 1e-6;
+  for (std::size_t index = 0; index < checks_.size(); ++index) {
+    const BoundCheck& one = checks_[index];
+    const Shown now = shown(one.formulas, one.check.when == Check::When::never, *scene_);
+    plotted_[index].limit = now.limit;
+    plotted_[index].is_truth = !now.limit;
+    plotted_[index].curve.add(time_s, now.value);
+  }
 }
 
 void Judge::finish(double time_s) {

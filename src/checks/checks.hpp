@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "checks/binding.hpp"
+#include "checks/curve.hpp"
 #include "checks/expression.hpp"
 #include "checks/scene.hpp"
 #include "tessera/result.hpp"
@@ -65,6 +66,15 @@ class Judge {
   [[nodiscard]] std::vector<CheckResult> take_failures();
   [[nodiscard]] std::vector<CheckResult> results() const;
   [[nodiscard]] const std::vector<MeasureResult>& measures() const { return measures_; }
+  /// How a check or measure went, for a plot.
+  struct Plotted {
+    std::string name;
+    bool is_check = false;
+    bool is_truth = false;        ///< 1 or 0: whether the formula held
+    std::optional<double> limit;  ///< of a check that compares with it
+    Curve curve;
+  };
+  [[nodiscard]] const std::vector<Plotted>& plotted() const { return plotted_; }
 
  private:
   struct BoundCheck {
@@ -74,6 +84,7 @@ class Judge {
     bool decided = false, told = false;
   };
   explicit Judge(Scene& scene) : scene_(&scene) {}
+  void plot(double time_s);
   void look(BoundCheck& one, double time_s);
   void fail(BoundCheck& one, double time_s, std::string detail);
   /// nullopt: the formula holds for every i (wanted) or for none (not wanted); else the facts.
@@ -83,6 +94,8 @@ class Judge {
   std::vector<BoundCheck> checks_;
   std::vector<BoundNumber> numbers_;
   std::vector<MeasureResult> measures_;
+  std::vector<Plotted> plotted_;  // the checks, then the measures
+  double next_plot_s_ = 0;
 };
 
 }  // namespace tessera::checks

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "checks/binding.hpp"
 
@@ -138,6 +139,45 @@ std::string facts_of(const BoundFormula& formula, Scene& scene) {
   Facts facts(scene);
   facts.collect(formula);
   return facts.text();
+}
+
+namespace {
+
+/// The side that is no constant, and whether less of it is better. nullopt: it is no such comparison.
+struct Side {
+  const BoundNumber *number, *limit;
+  bool wants_less;
+};
+std::optional<Side> side_of(const BoundFormula& formula) {
+  const bool less = formula.kind == Formula::Kind::less || formula.kind == Formula::Kind::less_or_equal;
+  const bool greater =
+      formula.kind == Formula::Kind::greater || formula.kind == Formula::Kind::greater_or_equal;
+  if (!less && !greater) return std::nullopt;
+  const BoundNumber &left = formula.numbers[0], &right = formula.numbers[1];
+  if (right.kind == Number::Kind::literal) return Side{&left, &right, less};
+  if (left.kind == Number::Kind::literal) return Side{&right, &left, greater};
+  return std::nullopt;
+}
+
+}  // namespace
+
+Shown shown(const BoundFormulas& formulas, bool forbids, Scene& scene) {
+  std::optional<Shown> worst;
+  bool all = true, any = false;
+  for (const auto& [i, formula] : formulas.by_index) {
+    const std::optional<Side> side = side_of(formula);
+    if (!side) {
+      const bool now = holds(formula, scene);
+      all = all && now;
+      any = any || now;
+      continue;
+    }
+    const double value = value_of(*side->number, scene);
+    const bool greatest_is_worst = side->wants_less != forbids;
+    if (!worst || (greatest_is_worst ? value > worst->value : value < worst->value))
+      worst = Shown{value, side->limit->value};
+  }
+  return worst.value_or(Shown{(forbids ? any : all) ? 1.0 : 0.0, std::nullopt});
 }
 
 }  // namespace tessera::checks

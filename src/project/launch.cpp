@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 RunFiles run_files(const LaunchOptions& options) {
   const fs::path folder = fs::absolute(options.folder);
   return {options.record.empty() ? folder / file_names::recording : fs::absolute(options.record),
-          folder / file_names::path, folder / file_names::summary};
+          folder / file_names::summary};
 }
 
 namespace {
@@ -65,10 +65,25 @@ void append(Command& command, std::initializer_list<std::string> words) {
   command.insert(command.end(), words);
 }
 
+std::optional<WorldPicture> picture_of(const Specification& specification, const LaunchOptions& options) {
+  const spec::Simulation& simulation = *specification.model.simulation;
+  if (simulation.world.empty() && options.world.empty()) return std::nullopt;
+  WorldPicture picture;
+  picture.world = fs::absolute(
+      asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds"));
+  if (const std::optional<Floor> floor = floor_of(specification, options)) {
+    picture.track = fs::absolute(floor->image);
+    picture.metres_per_pixel = floor->metres_per_pixel;
+  }
+  picture.seed = options.seed;
+  return picture;
+}
+
 void add_devices(Command& command, const Specification& specification, const LaunchOptions& options) {
   const fs::path file = fs::absolute(options.folder) / file_names::simulation;
   std::ofstream stream(file);
-  stream << simulation_json(specification.model, specification.project) << std::flush;
+  stream << simulation_json(specification.model, specification.project, picture_of(specification, options))
+         << std::flush;
   if (!stream) throw std::runtime_error("cannot write " + file.string());
   append(command, {"--simulation", file.string()});
 }
@@ -117,7 +132,6 @@ void add_world(Command& command, const Specification& specification, const Launc
           "--world-library", Installation::find().world_library.string()});
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);
-  append(command, {"--trace", run_files(options).trace.string()});
   add_devices(command, specification, options);
 }
 

@@ -35,7 +35,7 @@ struct LaunchOptions {
 
 /// The files that a run leaves.
 struct RunFiles {
-  std::filesystem::path recording, trace, summary;
+  std::filesystem::path recording, summary;
 };
 [[nodiscard]] RunFiles run_files(const LaunchOptions& options);
 

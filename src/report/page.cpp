@@ -19,7 +19,7 @@
 namespace tessera::report {
 namespace {
 
-constexpr std::size_t most_messages = 40, most_lanes = 24, most_rows = 40;
+constexpr std::size_t most_messages = 40, most_lanes = 24, most_rows = 40, most_plots = 16;
 
 void put_figure(std::string& html, const std::string& value, std::string_view name) {
   put(html, R"(<div class="figure"><b>{}</b><span>{}</span></div>)", value, name);
@@ -51,22 +51,6 @@ void put_figures(std::string& html, const ReportInput& input) {
   html += "</div>";
 }
 
-void put_drive(std::string& html, const DrivenPath& drive) {
-  const PathColours colours = path_colours(drive);
-  std::string ramp;
-  for (int i = 0; i <= 6; ++i) ramp += (i > 0 ? "," : "") + css_colour(heat_colour(i / 6.0));
-  put(html,
-      R"html(<h2>Path</h2><div class="panel floor">{}<p class="note">The middle sensor's path: 0<span class="ramp" style="background:linear-gradient(90deg,{})"></span>{} )html"
-      R"(The ring is the start, the robot stands where it ended.</p></div>)",
-      path_svg(drive), ramp,
-      colours.by_error ? fmt::format("{:.0f} mm or more from the middle of the line.", colours.top * 1000)
-                       : fmt::format("{:.0f} s.", colours.top));
-  if (drive.metrics.error_m.size() < 2 || drive.metrics.error_m.size() != drive.trace.points.size()) return;
-  put(html,
-      R"(<h2>Lateral error</h2><div class="panel">{}<p class="note">Of the middle sensor; left of the driving direction is positive. Shaded: no sensor over the line.</p></div>)",
-      error_svg(drive));
-}
-
 /// Shows the rows that matter, then the first others, in their order; the rest is only counted.
 template <class Row, class Matters>
 std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters) {
@@ -81,6 +65,74 @@ std::size_t keep_most(std::vector<Row>& rows, std::size_t most, Matters matters)
   for (const std::size_t row : order) kept.push_back(std::move(rows[row]));
   rows = std::move(kept);
   return hidden;
+}
+
+void put_poster(std::string& html, const ReportInput& input) {
+  if (input.poster) {
+    put(html,
+        R"(<h2>The world at the end</h2><div class="panel poster"><img alt="The simulated world" src="{}" width="{}" height="{}"></div>)",
+        data_uri("image/png", png_of(input.poster->picture)), input.poster->picture.width,
+        input.poster->picture.height);
+  } else if (!input.why_no_poster.empty()) {
+    put(html, R"(<p class="note">There is no picture of the world: {}</p>)",
+        escaped(shortened(input.why_no_poster, 300, 3)));
+  }
+}
+
+void put_paths(std::string& html, const ReportInput& input) {
+  if (!input.paths) return;
+  if (!input.paths->has_poses) {
+    html +=
+        R"(<p class="note">The recording has no poses of the bodies of the world, so there are no paths of robots.</p>)";
+    return;
+  }
+  const bool is_shown = input.drive && !input.drive->trace.points.empty();
+  const bool any =
+      std::ranges::any_of(input.paths->robots, [](const RobotPath& one) { return !one.points.empty(); });
+  if (is_shown || !any) return;
+  put(html,
+      R"(<h2>Paths</h2><div class="panel">{}{}<p class="note">From above, x to the right. A circle is the start, an arrow the end.</p></div>)",
+      paths_svg(input.paths->robots, input.floor ? &*input.floor : nullptr),
+      paths_legend(input.paths->robots));
+}
+
+void put_judged_curve(std::string& html, const JudgedCurve& curve, double end_s) {
+  const char* kind = curve.verdict == "failed" ? "bad" : curve.verdict == "held" ? "good" : "warn";
+  put(html, R"(<div class="panel plot"><p><b>{}</b>)", escaped(shortened(curve.name, 80, 1)));
+  if (curve.is_check) put(html, R"( <span class="{}">{}</span>)", kind, escaped(curve.verdict));
+  html += "</p>";
+  if (!curve.text.empty())
+    put(html, R"(<p class="note mono">{}</p>)", escaped(shortened(curve.text, 160, 1)));
+  if (!curve.spans.empty()) html += curve_svg(curve, end_s);
+  if (!curve.detail.empty()) put(html, R"(<p class="note">{}</p>)", escaped(shortened(curve.detail, 200, 2)));
+  html += "</div>";
+}
+
+void put_judged(std::string& html, const ReportInput& input) {
+  if (input.judged.empty()) return;
+  std::vector<JudgedCurve> shown = input.judged;
+  const std::size_t hidden =
+      keep_most(shown, most_plots, [](const JudgedCurve& curve) { return curve.verdict == "failed"; });
+  html += R"(<h2>Checks and measures</h2><div class="plots">)";
+  for (const JudgedCurve& curve : shown) put_judged_curve(html, curve, input.simulated_s);
+  html += "</div>";
+  if (hidden > 0) put(html, R"(<p class="note">and {} more</p>)", grouped(hidden));
+}
+
+void put_drive(std::string& html, const DrivenPath& drive) {
+  const PathColours colours = path_colours(drive);
+  std::string ramp;
+  for (int i = 0; i <= 6; ++i) ramp += (i > 0 ? "," : "") + css_colour(heat_colour(i / 6.0));
+  put(html,
+      R"html(<h2>Path</h2><div class="panel floor">{}<p class="note">The middle sensor's path: 0<span class="ramp" style="background:linear-gradient(90deg,{})"></span>{} )html"
+      R"(The ring is the start, the robot stands where it ended.</p></div>)",
+      path_svg(drive), ramp,
+      colours.by_error ? fmt::format("{:.0f} mm or more from the middle of the line.", colours.top * 1000)
+                       : fmt::format("{:.0f} s.", colours.top));
+  if (drive.metrics.error_m.size() < 2 || drive.metrics.error_m.size() != drive.trace.points.size()) return;
+  put(html,
+      R"(<h2>Lateral error</h2><div class="panel">{}<p class="note">Of the middle sensor; left of the driving direction is positive. Shaded: no sensor over the line.</p></div>)",
+      error_svg(drive));
 }
 
 void put_behaviours(std::string& html, replay::Timeline timeline) {
@@ -170,11 +222,10 @@ void put_notices(std::string& html, const ReportInput& input) {
   };
   if (has_failed(input.recording))
     put_notice("The run has failed: " + shortened(input.ended, 400, 4), " failed");
-  if (!input.robots.empty()) put_notice(several_robots(input.robots));
   if (input.recording.segment.value_or(0) > 0)
     put_notice(
-        "The beginning of the recording is gone (--record-limit): behaviours and messages are those of "
-        "the rest.");
+        "The beginning of the recording is gone (--record-limit): paths, behaviours and messages are "
+        "those of the rest.");
   if (input.recording.truncated)
     put_notice("The recording is cut off at its end: what happened after that is not shown.");
   if (input.recording.lost > 0)
@@ -209,7 +260,10 @@ std::string page(const ReportInput& input) {
       generator_tag);
   put_notices(html, input);
   put_figures(html, input);
+  put_poster(html, input);
+  put_paths(html, input);
   if (input.drive && !input.drive->trace.points.empty()) put_drive(html, *input.drive);
+  put_judged(html, input);
   put_behaviours(html, timeline);
   put_subsystems(html, input, timeline);
   put_messages(html, input.recording);

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "report/frame.hpp"
+#include "report/paths.hpp"
+#include "report/plots.hpp"
 #include "sim/trace.hpp"
 #include "sim/track.hpp"
 #include "tessera/recording.hpp"
@@ -18,6 +21,12 @@ struct DrivenPath {
   sim::Skeleton line;  ///< may be empty; the report then shows no error
   sim::Trace trace;
   sim::LineMetrics metrics;  ///< of line and trace
+};
+
+/// A picture of the world.
+struct Poster {
+  Frame picture;
+  double time_s = 0;
 };
 
 struct SubsystemFigures {
@@ -35,7 +44,12 @@ struct Verdict {
 struct ReportInput {
   Recording recording;
   std::optional<DrivenPath> drive;
-  std::string robots;  ///< "rover, rover_2": there is no drive because several robots move; empty: one
+  /// Of a simulated world: where the robots were. Without poses in the recording, the page says so.
+  std::optional<RunPaths> paths;
+  std::optional<sim::Track> floor;  ///< under the paths of several robots
+  std::optional<Poster> poster;
+  std::string why_no_poster;        ///< empty: there is one, or no world
+  std::vector<JudgedCurve> judged;  ///< checks and measures
   double simulated_s = 0, wall_s = 0;
   std::uint64_t firings = 0;
   std::string ended;                         ///< why the run ended
@@ -47,15 +61,13 @@ struct ReportInput {
 inline constexpr std::string_view generator_tag = R"(<meta name="generator" content="Tessera">)";
 
 struct File {
-  std::string name;  ///< "index.html", "path.png"
+  std::string name;  ///< "index.html", "path.png", "poster.png"
   std::string bytes;
 };
 
-/// "Several robots move in this world (rover, rover_2): ...", in one sentence.
-[[nodiscard]] std::string several_robots(const std::string& names);
-
 /// A page without external parts (pictures inline, no scripts, no network; light and dark, suitable
-/// for printing), and with a drive the picture of the path over the floor: index.html and path.png.
+/// for printing): index.html. With a drive also the picture of the path over the floor, path.png, and with a
+/// poster that one, poster.png.
 /// All text from outside is escaped, and data that is no text is not shown. The same input gives the
 /// same bytes. Memory and size stay bounded for long runs and large fleets: curves and time lines
 /// are thinned to what a page can show; of many subsystems the first ones are shown, and of many

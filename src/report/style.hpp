@@ -23,6 +23,14 @@ h1{font-size:28px;line-height:1.2;margin:0}h2{font-size:17px;margin:36px 0 10px}
 .floor svg{max-height:80vh;background:#fff;border-radius:4px}
 .messages td:nth-child(1){width:1%;white-space:nowrap}.messages td:nth-child(2){width:24%}
 .notice{border-left:4px solid #b07614;margin:0 0 16px}.notice.failed{border-left-color:var(--bad)}
+.poster img{display:block;width:100%;height:auto;border-radius:4px}
+.ground{max-height:620px;background:#fff;border-radius:4px}.ground polyline{stroke-width:2;stroke-linejoin:round;stroke-opacity:.85}
+.ground .from{fill:#fff;stroke-width:2}.ground .now{stroke:#fff;stroke-width:.8}.ground .name{font-weight:600;paint-order:stroke;fill:revert-layer}
+.ground .key{fill:#5d6872}.scale{stroke:#5d6872;stroke-width:2}
+.legend{display:flex;flex-wrap:wrap;gap:4px 18px;margin:10px 0 0;font-size:13px}.panel .legend svg{display:inline-block;width:26px;height:6px;margin-right:6px;stroke-width:3}
+.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(430px,1fr));gap:12px}.plot p{margin:0 0 4px}.plot .note{margin:0 0 4px}
+.band{fill:var(--accent);fill-opacity:.25;stroke:var(--accent);stroke-width:1.2;stroke-linejoin:round}.truth{fill:var(--accent);fill-opacity:.35;stroke:var(--accent)}
+.limit{stroke:var(--bad);stroke-dasharray:5 4}svg .limit-text,svg .failed-text{fill:var(--bad)}
 .note{color:var(--soft);font-size:13px;margin:8px 0 0}
 .ramp{display:inline-block;width:120px;height:9px;border-radius:5px;vertical-align:middle;margin:0 6px}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}

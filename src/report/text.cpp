@@ -70,6 +70,20 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::optional<Character> character = first_of(text);
+    const std::size_t bytes = character ? character->bytes : 1;
+    if (character && is_shown(character->code))
+      result += text.substr(0, bytes);
+    else
+      result += replacement;
+    text.remove_prefix(bytes);
+  }
+  return result;
+}
+
 std::string shortened(std::string_view text, std::size_t most_bytes, std::size_t most_lines) {
   std::size_t end = 0;
   for (std::size_t lines = 1; end < text.size(); ++end)

@@ -12,7 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t bodies = data[0];
   std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
   tessera::PoseDecoder decoder(bodies), again(bodies);
-  tessera::PoseEncoder encoder(bodies);
+  using Form = tessera::PoseEncoder::Form;
+  tessera::PoseEncoder encoder(bodies, bodies % 2 == 0 ? Form::plain : Form::packed);
   for (std::int64_t time_ns = 0; !rest.empty(); time_ns += tessera::pose_period.count()) {
     const std::size_t length = static_cast<std::uint8_t>(rest.front());
     rest.remove_prefix(1);

@@ -199,11 +199,11 @@ TEST(Report, SaysWhatARecordingDoesNotHold) {
   EXPECT_THAT(render(input)[0].bytes, Not(HasSubstr("notice\">")));
   input.recording.truncated = true;
   input.recording.lost = 12;
-  input.robots = "rover, rover_2";
+  input.paths.emplace();
   const std::string page = render(input)[0].bytes;
   EXPECT_THAT(page, HasSubstr("cut off at its end"));
   EXPECT_THAT(page, HasSubstr("12 events of the run are missing"));
-  EXPECT_THAT(page, HasSubstr("Several robots move in this world (rover, rover_2)"));
+  EXPECT_THAT(page, HasSubstr("no poses of the bodies of the world, so there are no paths"));
 }
 
 TEST(Report, OfARunWithoutDurationHasNoEmptyChart) {

@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "served.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/recording_tail.hpp"
+#include "tessera/poses.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::server_test {
@@ -18,10 +21,10 @@ class RecordingOfTheStudio : public Served {
  protected:
   RecordingOfTheStudio() { analysis_ = server::analyse("spec.yaml", content_of(spec())); }
 
-  [[nodiscard]] std::string header(std::uint64_t segment) const {
+  [[nodiscard]] std::string header(std::uint64_t segment, const json& scene = {}) const {
     json transitions = json::array();
     for (const auto& transition : analysis_.net->transitions()) transitions.push_back({transition.name, 0});
-    const json header{
+    json header{
         {"system", "line_follower"},
         {"net_hash", analysis_.net_hash},
         {"verification_hash", ""},
@@ -30,11 +33,12 @@ class RecordingOfTheStudio : public Served {
         {"instances", {"robot.control"}},
         {"transitions", transitions},
         {"values", {{"limit", 4096}, {"buffers", {{"robot.control.line", 0, "in", "{left: bool}"}}}}}};
+    if (!scene.is_null()) header["scene"] = scene;
     std::string text = header.dump();
     text.back() = ',';
     text += "\"segment\":" + std::to_string(segment) + "}";
     const auto length = static_cast<std::uint32_t>(text.size());
-    std::string bytes(recording_magic);
+    std::string bytes(scene.is_null() ? recording_magic : recording_magic_with_poses);
     bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
     bytes.resize((bytes.size() + 7) / 8 * 8);
     return bytes;
@@ -135,19 +139,34 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
 
 TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {
   const fs::path last = folder_ / "project/.tessera/last";
-  write(last / "recording.tsr", header(0) + firing(10, 1));
-  std::string path = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line\n";
-  for (int point = 0; point < 50'000; ++point) path += std::to_string(point) + ",1.5,-2,0.5,0,0,1\n";
-  write(last / "path.csv", path + "half a line");
+  PoseEncoder encoder(2, PoseEncoder::Form::packed);
+  std::string events;
+  std::vector<BodyPose> poses(2);
+  poses[0].rotation = {std::cos(0.25), 0, 0, std::sin(0.25)};
+  for (int point = 0; point < 50'000; ++point) {
+    poses[0].position_m = {1e-3 * point, -2, 0};
+    const std::string frame(encoder.encode(point * pose_period.count(), poses));
+    Event head{.time_ns = point * pose_period.count(),
+               .subject = static_cast<std::uint32_t>(frame.size()),
+               .origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::poses)};
+    events.append(reinterpret_cast<const char*>(&head), sizeof head).append(frame);
+    events.resize((events.size() + sizeof head - 1) / sizeof head * sizeof head);
+  }
+  const json scene{{"hash", "0123456789abcdef"}, {"bodies", {{"rover", "robot"}, {"stone", ""}}}};
+  write(last / "recording.tsr", header(0, scene) + events);
   write(last / "summary.json", R"({"track": "/somewhere/tracks/oval.png"})");
   serve();
   const json whole = get("/api/recordings/last").json();
   EXPECT_EQ(whole.at("track"), "oval.png");
   EXPECT_LE(whole.at("path").size(), 20'000U);
   EXPECT_GE(whole.at("path").size(), 10'000U);
-  EXPECT_EQ(whole.at("path").front(), json({0, 1.5, -2.0, 0.5}));
-  EXPECT_EQ(whole.at("path").back()[0], 49'999'000'000'000);
-  const json part = get("/api/recordings/last?from=1000000000&to=3000000000").json();
+  const json first = whole.at("path").front();
+  EXPECT_EQ(first[0], 0);
+  EXPECT_NEAR(first[2].get<double>(), -2, 1e-4);
+  EXPECT_NEAR(first[3].get<double>(), 0.5, 1e-3);
+  EXPECT_EQ(whole.at("path").back()[0], 49'999 * pose_period.count());
+  EXPECT_NEAR(whole.at("path").back()[1].get<double>(), 49.999, 1e-4);
+  const json part = get("/api/recordings/last?from=1000000000&to=1100000000").json();
   EXPECT_EQ(part.at("path").size(), 3U);
 }
 
@@ -158,16 +177,11 @@ TEST_F(RecordingOfTheStudio, WhatIsBesideItMayBeAnything) {
   const std::vector<std::string> noise{"", std::string(3'000'000, '\xff'), "{\"track\":[]}", "[[[[",
                                        "{\"track\":\"..\"}"};
   for (const std::string& one : noise) {
-    write(last / "path.csv", one);
     write(last / "summary.json", one);
     const Reply reply = get("/api/recordings/last");
     EXPECT_EQ(reply.status, 200);
     EXPECT_EQ(reply.json().at("path"), json::array());
   }
-  fs::remove(last / "path.csv");
-  write(folder_ / "secret.csv", "1,2,3,4,5\n");
-  fs::create_symlink(folder_ / "secret.csv", last / "path.csv");
-  EXPECT_EQ(get("/api/recordings/last").json().at("path"), json::array());
 }
 
 TEST_F(RecordingOfTheStudio, IsFollowedFromSegmentToSegment) {

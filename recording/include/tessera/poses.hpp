@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,25 +14,31 @@
 #include "tessera/time.hpp"
 
 /// How the poses of bodies in a simulated world are recorded: one frame per `pose_period` in which a body has
-/// moved, as differences to the frame before, and at least once per `whole_pose_period` a *whole* frame, which
-/// needs none before it. So a reader can begin anywhere, and a lost frame harms for a second at most.
+/// moved, and at least once per `whole_pose_period` a *whole* frame, which needs none before it. So a reader can
+/// begin anywhere, and a lost frame harms for a second at most.
 ///
-/// A frame has these bytes:
+/// A pose is x, y, z in steps of 0.1 mm and the unit quaternion w + i + j + k in steps of 1/8191: what is read is
+/// what was rounded so, in every form of frame. A frame begins with
 ///
-///     uint8    0: differences, 1: whole
+///     uint8    its form
 ///     uint16   its number, little-endian: one more than that of the frame before
-///     and per body that it lists, in rising order of index,
-///       varint   bodies left out since the one before
-///       uint8    which of x, y, z, w, i, j, k follow, in this order: bits 0 to 6
-///       varint   of each: zigzag difference to the frame before; in a whole frame, to 0
 ///
-/// x, y, z are in steps of 0.1 mm, the unit quaternion w + i + j + k in steps of 1/8191. A varint has seven
-/// bits per byte, the lowest first, and the highest bit of a byte says that more follow.
+/// Forms 2 (differences) and 3 (whole) are *packed*, as recordings have them: both ends expect each body to go on
+/// as in the last two frames, and an arithmetic coder writes how far it is from that (pose_model.hpp beside the
+/// source). Forms 0 (differences) and 1 (whole) are *plain*, for the page of the studio, and in recordings of
+/// before; they list, per body in rising order of index,
+///
+///     varint   bodies left out since the one before
+///     uint8    which of x, y, z, w, i, j, k follow, in this order: bits 0 to 6
+///     varint   of each: zigzag difference to the frame before; in a whole frame, to 0
+///
+/// A varint has seven bits per byte, the lowest first, and the highest bit of a byte says that more follow.
 namespace tessera {
 
 inline constexpr Duration pose_period = std::chrono::milliseconds(40);
 inline constexpr Duration whole_pose_period = std::chrono::seconds(1);
 inline constexpr double pose_steps_per_metre = 10'000, pose_steps_per_unit = 8191;
+inline constexpr std::int64_t farthest_pose_step = 1'000'000'000'000;  ///< of a position: 10^8 m
 
 /// Of a body in the world.
 struct BodyPose {
@@ -48,24 +55,34 @@ struct RoundedPose {
 [[nodiscard]] std::optional<RoundedPose> rounded(const BodyPose& pose);
 [[nodiscard]] BodyPose pose_of(const RoundedPose& rounded);
 
-/// Makes the frames of one stream of poses. The same poses give the same bytes.
+class PoseModel;
+
+/// Makes the frames of one stream of poses. The same poses give the same bytes, on every machine.
 ///
 /// Threads: one at a time.
 class PoseEncoder {
  public:
-  explicit PoseEncoder(std::size_t bodies) : last_(bodies) {}
+  enum class Form : std::uint8_t { plain, packed };
+  explicit PoseEncoder(std::size_t bodies, Form form = Form::plain);
+  ~PoseEncoder();
+  PoseEncoder(PoseEncoder&&) noexcept;
+  PoseEncoder& operator=(PoseEncoder&&) noexcept;
 
   /// poses: of all bodies. A body whose pose is not finite stays where it was. Empty: nothing has moved, and
   /// no whole frame is due. The bytes are valid until the next call.
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const BodyPose> poses);
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const RoundedPose> poses);
-  /// The poses of the last frame as a whole one with the same number; empty: there is none yet.
+  /// The poses of the last frame as a whole plain one with the same number; empty: there is none yet.
   [[nodiscard]] std::string last_whole() const;
-  /// The most bytes that a frame of so many bodies has.
+  /// The most bytes that a frame of so many bodies has. Where a packed one had more, it becomes a plain one.
   [[nodiscard]] static std::size_t longest_frame(std::size_t bodies);
 
  private:
+  void put_head(std::uint8_t form, std::uint16_t number);
+  void put_plain(bool whole, std::span<const RoundedPose> poses);
+  void put_packed(bool& whole);
   std::vector<RoundedPose> last_, rounded_;
+  std::unique_ptr<PoseModel> model_;      // of packed frames
   std::optional<std::int64_t> whole_ns_;  // time of the last whole frame
   std::uint16_t number_ = 0;
   std::string bytes_;
@@ -76,7 +93,10 @@ class PoseEncoder {
 /// Threads: one at a time.
 class PoseDecoder {
  public:
-  explicit PoseDecoder(std::size_t bodies) : poses_(bodies) {}
+  explicit PoseDecoder(std::size_t bodies);
+  ~PoseDecoder();
+  PoseDecoder(PoseDecoder&&) noexcept;
+  PoseDecoder& operator=(PoseDecoder&&) noexcept;
 
   /// false: the bytes are no frame of these bodies.
   bool take(std::string_view frame);
@@ -88,6 +108,7 @@ class PoseDecoder {
  private:
   [[nodiscard]] bool apply(std::string_view bytes, bool whole);
   std::vector<RoundedPose> poses_;
+  std::unique_ptr<PoseModel> model_;
   std::optional<std::uint16_t> number_;  // of the last frame
   bool known_ = false;
 };

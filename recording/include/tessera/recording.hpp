@@ -53,7 +53,7 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
 ///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]},
-///      "scene": {"hash", "bodies": [[name, agent]...]}}
+///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
 /// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
 ///
@@ -151,9 +151,16 @@ struct Recording {
     struct Body {
       std::string name;   ///< as in the scene
       std::string agent;  ///< the agent that has it; empty: none
+      std::optional<std::size_t> parent{};  ///< the body that it hangs on; nullopt: none of these
+    };
+    /// A light sensor: the point at which it looks, in the frame of a body.
+    struct Eye {
+      std::size_t body = 0;  ///< of bodies
+      double x_m = 0, y_m = 0, z_m = 0, footprint_m = 0;
     };
     std::string hash;          ///< of the scene, which stands beside the recording as HASH.glb
     std::vector<Body> bodies;  ///< those whose poses are recorded
+    std::vector<Eye> eyes;
   };
   std::optional<Scene> scene;     ///< nullopt: recorded without poses
   std::vector<Buffer> buffers;    ///< empty: recorded without values

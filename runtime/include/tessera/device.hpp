@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -165,9 +166,17 @@ struct WorldScene {
   struct Body {
     std::string name;
     std::string agent;  ///< the agent whose devices it carries; empty: none, or it is not known
+    std::optional<std::size_t> parent{};  ///< number of the body that it hangs on; nullopt: none of these
+  };
+  /// A light sensor: the point at which it looks, in the frame of a body, and how large that is.
+  struct Eye {
+    std::size_t body = 0;  ///< number in `bodies`
+    std::array<double, 3> at_m{};
+    double footprint_m = 0;
   };
   std::string glb;           ///< a glTF 2.0 file with a node per body, named like it
   std::vector<Body> bodies;  ///< those that can move
+  std::vector<Eye> eyes{};   ///< of the bodies, in the order in which the devices were made
 };
 
 /// Takes the poses of the bodies of a world.
@@ -226,6 +235,29 @@ inline constexpr const char* open_world_function = "tessera_open_world_2";
 /// Lists the contents of a world as JSON. false and `error`: it does not open.
 using ListWorld = bool (*)(const WorldOptions& options, std::string& json, std::string& error);
 inline constexpr const char* list_world_function = "tessera_list_world_2";
+
+/// Draws a world with its bodies where a recording says, without simulating it.
+///
+/// Threads: one at a time.
+class WorldPainter {
+ public:
+  virtual ~WorldPainter() = default;
+  /// poses: in the order of WorldScene::bodies. rgb: three bytes a pixel, rows from the top. Throws
+  /// std::runtime_error.
+  virtual void paint(std::span<const BodyPose> poses, std::span<std::uint8_t> rgb) = 0;
+};
+struct PictureOptions {
+  int width = 640, height = 480;
+  std::string camera;                ///< of the world; empty: one that sees the sphere below
+  std::array<double, 3> middle_m{};  ///< what it looks at
+  double radius_m = 1;               ///< around the middle, all is seen
+  double elevation_deg = -50;        ///< -90: from above
+  std::vector<std::string> bodies;   ///< the names of those whose poses will be given
+};
+/// nullptr and `error`: it does not open, has other bodies, or nothing can be rendered here.
+using OpenPainter = std::unique_ptr<WorldPainter> (*)(const WorldOptions& options,
+                                                      const PictureOptions& picture, std::string& error);
+inline constexpr const char* open_painter_function = "tessera_open_painter_1";
 
 /// A driver written by the user in C++ (`cpp: Class`) derives from Receptor<T> or Effector<T>.
 /// T is the type of the real buffer, or the structure `Real` of the subsystem's header if the driver

@@ -42,8 +42,15 @@ void describe_values(const RunOptions& options, std::span<const SubsystemParts> 
 void describe_scene(const WorldScene& scene, ordered_json& header) {
   ordered_json bodies = ordered_json::array();
   for (const WorldScene::Body& body : scene.bodies)
-    bodies.push_back(ordered_json::array({body.name, body.agent}));
+    if (body.parent)
+      bodies.push_back(ordered_json::array({body.name, body.agent, *body.parent}));
+    else
+      bodies.push_back(ordered_json::array({body.name, body.agent}));
   header["scene"] = {{"hash", hash_of(scene)}, {"bodies", std::move(bodies)}};
+  if (scene.eyes.empty()) return;
+  ordered_json& eyes = header["scene"]["eyes"] = ordered_json::array();
+  for (const WorldScene::Eye& eye : scene.eyes)
+    eyes.push_back(ordered_json::array({eye.body, eye.at_m[0], eye.at_m[1], eye.at_m[2], eye.footprint_m}));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace tessera {
 class PoseRecorder final : public PoseSink {
  public:
   PoseRecorder(RecordingLane& lane, const Clock& clock, std::size_t bodies)
-      : lane_(lane), clock_(clock), encoder_(bodies) {}
+      : lane_(lane), clock_(clock), encoder_(bodies, PoseEncoder::Form::packed) {}
   /// In real time, a frame has the time at which it is taken: the time of a slow world falls behind.
   void take(Time time, std::span<const BodyPose> poses) override;
 

@@ -11,7 +11,6 @@ inline constexpr const char* state_folder = ".tessera";  ///< of the project
 
 // In the folder of a run.
 inline constexpr const char* recording = recording_file_name;
-inline constexpr const char* path = "path.csv";  ///< that the robot took
 inline constexpr const char* summary = "summary.json";
 inline constexpr const char* simulation = "simulation.json";  ///< devices of the world, for the controller
 

@@ -9,7 +9,7 @@
 
 namespace tessera::project {
 
-/// The folder of one run, STATE/runs/20261122-091530-simulate-1: recording, path, summary, and the program
+/// The folder of one run, STATE/runs/20261122-091530-simulate-1: recording, summary, and the program
 /// that made them. Only this run writes there. No other run removes the folder while this object exists, or
 /// while the controller runs, which inherits its lock.
 ///

@@ -1,5 +1,6 @@
 #include "project/files/simulation_file.hpp"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "project/files/installation.hpp"
@@ -92,7 +93,8 @@ std::string measure_json(const checks::Measure& measure) {
   return Json{{"measures", {{measure.name, checks::text_of(measure.number)}}}}.dump();
 }
 
-std::string simulation_json(const spec::Model& model, const fs::path& project) {
+std::string simulation_json(const spec::Model& model, const fs::path& project,
+                            const std::optional<WorldPicture>& picture) {
   Json json{{"drivers", Json::array()}};
   for (const spec::Driver& driver : model.simulation->drivers)
     if (driver.kind != "cpp") json["drivers"].push_back(json_of(request_of(model, driver)));
@@ -102,7 +104,31 @@ std::string simulation_json(const spec::Model& model, const fs::path& project) {
   json["measures"] = Json::object();
   for (const spec::WorldMeasure& one : model.simulation->measures)
     json["measures"][one.measure.name] = checks::text_of(one.measure.number);
+  if (picture)
+    json["picture"] = {{"world", picture->world.string()},
+                       {"track", picture->track.string()},
+                       {"metres_per_pixel", picture->metres_per_pixel},
+                       {"seed", picture->seed}};
   return json.dump(1) + "\n";
+}
+
+std::optional<WorldOptions> world_of_run(const fs::path& simulation_file) {
+  std::ifstream stream(simulation_file);
+  const Json json = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("picture")) return std::nullopt;
+  try {
+    const Json& picture = json.at("picture");
+    WorldOptions options;
+    options.world = picture.at("world").get<std::string>();
+    options.track = picture.at("track").get<std::string>();
+    options.metres_per_pixel = picture.at("metres_per_pixel").get<double>();
+    options.seed = picture.at("seed").get<std::uint64_t>();
+    const Json models = json.value("models", Json::array());
+    if (!models.empty()) options.models = models.dump();
+    return options;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace tessera::project

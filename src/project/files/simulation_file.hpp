@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,15 @@ namespace tessera::project {
 [[nodiscard]] std::string measure_json(const checks::Measure& measure);
 
 /// The content of the simulation file of a run, JSON with `drivers`, `models`, `checks` and `measures`.
-[[nodiscard]] std::string simulation_json(const spec::Model& model, const std::filesystem::path& project);
+/// With `picture`, what else a run was of, for who draws the world later; absolute paths.
+struct WorldPicture {
+  std::filesystem::path world, track;  ///< track: empty: none
+  double metres_per_pixel = 0.005;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] std::string simulation_json(const spec::Model& model, const std::filesystem::path& project,
+                                          const std::optional<WorldPicture>& picture);
+/// The world of a run, from its simulation file. nullopt: the file is not there, or is of another version.
+[[nodiscard]] std::optional<WorldOptions> world_of_run(const std::filesystem::path& simulation_file);
 
 }  // namespace tessera::project

@@ -77,6 +77,16 @@ Result<std::string> contents_of_world(const WorldOptions& options) {
   return json;
 }
 
+Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
+                                                   const PictureOptions& picture) {
+  const auto function = function_of_library(open_painter_function);
+  if (!function) return Problem{function.problem()};
+  std::string error;
+  auto painter = reinterpret_cast<OpenPainter>(*function)(options, picture, error);
+  if (painter == nullptr) return Problem{error};
+  return painter;
+}
+
 bool has_world_library() { return fs::exists(Installation::find().world_library); }
 
 bool check_world(const spec::Model& model, const fs::path& project, const std::string& world,

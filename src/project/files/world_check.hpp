@@ -17,6 +17,9 @@ namespace tessera::project {
 [[nodiscard]] Result<std::unique_ptr<World>> open_world_to_ask(const WorldOptions& options);
 /// What a world offers, as JSON.
 [[nodiscard]] Result<std::string> contents_of_world(const WorldOptions& options);
+/// A world to be drawn as it was recorded. Problem: as OpenPainter, or the library is not installed.
+[[nodiscard]] Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
+                                                                 const PictureOptions& picture);
 /// Whether the library of worlds is installed.
 [[nodiscard]] bool has_world_library();
 

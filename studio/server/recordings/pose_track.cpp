@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace tessera::server {
 
@@ -17,6 +18,8 @@ void PoseTrack::begin(const Recording& header) {
   scene_ = std::move(scene);
   recorded_.emplace(header.scene->bodies.size());
   shown_.emplace(header.scene->bodies.size());
+  const std::vector<replay::Robot> robots = replay::robots_of(*header.scene);
+  robot_ = robots.size() == 1 ? std::optional(robots.front().body) : std::nullopt;
 }
 
 void PoseTrack::take(const Recording::Entry& entry) {
@@ -24,6 +27,7 @@ void PoseTrack::take(const Recording::Entry& entry) {
   static_cast<void>(recorded_->take(entry.text));
   time_ns_ = entry.event.time_ns;
   changed_ = recorded_->known();
+  if (changed_ && robot_) point_ = replay::from_above(time_ns_, pose_of(recorded_->poses()[*robot_]));
 }
 
 std::optional<PoseTrack::Frame> PoseTrack::next_frame() {

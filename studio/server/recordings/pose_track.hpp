@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "replay/robots.hpp"
 #include "tessera/poses.hpp"
 #include "tessera/recording.hpp"
 
@@ -24,6 +26,10 @@ class PoseTrack {
 
   /// {"hash", "bodies": [[name, agent]...]}; null: the recording has no poses.
   [[nodiscard]] const nlohmann::json& scene() const { return scene_; }
+  [[nodiscard]] bool has_one_robot() const { return robot_.has_value(); }
+  /// Where the only robot is, seen from above; nullopt: there are none or several, or the last entry taken had no
+  /// poses of it.
+  [[nodiscard]] std::optional<replay::RobotPoint> take_point() { return std::exchange(point_, std::nullopt); }
   /// A frame (tessera/poses.hpp), base64, and its time.
   struct Frame {
     std::int64_t time_ns = 0;
@@ -38,6 +44,8 @@ class PoseTrack {
   nlohmann::json scene_;
   std::optional<PoseDecoder> recorded_;
   std::optional<PoseEncoder> shown_;
+  std::optional<std::size_t> robot_;  // body of the only one
+  std::optional<replay::RobotPoint> point_;
   std::int64_t time_ns_ = 0, shown_ns_ = 0;
   bool changed_ = false;
 };

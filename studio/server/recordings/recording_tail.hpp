@@ -71,6 +71,7 @@ class RecordingTail {
     std::int64_t time_ns = 0;   ///< of the last event
     std::uint64_t dropped = 0;  ///< firings that are not listed; they came before the listed ones
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
+    std::vector<replay::RobotPoint> path;                         ///< of the only robot (PoseTrack)
     /// the marking is that with which a segment began, so it does not follow from the firings alone
     bool jumped = false;
     bool more = false;  ///< there may be more already

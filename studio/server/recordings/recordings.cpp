@@ -130,9 +130,8 @@ class Content {
     if (!content_.is_null()) return;
     content_ = {
         {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
-    PoseTrack poses;
-    poses.begin(recording);
-    content_["scene"] = poses.scene();
+    poses_.begin(recording);
+    content_["scene"] = poses_.scene();
     is_ordered_ = recording.clock == "simulated";
     // The first segment that is left, but not the first of the run; its marking follows.
     begins_ = recording.segment.value_or(0) > 0 ? Begins::unknown : Begins::initial;
@@ -147,6 +146,11 @@ class Content {
     }
     if (event.kind() == Event::Kind::value) values_.add(entry, span_);
     if (event.kind() == Event::Kind::firing) add_firing(event);
+    if (!poses_.has_one_robot()) return;
+    poses_.take(entry);
+    if (const auto point = poses_.take_point();
+        point && point->time_ns >= span_.from_ns && point->time_ns <= span_.to_ns)
+      path_.add(*point);
   }
 
   [[nodiscard]] json take(bool is_cut) {
@@ -154,6 +158,7 @@ class Content {
     if (!is_ordered_) std::ranges::stable_sort(firings_, {}, &decltype(firings_)::value_type::first);
     content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
+    content_["path"] = path_.rows();
     content_["first"] = total_ > 0 ? json(first_ns_) : json();
     content_["last"] = total_ > 0 ? json(last_ns_) : json();
     content_["total"] = total_;
@@ -197,6 +202,8 @@ class Content {
   std::optional<MarkingTracker> tokens_;
   std::vector<net::TransitionId> transitions_;  // per transition of the recording: that of the net
   ValueSeries values_;
+  PoseTrack poses_;
+  ThinnedPath path_{Recordings::most_points};
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
   std::uint64_t dropped_ = 0, total_ = 0;
   std::int64_t first_ns_ = INT64_MAX, last_ns_ = INT64_MIN;
@@ -204,16 +211,6 @@ class Content {
   Begins begins_ = Begins::initial;
   json content_;
 };
-
-json path_of(const fs::path& file, Recordings::Span span) {
-  GrowingFile bytes(file);
-  PathReader reader;
-  ThinnedPath path(Recordings::most_points);
-  for (std::string some; !(some = bytes.more()).empty();)
-    for (const PathPoint& point : reader.feed(some))
-      if (point.time_ns >= span.from_ns && point.time_ns <= span.to_ns) path.add(point);
-  return path.rows();
-}
 
 /// The name of the track of a run, from its summary; null: there was none, or it is not known.
 json track_of(const fs::path& summary) {
@@ -297,7 +294,6 @@ std::optional<std::string> Recordings::content(const std::string& name, Span spa
   if (!stream.recording()) throw std::runtime_error(name + " is no recording");
   json whole = content.take(stream.is_cut());
   const bool has_files = file.filename() == project::file_names::recording;  // beside it
-  whole["path"] = has_files ? path_of(file.parent_path() / project::file_names::path, span) : json::array();
   whole["track"] = has_files ? track_of(file.parent_path() / project::file_names::summary) : json();
   return text_of(whole);
 }

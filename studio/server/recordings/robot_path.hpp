@@ -3,29 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
+
+#include "replay/robots.hpp"
 
 namespace tessera::server {
 
-/// A pose of the robot in the floor picture.
-struct PathPoint {
-  std::int64_t time_ns = 0;
-  double x_m = 0, y_m = 0, heading_rad = 0;
-};
-
-/// Reads the path of a simulated robot (sim/trace.hpp) piece by piece. Lines that
-/// are no points are skipped.
-class PathReader {
- public:
-  /// The points of all complete lines.
-  [[nodiscard]] std::vector<PathPoint> feed(std::string_view bytes);
-
- private:
-  std::string line_;
-};
+/// A pose of the robot, seen from above.
+using PathPoint = replay::RobotPoint;
 
 /// A path of any length in at most so many points, which are evenly spread.
 class ThinnedPath {

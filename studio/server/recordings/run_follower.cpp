@@ -11,7 +11,6 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t piece_of_path = std::size_t{1} << 20U;
 constexpr std::size_t most_values = std::size_t{64} << 10U;  // size of one event in bytes
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
@@ -27,17 +26,15 @@ std::int64_t nanoseconds(double seconds) {
 
 }  // namespace
 
-RunFollower::RunFollower(RecordingStream::Source recording, const std::filesystem::path& path,
-                         const Analysis& analysis, Reached* reached)
-    : recording_(std::move(recording), *analysis.net, reached), path_(path) {}
+RunFollower::RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached)
+    : recording_(std::move(recording), *analysis.net, reached) {}
 
 void RunFollower::rest() { std::this_thread::sleep_for(between_looks); }
 
 RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
-  add_firings(news);
-  add_path(news, last);
+  add_path(add_firings(news), news, last);
   const bool has_read_all = !news.more;
   if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
   add_values(news, news.rested || (last && has_read_all));
@@ -45,12 +42,12 @@ RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, b
   return news;
 }
 
-void RunFollower::add_firings(News& news) {
-  const RecordingTail::Batch batch = recording_.next();
+std::vector<PathPoint> RunFollower::add_firings(News& news) {
+  RecordingTail::Batch batch = recording_.next();
   news.more = batch.more;
   time_ns_ = std::max(time_ns_, batch.time_ns);
   news.time_ns = time_ns_;
-  if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return;
+  if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return std::move(batch.path);
   news.marking = recording_.marking();
   total_firings_ += batch.firings.size() + batch.dropped;
   news.total_firings = total_firings_;
@@ -61,9 +58,10 @@ void RunFollower::add_firings(News& news) {
   // A page that plays the firings knows the marking. It is sent from time to time,
   // in case a firing was lost.
   const bool plays_on = batch.dropped == 0 && !batch.jumped;
-  if (plays_on && Clock::now() - marking_told_ < between_markings) return;
+  if (plays_on && Clock::now() - marking_told_ < between_markings) return std::move(batch.path);
   marking_told_ = Clock::now();
   news.firings["marking"] = *news.marking;
+  return std::move(batch.path);
 }
 
 /// at_once: also those that would be told a little later.
@@ -75,10 +73,8 @@ void RunFollower::add_values(News& news, bool at_once) {
   news.values = {{"t", time_ns_}, {"values", std::move(values)}};
 }
 
-void RunFollower::add_path(News& news, bool at_once) {
-  const std::string bytes = path_.more(piece_of_path);
-  news.more = news.more || bytes.size() == piece_of_path;
-  news.path = points_.feed(bytes);
+void RunFollower::add_path(std::vector<PathPoint> path, News& news, bool at_once) {
+  news.path = std::move(path);
   if (!news.path.empty()) pose_waiting_ = news.path.back();
   if (!pose_waiting_ || (!at_once && Clock::now() - pose_told_ < between_poses)) return;
   pose_told_ = Clock::now();

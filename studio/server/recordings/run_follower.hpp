@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,7 +9,6 @@
 
 #include "project/process/control_messages.hpp"
 #include "server/analysis/analysis.hpp"
-#include "server/recordings/growing_file.hpp"
 #include "server/recordings/recording_tail.hpp"
 #include "server/recordings/robot_path.hpp"
 
@@ -20,10 +18,8 @@ namespace tessera::server {
 /// path, and the snapshots of its control socket. Ready to be sent.
 class RunFollower {
  public:
-  /// path: file that the run writes; empty: none that can be read.
   /// reached: gets what the run reaches of the net; must outlive this object.
-  RunFollower(RecordingStream::Source recording, const std::filesystem::path& path, const Analysis& analysis,
-              Reached* reached = nullptr);
+  RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached = nullptr);
 
   struct News {
     nlohmann::json firings, values, pose, poses, subsystems;  ///< data of the events; null: nothing new
@@ -46,15 +42,14 @@ class RunFollower {
   static void rest();
 
  private:
-  void add_firings(News& news);
-  void add_path(News& news, bool at_once);
+  /// Returns the new points of the path.
+  [[nodiscard]] std::vector<PathPoint> add_firings(News& news);
+  void add_path(std::vector<PathPoint> path, News& news, bool at_once);
   void add_values(News& news, bool at_once);
   void add_poses(News& news, bool at_once);
   void add_snapshot(const project::Snapshot& snapshot, News& news);
 
   RecordingTail recording_;
-  GrowingFile path_;
-  PathReader points_;
   std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, poses_told_{},
       subsystems_told_{};
   bool scene_told_ = false;

@@ -261,7 +261,7 @@ void Run::execute(project::Controller controller) {
 void Run::follow(const std::filesystem::path& socket, const std::filesystem::path& folder) {
   RunFollower follower(
       RecordingStream::of_file(folder / project::file_names::recording, GrowingRecording::From::newest),
-      folder / project::file_names::path, *analysis_, &reached_);
+      *analysis_, &reached_);
   bool connected = false;
   for (bool last = false;; last = process_over_) {
     if (!connected) connected = link_.connect(socket, /*own=*/request_.kind == RunRequest::Kind::simulate);
@@ -350,8 +350,7 @@ void Run::attach() {
   const std::filesystem::path file = readable_recording(*snapshot);
   RunFollower follower(file.empty() ? [this] { return link_.recording(); }
                                     : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                       file.empty() ? file : file.parent_path() / project::file_names::path, *analysis_,
-                       &reached_);
+                       *analysis_, &reached_);
   set_state(State::running);
   while (!stop_ && !link_.is_over()) {
     if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();

@@ -1,0 +1,425 @@
+#include "cli/film.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "cli/outputs.hpp"
+#include "cli/terminal.hpp"
+#include "project/files/file_names.hpp"
+#include "project/files/installation.hpp"
+#include "project/files/simulation_file.hpp"
+#include "project/files/world_check.hpp"
+#include "project/launch.hpp"
+#include "project/process/process.hpp"
+#include "project/verification/pipeline.hpp"
+#include "replay/robots.hpp"
+#include "report/film.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int frames_per_s = 25;
+
+/// What is known of a recording before anything is drawn.
+struct Survey {
+  std::string system;
+  Recording::Scene scene;
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max(), last_ns = 0;
+  std::array<double, 3> least{}, greatest{};  ///< of the robots' positions, in the time that is shown
+  std::vector<BodyPose> last;                 ///< poses
+  struct Alarm {
+    std::int64_t time_ns;
+    std::string text;
+  };
+  std::vector<Alarm> alarms;  ///< failed checks
+};
+
+[[nodiscard]] std::int64_t nanoseconds_of(double seconds) {
+  return static_cast<std::int64_t>(std::clamp(seconds * 1e9, -9e18, 9e18));
+}
+
+/// "NAME: at 12.400 s, ..." of a failed check.
+[[nodiscard]] Survey::Alarm alarm_of(const Recording::Entry& entry) {
+  const std::size_t at = entry.text.find(": at ");
+  std::int64_t time_ns = entry.event.time_ns;
+  double time_s = 0;
+  if (at != std::string::npos) {
+    const char* const begin = entry.text.data() + at + 5;
+    if (std::from_chars(begin, entry.text.data() + entry.text.size(), time_s).ec == std::errc{})
+      time_ns = nanoseconds_of(time_s);
+  }
+  return {time_ns, "failed: " + entry.text};
+}
+
+[[nodiscard]] Survey survey(const std::string& recording, std::int64_t from_ns, std::int64_t to_ns) {
+  Survey found;
+  replay::PoseReader reader(recording);
+  std::vector<replay::Robot> robots;
+  bool has_entries = false;
+  while (const Recording::Entry* const entry = reader.next()) {
+    const Event& event = entry->event;
+    has_entries = true;
+    if (event.kind() == Event::Kind::fault && event.instance() == system_instance &&
+        event.version == static_cast<std::uint32_t>(Fault::assertion))
+      found.alarms.push_back(alarm_of(*entry));
+    if (event.kind() != Event::Kind::poses || reader.poses().empty()) continue;
+    if (found.scene.bodies.empty()) {
+      found.scene = *reader.header()->scene;
+      found.system = reader.header()->system;
+      robots = replay::robots_of(found.scene);
+    }
+    if (event.time_ns > to_ns && found.first_ns <= found.last_ns) continue;
+    const bool first = found.first_ns > found.last_ns;
+    if (event.time_ns < from_ns) {
+      found.last = reader.poses();
+      continue;
+    }
+    found.first_ns = std::min(found.first_ns, event.time_ns);
+    found.last_ns = std::max(found.last_ns, event.time_ns);
+    found.last = reader.poses();
+    for (const replay::Robot& robot : robots)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double here = found.last[robot.body].position_m[axis];
+        const bool begins = first && &robot == &robots.front();
+        found.least[axis] = begins ? here : std::min(found.least[axis], here);
+        found.greatest[axis] = begins ? here : std::max(found.greatest[axis], here);
+      }
+  }
+  if (!has_entries)
+    throw std::runtime_error(fmt::format("'{}' is no recording of Tessera, or it is empty", recording));
+  if (found.scene.bodies.empty())
+    throw std::runtime_error(
+        "the recording has no poses of bodies: it was made without a simulated world, or by an older "
+        "Tessera\n"
+        "hint: run `tessera simulate` again, which records them");
+  if (found.last.empty() || found.first_ns > found.last_ns)
+    throw std::runtime_error("nothing of the recording is between --from and --to");
+  return found;
+}
+
+[[nodiscard]] PictureOptions view_of(const Survey& found, int width, int height) {
+  PictureOptions picture;
+  picture.width = width;
+  picture.height = height;
+  for (const Recording::Scene::Body& body : found.scene.bodies) picture.bodies.push_back(body.name);
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    picture.middle_m[axis] = (found.least[axis] + found.greatest[axis]) / 2;
+    square += std::pow((found.greatest[axis] - found.least[axis]) / 2, 2);
+  }
+  constexpr double around_m = 0.35;  // robots have a size of their own
+  picture.radius_m = std::sqrt(square) * 1.05 + around_m;
+  return picture;
+}
+
+template <class T>
+[[nodiscard]] T needed(Result<T> result) {
+  if (!result) throw std::runtime_error(result.problem());
+  return std::move(*result);
+}
+
+// ---------------------------------------------------------------------------------------------- the file
+
+[[nodiscard]] std::string ending_of(const std::string& file) {
+  std::string ending = fs::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+[[nodiscard]] bool is_made_by_ffmpeg(const std::string& ending) {
+  return ending == ".mp4" || ending == ".webm" || ending == ".gif";
+}
+
+/// Where a program is that the user can start; empty: nowhere.
+[[nodiscard]] std::string found_in_path(const std::string& program) {
+  const char* const path = std::getenv("PATH");
+  std::string_view rest = path == nullptr ? "" : path;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const fs::path candidate = fs::path(rest.substr(0, end)) / program;
+    if (end > 0 && access(candidate.c_str(), X_OK) == 0) return candidate.string();
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return {};
+}
+
+[[nodiscard]] Command ffmpeg_command(const std::string& program, const std::string& ending,
+                                     const std::string& file) {
+  Command command{program, "-hide_banner", "-loglevel", "error", "-y", "-f", "yuv4mpegpipe", "-i", "-"};
+  const auto add = [&](std::initializer_list<const char*> words) {
+    command.insert(command.end(), words.begin(), words.end());
+  };
+  if (ending == ".mp4") add({"-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"});
+  if (ending == ".webm")
+    add({"-pix_fmt", "yuv420p", "-deadline", "realtime", "-cpu-used", "6", "-f", "webm"});
+  if (ending == ".gif")
+    add({"-vf", "fps=12,split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse", "-f", "gif"});
+  command.push_back("file:" + file);
+  return command;
+}
+
+/// The unfinished file, which gets its name at the end; written by this process, or by ffmpeg.
+class FilmFile {
+ public:
+  FilmFile(const std::string& file, const std::string& ending)
+      : file_(file), unfinished_(fmt::format("{}.{}.unfinished", file, getpid())) {
+    if (is_made_by_ffmpeg(ending))
+      start_ffmpeg(ending);
+    else
+      descriptor_ = open(unfinished_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      throw std::runtime_error(fmt::format("cannot write '{}': {}", file_, std::strerror(errno)));
+  }
+  FilmFile(const FilmFile&) = delete;
+  FilmFile& operator=(const FilmFile&) = delete;
+  ~FilmFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (child_ > 0) waitpid(child_, nullptr, 0);
+    std::error_code ignored;
+    if (!finished_) fs::remove(unfinished_, ignored);
+  }
+
+  [[nodiscard]] bool write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) {
+        reason_ = std::strerror(errno);
+        return false;
+      }
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+  /// Empty: it is there. Otherwise why not.
+  [[nodiscard]] std::string finish(bool complete) {
+    if (close(std::exchange(descriptor_, -1)) != 0 && reason_.empty()) reason_ = std::strerror(errno);
+    if (child_ > 0) {
+      int status = 0;
+      while (waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
+      child_ = -1;
+      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return "ffmpeg failed; what it says stands above\nhint: --film FILE.png needs no other program";
+    }
+    if (!complete || !reason_.empty()) return fmt::format("cannot write '{}': {}", file_, reason_);
+    std::error_code problem;
+    fs::rename(unfinished_, file_, problem);
+    finished_ = !problem;
+    return problem ? fmt::format("cannot write '{}': {}", file_, problem.message()) : std::string();
+  }
+
+ private:
+  void start_ffmpeg(const std::string& ending) {
+    const std::string program = found_in_path("ffmpeg");
+    if (program.empty())
+      throw std::runtime_error(fmt::format(
+          "a film of the kind {} is made by ffmpeg, which is not installed\n"
+          "hint: apt-get install ffmpeg, or --film FILE.png (an animated PNG, which browsers play), or "
+          "--film FILE.y4m (uncompressed): both need no other program",
+          ending));
+    const Command command = ffmpeg_command(program, ending, unfinished_);
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return;
+    std::vector<char*> words;
+    for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    // A child that ends early is noticed when nothing can be written to it.
+    std::signal(SIGPIPE, SIG_IGN);
+    child_ = fork();
+    if (child_ == 0) {
+      dup2(ends[0], STDIN_FILENO);
+      std::signal(SIGPIPE, SIG_DFL);
+      execv(words.front(), words.data());
+      _exit(127);
+    }
+    close(ends[0]);
+    descriptor_ = ends[1];
+  }
+
+  std::string file_, unfinished_, reason_;
+  int descriptor_ = -1;
+  pid_t child_ = -1;
+  bool finished_ = false;
+};
+
+/// An existing file is replaced only if it is a film of the same kind.
+void check_film_file(const std::string& file, const std::string& ending) {
+  if (ending == ".png" || ending == ".apng") check_replaceable(file, "\x89PNG");
+  if (ending == ".y4m") check_replaceable(file, "YUV4");
+  if (ending == ".gif") check_replaceable(file, "GIF8");
+  if (ending == ".webm") check_replaceable(file, "\x1a\x45\xdf\xa3");
+  if (ending == ".mp4") check_replaceable(file, std::string_view("\0\0\0\x20", 4));
+}
+
+[[nodiscard]] bool is_known_ending(const std::string& ending) {
+  return is_made_by_ffmpeg(ending) || ending == ".y4m" || ending == ".png" || ending == ".apng";
+}
+
+/// Even numbers from 16 on. nullopt: it is no size.
+[[nodiscard]] std::optional<std::pair<int, int>> size_of(const std::string& text) {
+  int width = 0, height = 0;
+  const char* const end = text.data() + text.size();
+  const auto [x, problem] = std::from_chars(text.data(), end, width);
+  if (problem != std::errc{} || x == end || *x != 'x') return std::nullopt;
+  const auto [rest, other] = std::from_chars(x + 1, end, height);
+  if (other != std::errc{} || rest != end) return std::nullopt;
+  const auto fits = [](int pixels) { return pixels >= 16 && pixels <= 2048 && pixels % 2 == 0; };
+  return fits(width) && fits(height) ? std::optional(std::pair(width, height)) : std::nullopt;
+}
+
+// ---------------------------------------------------------------------------------------------- the frames
+
+/// The poses of a recording at rising times.
+class PoseTimes {
+ public:
+  explicit PoseTimes(const std::string& recording) : reader_(recording) {}
+  [[nodiscard]] const std::vector<BodyPose>& at(std::int64_t time_ns) {
+    while (!ended_ && next_ns_ <= time_ns) {
+      if (!next_.empty()) now_ = std::move(next_);
+      advance();
+    }
+    return now_.empty() ? next_ : now_;
+  }
+
+ private:
+  void advance() {
+    next_.clear();
+    while (const Recording::Entry* const entry = reader_.next()) {
+      if (entry->event.kind() != Event::Kind::poses || reader_.poses().empty()) continue;
+      next_ = reader_.poses();
+      next_ns_ = entry->event.time_ns;
+      return;
+    }
+    ended_ = true;
+  }
+  replay::PoseReader reader_;
+  std::vector<BodyPose> now_, next_;
+  std::int64_t next_ns_ = std::numeric_limits<std::int64_t>::min();
+  bool ended_ = false;
+};
+
+[[nodiscard]] report::Caption caption_at(const Survey& found, std::int64_t time_ns, double speed) {
+  report::Caption caption;
+  caption.title = found.system;
+  caption.time = fmt::format("{:.2f} s", static_cast<double>(time_ns) * 1e-9);
+  if (speed != 1) caption.time += fmt::format("   {:g} x", speed);
+  for (const Survey::Alarm& alarm : found.alarms)
+    if (alarm.time_ns <= time_ns) caption.alarms.push_back(alarm.text);
+  return caption;
+}
+
+[[nodiscard]] std::string write_film(const FilmOptions& options, const Survey& found, WorldPainter& painter,
+                                     int width, int height) {
+  const std::string ending = ending_of(options.file);
+  const auto length_s = static_cast<double>(found.last_ns - found.first_ns) * 1e-9;
+  const auto count = static_cast<std::size_t>(length_s / options.speed * frames_per_s) + 1;
+  FilmFile file(options.file, ending);
+  const report::FilmSink sink = [&](std::string_view bytes) { return file.write(bytes); };
+  const bool is_png = ending == ".png" || ending == ".apng";
+  const std::unique_ptr<report::FilmWriter> writer =
+      is_png ? report::apng_writer(count, frames_per_s, sink)
+             : report::y4m_writer(width, height, frames_per_s, sink);
+  PoseTimes poses(options.recording);
+  report::Frame frame{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width * height))};
+  bool good = true;
+  for (std::size_t number = 0; good && number < count; ++number) {
+    const std::int64_t time_ns =
+        found.first_ns + nanoseconds_of(static_cast<double>(number) * options.speed / frames_per_s);
+    painter.paint(poses.at(time_ns), frame.rgb);
+    report::put_caption(frame, caption_at(found, time_ns, options.speed));
+    good = writer->add(frame);
+    if (isatty(STDERR_FILENO) != 0 && number % frames_per_s == 0)
+      fmt::print(stderr, "\r\033[Kframe {} of {}", number, count);
+  }
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+  good = good && writer->finish();
+  if (std::string problem = file.finish(good); !problem.empty()) return problem;
+  fmt::print("{}: {} frames, {:.1f} s of the run\n", options.file, count, length_s);
+  return {};
+}
+
+}  // namespace
+
+WorldOptions world_of_recording(const std::string& recording, const std::string& spec) {
+  if (spec.empty()) {
+    const fs::path folder =
+        fs::is_directory(recording) ? fs::path(recording) : fs::path(recording).parent_path();
+    if (const auto world = world_of_run(folder / file_names::simulation)) return *world;
+    throw std::runtime_error(
+        fmt::format("there is no {} beside the recording, which says what its world was\nhint: name the "
+                    "specification of the run "
+                    "with --spec",
+                    file_names::simulation));
+  }
+  const std::optional<Specification> specification = read(spec, terminal());
+  if (!specification) throw std::runtime_error("the world of the recording is not known");
+  const auto& simulation = specification->model.simulation;
+  if (!simulation || simulation->world.empty())
+    throw std::runtime_error("the specification names no world under `simulation`");
+  const auto world = find_asset(simulation->world, specification->project, "worlds");
+  if (!world) throw std::runtime_error("there is no world " + simulation->world);
+  WorldOptions options;
+  options.world = world->string();
+  options.models = placements_json(*simulation, specification->project);
+  if (const std::optional<Floor> floor = floor_of(*specification, LaunchOptions{})) {
+    options.track = floor->image.string();
+    options.metres_per_pixel = floor->metres_per_pixel;
+  }
+  return options;
+}
+
+report::Frame poster_of(const std::string& recording, const WorldOptions& world, int width, int height) {
+  const Survey found = survey(recording, 0, std::numeric_limits<std::int64_t>::max());
+  const auto painter = needed(open_painter(world, view_of(found, width, height)));
+  report::Frame frame{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width * height))};
+  painter->paint(found.last, frame.rgb);
+  return frame;
+}
+
+int make_film(const FilmOptions& options) {
+  const std::string ending = ending_of(options.file);
+  if (!is_known_ending(ending))
+    return complain(fmt::format("'{}' is no name of a film: it ends in .mp4, .webm, .gif, .png or .y4m",
+                                options.file)),
+           usage;
+  const auto size = size_of(options.size);
+  if (!size)
+    return complain(fmt::format(
+               "'{}' is no size of a film: two even numbers from 16 to 2048, such as 960x540", options.size)),
+           usage;
+  if (!(options.speed > 0) || !std::isfinite(options.speed))
+    return complain("--speed is a number above 0"), usage;
+  check_film_file(options.file, ending);
+  const Survey found =
+      survey(options.recording, nanoseconds_of(options.from_s), nanoseconds_of(options.to_s));
+  const WorldOptions world = world_of_recording(options.recording, options.spec);
+  PictureOptions picture = view_of(found, size->first, size->second);
+  picture.camera = options.camera;
+  const auto painter = needed(open_painter(world, picture));
+  const std::string problem = write_film(options, found, *painter, size->first, size->second);
+  return problem.empty() ? ok : complain(problem);
+}
+
+}  // namespace tessera::cli

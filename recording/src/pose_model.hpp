@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "range_coder.hpp"
+#include "tessera/poses.hpp"
+
+namespace tessera {
+
+/// What both ends of a stream of packed poses expect of the next frame: how each body goes on, and how far it
+/// was from that lately. All of it is computed with whole numbers, so that every machine expects the same.
+class PoseModel {
+ public:
+  explicit PoseModel(std::size_t bodies) : bodies_(bodies) {}
+
+  /// Begins anew with bodies that rest there.
+  void restart(const std::vector<RoundedPose>& poses);
+  /// Appends the poses to `bytes`, as many as there are bodies. whole: so that no frame before is needed.
+  void pack(bool whole, const std::vector<RoundedPose>& poses, std::string& bytes);
+  /// false: the bytes are damaged.
+  [[nodiscard]] bool unpack(bool whole, std::string_view bytes, std::vector<RoundedPose>& poses);
+
+ private:
+  static constexpr std::size_t components = 7, longest_number = 44, classes = 16;
+  /// Of numbers that are alike in size.
+  struct NumberModel {
+    BitModel zero, sign;
+    std::array<BitModel, longest_number> length, next;  // next: the bit after the first, by length
+  };
+  struct Body {
+    RoundedPose last, before;
+    std::array<std::uint8_t, components> sizes{};                   // of the last surprises, in bits
+    std::array<std::array<std::uint32_t, 2>, components> misses{};  // of resting and of going on
+    bool rested = false;
+  };
+
+  template <class Coder>
+  [[nodiscard]] bool code_frame(Coder& coder, bool whole, std::vector<RoundedPose>& poses);
+  template <class Coder>
+  [[nodiscard]] bool code_moved(Coder& coder, Body& body, RoundedPose& pose);
+  template <class Coder>
+  [[nodiscard]] static bool code_number(Coder& coder, NumberModel& model, std::int64_t& number);
+  void forget();
+
+  std::vector<Body> bodies_;
+  std::array<BitModel, 2> rests_;
+  std::array<std::array<NumberModel, classes>, 2> moved_;  // of positions and of rotations
+  std::array<NumberModel, components> whole_;
+};
+
+}  // namespace tessera

@@ -94,8 +94,8 @@ json read_summary(const std::filesystem::path& file) {
 /// The places that hold a token before anything fires.
 std::vector<std::uint32_t> initially_marked(const net::Net& net) {
   std::vector<std::uint32_t> marked;
-  for (std::size_t place = 0; place < net.places.size(); ++place)
-    if (net.places[place].tokens > 0) marked.push_back(static_cast<std::uint32_t>(place));
+  for (std::size_t place = 0; place < net.places().size(); ++place)
+    if (net.places()[place].tokens > 0) marked.push_back(static_cast<std::uint32_t>(place));
   return marked;
 }
 

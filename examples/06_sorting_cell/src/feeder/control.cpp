@@ -5,11 +5,9 @@ namespace sorting_cell::feeder::control {
 /// Behaviour wait of feeder.control: stands. The iteration ends when the belt allows another box.
 void wait(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.speed = 0; }
 
-/// Behaviour bring of feeder.control: goes on while the belt runs, and counts what passes its gate.
+/// Behaviour bring of feeder.control: goes on while the belt runs, until enough boxes have passed the gate.
 void bring(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  if (in.blocked && !memory.was_blocked) ++memory.brought;
-  memory.was_blocked = in.blocked;
-  out.speed = in.belt_runs && memory.brought < in.allowed ? context.parameters.belt_speed : 0;
+  out.speed = in.belt_runs && in.passed < in.allowed ? context.parameters.belt_speed : 0;
 }
 
 }  // namespace sorting_cell::feeder::control

@@ -52,7 +52,7 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
   if (!recording) throw std::runtime_error(error);
   input.recording = std::move(*recording);
   input.drive = std::move(outcome.drive);
-  input.robots = outcome.robots;
+  if (outcome.has_track) input.robots = outcome.robots;
   input.simulated_s = outcome.summary.value("simulated_s", 0.0);
   input.wall_s = outcome.summary.value("wall_s", 0.0);
   input.firings = outcome.summary.value("firings", 0ULL);
@@ -71,15 +71,15 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(options);
-  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}};
+  RunOutcome outcome{read_summary(files.summary), files.recording, std::nullopt, {}, false};
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
   if (!has_world || !fs::exists(files.trace)) return outcome;
   sim::Trace trace = value_or_throw(sim::read_trace(files.trace.string()));
   outcome.robots = trace.robots;
-  if (!outcome.robots.empty()) return outcome;
-  if (const std::optional<Floor> floor = floor_of(specification, options))
-    outcome.drive = drive_over(*floor, std::move(trace));
+  const std::optional<Floor> floor = floor_of(specification, options);
+  outcome.has_track = floor.has_value();
+  if (floor && outcome.robots.empty()) outcome.drive = drive_over(*floor, std::move(trace));
   return outcome;
 }
 
@@ -128,7 +128,8 @@ void print(const RunOutcome& outcome) {
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",
                line.laps, line.line_lost_s, line.mean_error_m * 1000, line.max_error_m * 1000);
   }
-  if (!outcome.robots.empty()) fmt::print("{}\n", report::several_robots(outcome.robots));
+  if (outcome.has_track && !outcome.robots.empty())
+    fmt::print("{}\n", report::several_robots(outcome.robots));
   fmt::print("recording: {}\n", outcome.recording.string());
 }
 

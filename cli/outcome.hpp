@@ -16,6 +16,7 @@ struct RunOutcome {
   std::filesystem::path recording;
   std::optional<report::DrivenPath> drive;
   std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
+  bool has_track = false;
 };
 
 /// Reads the files of the run. Throws std::runtime_error if one of them cannot be read.

@@ -6,8 +6,11 @@
 namespace tessera::report {
 
 std::string several_robots(const std::string& names) {
-  return "Several robots move in this world (" + names +
-         "): paths, laps and errors are shown where there is one robot only.";
+  constexpr std::size_t longest = 80;
+  const std::size_t comma = names.size() > longest ? names.rfind(',', longest) : std::string::npos;
+  const std::string shown = comma == std::string::npos ? names : names.substr(0, comma) + ", ...";
+  return "Several robots move in this world (" + shown +
+         "): their way along the track is not measured. Name what you want to know under `measures`.";
 }
 
 std::vector<File> render(const ReportInput& input) {

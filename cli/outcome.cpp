@@ -108,6 +108,15 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
   return input;
 }
 
+/// names: "rover, rover_2", shortened if there are many.
+std::string several_robots(const std::string& names) {
+  constexpr std::size_t longest = 80;
+  const std::size_t comma = names.size() > longest ? names.rfind(',', longest) : std::string::npos;
+  const std::string shown = comma == std::string::npos ? names : names.substr(0, comma) + ", ...";
+  return "Several robots move in this world (" + shown +
+         "): their way along the track is not measured. Name what you want to know under `measures`.";
+}
+
 }  // namespace
 
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
@@ -177,6 +186,7 @@ void print(const RunOutcome& outcome) {
   }
   if (outcome.paths && !outcome.paths->has_poses)
     fmt::print("the recording has no poses of the world, so there is no path\n");
+  if (outcome.floor && !outcome.robots.empty()) fmt::print("{}\n", several_robots(outcome.robots));
   fmt::print("recording: {}\n", outcome.recording.string());
 }
 

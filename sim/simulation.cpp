@@ -149,6 +149,11 @@ void Simulation::add_robot_of_actuator(int actuator) {
   if (const auto root = physics_->root_of_actuator(actuator)) robots_.insert(*root);
 }
 
+void Simulation::wrap(int joint, double length) {
+  const std::scoped_lock lock(mutex_);
+  physics_->wrap(joint, length);
+}
+
 double Simulation::light_under(const Physics& physics, std::size_t eye) const {
   const Eye& one = eyes_[eye];
   return floor_ ? floor_->reflectance(physics.site_position(one.site), one.footprint_m) : 1;

@@ -56,6 +56,8 @@ class Simulation {
   /// The robot that has such a device counts for the trace.
   void add_robot_of_site(int site);
   void add_robot_of_actuator(int actuator);
+  /// As Physics::wrap.
+  void wrap(int joint, double length);
 
   /// 0 dark .. 1 bright, without noise. Called from within `use`.
   [[nodiscard]] double light_under(const Physics& physics, std::size_t eye) const;

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "sim/devices/reading.hpp"
 
@@ -26,22 +29,51 @@ Drive drive_of(const mjModel& model, int id) {
           model.actuator_ctrlrange[2 * id + 1]};
 }
 
+/// A joint whose position goes back by a length: a belt.
+struct Wrap {
+  int joint = 0;
+  double length = 0;
+};
+
+/// nullopt: there is no option `wrap`. Throws DeviceError if the target cannot go on for ever.
+std::optional<Wrap> wrap_of(const Physics& physics, const DriverRequest& request, Options& options) {
+  const auto length = options.number("wrap");
+  if (!length) return std::nullopt;
+  const std::string& name = only_target(request);
+  const mjModel& model = physics.model();
+  const int actuator = element_of(physics, mjOBJ_ACTUATOR, request, name);
+  const int joint = model.actuator_trnid[2 * actuator];
+  const bool moves_joint = model.actuator_trntype[actuator] == mjTRN_JOINT &&
+                           (model.jnt_type[joint] == mjJNT_SLIDE || model.jnt_type[joint] == mjJNT_HINGE);
+  if (!moves_joint)
+    throw DeviceError("'wrap' needs an actuator of a slide or hinge joint, and '" + name + "' is none",
+                      "leave the option out", name);
+  const char* const unit = model.jnt_type[joint] == mjJNT_SLIDE ? "m" : "rad";
+  if (const double in_its_unit = *options.number("wrap", unit); in_its_unit > 0)
+    return Wrap{joint, in_its_unit};
+  throw DeviceError("option 'wrap' must be more than 0",
+                    "a belt with stripes 10 cm apart looks right with wrap: 10 cm", "wrap");
+}
+
 }  // namespace
 
 std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
   Options options(request);
   const bool clamp = options.word("outside", {"clamp", "refuse"}) == "clamp";
-  options.refuse_others();
   std::vector<Drive> drives;
+  std::optional<Wrap> wrap;
   context.simulation->use([&](const Physics& physics) {
     for (const std::string& name : request.targets)
       drives.push_back(drive_of(physics.model(), element_of(physics, mjOBJ_ACTUATOR, request, name)));
+    wrap = wrap_of(physics, request, options);
   });
+  options.refuse_others();
   buffer.require_reals(drives.size(), request.targets.size() == 1
                                           ? "actuator '" + request.targets[0] + "' takes"
                                           : "these actuators take");
   for (const Drive& drive : drives) context.simulation->add_robot_of_actuator(drive.id);
+  if (wrap) context.simulation->wrap(wrap->joint, wrap->length);
   return commanding(context.simulation, std::move(buffer),
                     [drives, clamp](Physics& physics, std::span<const double> numbers) {
                       for (std::size_t index = 0; index < drives.size(); ++index)

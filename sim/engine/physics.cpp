@@ -98,9 +98,16 @@ void Physics::step() {
     restore_state();
     mj_step(model_.get(), data_.get());
   });
+  wrap_positions();
   ++steps_;
   known_ = View::old;
   if (!complaint.empty()) fail(complaint);
+}
+
+void Physics::wrap_positions() {
+  for (const auto& [place, length] : wraps_)
+    if (mjtNum& position = data_->qpos[place]; std::abs(position) > length)
+      position = std::fmod(position, length);
 }
 
 void Physics::apply_commands() {

@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ class Physics {
 
   /// For an actuator, from the next step on.
   void command(int actuator, double value) { commands_[static_cast<std::size_t>(actuator)] = value; }
+  /// From now on, the position of a slide or hinge joint goes back by `length` at the end of a step that
+  /// leaves it further than that from 0. So a belt runs for ever.
+  void wrap(int joint, double length) { wraps_[model_->jnt_qposadr[joint]] = length; }
   /// Any other change. It is made at the beginning of the next step, in the order of the calls. `state` is
   /// the state to change, `positions` that of positions().
   using Change = std::function<void(mjModel& model, mjData& state, const mjData& positions)>;
@@ -92,6 +96,7 @@ class Physics {
   };
   Physics(ModelPtr model, DataPtr data, DataPtr view);
   void apply_commands();
+  void wrap_positions();
   void keep_state();
   void restore_state();
   /// Runs `compute`, again in larger buffers as long as they are too small. Returns what the engine
@@ -107,6 +112,7 @@ class Physics {
   mutable DataPtr view_;  // read by the queries
   std::vector<mjtNum> commands_;
   std::vector<Change> changes_;
+  std::map<int, double> wraps_;  // by the place in qpos
   Kept kept_;
   mutable std::string failure_;
   Duration step_{0};

@@ -1,6 +1,7 @@
 #include "sim/mjcf/xml.hpp"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <system_error>
 
@@ -40,7 +41,9 @@ std::vector<double> numbers_in(std::string_view text) {
     while (at != end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r' || *at == '+')) ++at;
     double value = 0;
     const auto read = std::from_chars(at, end, value);
-    if (read.ec != std::errc()) return values;
+    const bool is_word =
+        read.ptr != end && (std::isalpha(static_cast<unsigned char>(*read.ptr)) != 0 || *read.ptr == '_');
+    if (read.ec != std::errc() || is_word) return values;  // "infeed" is no infinity
     values.push_back(value);
     at = read.ptr;
   }

@@ -12,6 +12,7 @@
 #include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/simulation_file.hpp"
+#include "project/parameter_units.hpp"
 #include "project/verification/verdicts.hpp"
 #include "sim/track.hpp"
 
@@ -192,6 +193,10 @@ std::optional<Floor> floor_of(const Specification& specification, const LaunchOp
 std::vector<std::string> parameter_values(const Specification& specification, const LaunchOptions& options) {
   std::vector<std::string> values = parameters_of(specification, options);
   values.insert(values.end(), options.set.begin(), options.set.end());
+  for (std::string& value : values)
+    if (const std::size_t equals = value.find('='); equals != std::string::npos)
+      value.replace(equals + 1, std::string::npos,
+                    without_unit(specification.model, value.substr(0, equals), value.substr(equals + 1)));
   return values;
 }
 

@@ -148,6 +148,34 @@ std::optional<double> si_factor(std::string_view unit) {
   return std::nullopt;
 }
 
+namespace {
+
+/// "m/s" for "cm/min"; empty: there is no such unit.
+std::string si_unit(std::string_view unit) {
+  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos) {
+    const std::string way = si_unit(unit.substr(0, slash)), time = si_unit(unit.substr(slash + 1));
+    return way.empty() || time.empty() ? "" : way + "/" + time;
+  }
+  for (const Quantities& one : quantities)
+    for (const Unit& known : one.units)
+      if (!unit.empty() && known.name == unit) return std::string(one.base);
+  return "";
+}
+
+}  // namespace
+
+std::optional<SiQuantity> in_si(const Quantity& quantity) {
+  const auto factor = si_factor(quantity.unit);
+  if (!factor) return std::nullopt;
+  return SiQuantity{quantity.number * *factor, si_unit(quantity.unit)};
+}
+
+std::optional<double> converted(const Quantity& quantity, std::string_view unit) {
+  const auto from = si_factor(quantity.unit), to = si_factor(unit);
+  if (!from || !to || si_unit(quantity.unit) != si_unit(unit)) return std::nullopt;
+  return quantity.number * *from / *to;
+}
+
 std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
                                               Diagnostics& out) {
   const Node* text = text_of(node, at, what, out, "write a number");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "spec/document/document.hpp"
@@ -42,6 +43,15 @@ struct BaseQuantity {
 /// What a unit of a length, an angle, a time, a rate or a speed ("m/s") is in m, rad, s, Hz or m/s. nullopt:
 /// there is no such unit.
 [[nodiscard]] std::optional<double> si_factor(std::string_view unit);
+/// A quantity in the base unit of its kind: m, rad, s, Hz, m/s. nullopt: there is no such unit.
+struct SiQuantity {
+  double number = 0;
+  std::string unit;
+};
+[[nodiscard]] std::optional<SiQuantity> in_si(const Quantity& quantity);
+/// The number in another unit of the same kind: 5 cm in m is 0.05. nullopt: one of the units is unknown, or
+/// they are of different kinds.
+[[nodiscard]] std::optional<double> converted(const Quantity& quantity, std::string_view unit);
 /// A number without a unit.
 [[nodiscard]] std::optional<double> read_number(const Node& node, Span at, std::string_view what,
                                                 Diagnostics& out);

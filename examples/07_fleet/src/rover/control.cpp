@@ -1,0 +1,45 @@
+#include "rover/control.hpp"
+
+#include <algorithm>
+
+#include "rover/room.hpp"
+
+namespace fleet::rover::control {
+namespace {
+
+/// What the scan says; nothing is free if there is no scan, or an old one.
+Room look(const Context& context, const Inputs& in) {
+  if (!in.scan.valid || in.scan.age > std::chrono::milliseconds(300)) return {};
+  return room_around(in.scan.ranges, context.parameters.gap);
+}
+
+}  // namespace
+
+/// Behaviour drive of rover.control: ahead, slower before something.
+void drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  const Room room = look(context, in);
+  memory.free = room.free_m;
+  const double speed = std::clamp(1.5 * room.free_m, 0.0, double{context.parameters.speed});
+  out.motion = {speed, 0.3 * std::clamp(room.left_m - room.right_m, -1.0, 1.0)};
+  memory.driven += speed * 0.05;
+  if (memory.free <= 0) memory.side = room.left_m >= room.right_m ? 1 : -1;
+}
+
+/// Behaviour avoid of rover.control: turns until there is room ahead.
+void avoid(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  memory.free = look(context, in).free_m;
+  out.motion = {0, 1.5 * memory.side};
+}
+
+/// Behaviour answer of rover.control: stands. The iteration ends when those before it are counted.
+void answer(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  memory.answered = in.call;
+  out.motion = {0, 0};
+}
+
+/// Behaviour pass_on of rover.control: counts itself.
+void pass_on(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.count = {in.counted.rovers + 1, in.counted.driven + memory.driven};
+}
+
+}  // namespace fleet::rover::control

@@ -1,0 +1,10 @@
+#include "robot/laser.hpp"
+
+namespace scout::robot::laser {
+
+/// Behaviour look of robot.laser. Before the first scan nothing is known, and nothing is sent as free.
+void look(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  if (in.ranges.valid) out.scan.ranges = in.ranges;
+}
+
+}  // namespace scout::robot::laser

@@ -57,11 +57,12 @@ template <class... Arguments>
 json Simulator::call(const char* function, const Arguments&... arguments) {
   json list = json::array();
   (list.push_back(arguments), ...);
-  return client_.call(function, std::move(list), timeout_);
+  return client_->call(function, std::move(list), server_.timeout);
 }
 
 Simulator::Simulator(const WorldServer& server)
-    : client_(server), name_(server.host + ":" + std::to_string(server.port)), timeout_(server.timeout) {
+    : server_(server), name_(server.host + ":" + std::to_string(server.port)) {
+  client_.emplace(server_);
   const json info = call("zmqRemoteApi.info", "sim");
   const json& names = at(info, 0, "zmqRemoteApi.info");
   if (!names.is_object()) unexpected("zmqRemoteApi.info");
@@ -70,6 +71,11 @@ Simulator::Simulator(const WorldServer& server)
         entry.is_object() && value != entry.end() && value->is_number_integer())
       constants_.emplace(name, value->get<std::int64_t>());
   require_version();
+}
+
+void Simulator::connect_again(Duration patience) {
+  server_.timeout = std::min(patience, server_.timeout);
+  client_.emplace(server_);
 }
 
 std::int64_t Simulator::constant(const std::string& name) const {
@@ -89,8 +95,8 @@ void Simulator::require_version() {
 
 void Simulator::load(const std::string& scene) {
   // Other scenes stay open, so nobody loses what is not saved.
-  static_cast<void>(client_.call("sim.loadScene", json::array({scene + "@keepCurrent"}),
-                                 std::max(timeout_, least_patience_for_scene)));
+  static_cast<void>(client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
+                                  std::max(server_.timeout, least_patience_for_scene)));
 }
 
 void Simulator::close_scene() { static_cast<void>(call("sim.closeScene")); }
@@ -116,7 +122,7 @@ double Simulator::time_s() { return number(call("sim.getSimulationTime"), 0, "si
 
 void Simulator::stop() {
   static_cast<void>(call("sim.stopSimulation"));
-  const auto end = std::chrono::steady_clock::now() + timeout_;
+  const auto end = std::chrono::steady_clock::now() + server_.timeout;
   while (!is_stopped()) {
     if (std::chrono::steady_clock::now() > end)
       throw LinkError("the simulation at " + name_ + " does not stop");

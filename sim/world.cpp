@@ -8,6 +8,7 @@
 
 #include "sim/contents.hpp"
 #include "sim/devices/kinds.hpp"
+#include "sim/devices/making.hpp"
 #include "sim/painter.hpp"
 #include "sim/placed_world.hpp"
 #include "sim/simulation.hpp"
@@ -17,52 +18,6 @@
 
 namespace tessera::sim {
 namespace {
-
-/// What `make` returns, or the problem that it throws.
-template <class Make>
-auto without_exceptions(Make&& make) -> decltype(make()) try {
-  return make();
-} catch (const std::exception& thrown) {
-  return Problem{thrown.what()};
-} catch (...) {
-  return Problem{"the simulated world failed without saying why"};
-}
-
-/// As the interface of worlds has it: nullptr and `error`.
-template <class T>
-std::unique_ptr<T> value_or_null(Result<std::unique_ptr<T>> made, std::string& error) {
-  if (made) return std::move(*made);
-  error = made.problem();
-  return nullptr;
-}
-
-std::string sentence(const DriverProblem& problem) {
-  return problem.text + (problem.hint.empty() ? "" : "; " + problem.hint);
-}
-
-/// What `make` returns. nullptr and the problem if it throws.
-template <class Make>
-auto device_or_problem(Make&& make, DriverProblem& problem) -> decltype(make()) try {
-  return make();
-} catch (const DeviceError& error) {
-  problem = error.problem();
-  return nullptr;
-} catch (const std::exception& error) {
-  problem.text = error.what();
-  return nullptr;
-} catch (...) {
-  problem.text = "the simulated world failed without saying why";
-  return nullptr;
-}
-
-/// As the interface of worlds has it: nullptr, and in `error` the path and the reason.
-template <class Make>
-auto device_or_error(Make&& make, const DriverRequest& request, std::string& error) {
-  DriverProblem problem;
-  auto made = device_or_problem(std::forward<Make>(make), problem);
-  if (!made) error = request.path + ": " + sentence(problem);
-  return made;
-}
 
 class MujocoWorld final : public World {
  public:
@@ -154,14 +109,14 @@ Result<std::string> list(const WorldOptions& options) {
 #endif
 
 /// Opens a MuJoCo world; throws nothing. See tessera::OpenWorld.
-extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world_2(
+extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world_3(
     const tessera::WorldOptions& options, std::string& error) {
   return tessera::sim::value_or_null(
       tessera::sim::without_exceptions([&] { return tessera::sim::open(options); }), error);
 }
 
 /// Lists what a MuJoCo world has; throws nothing. See tessera::ListWorld.
-extern "C" __attribute__((visibility("default"))) bool tessera_list_world_2(
+extern "C" __attribute__((visibility("default"))) bool tessera_list_world_3(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
   auto listed = tessera::sim::without_exceptions([&] { return tessera::sim::list(options); });
   if (listed)

@@ -10,8 +10,8 @@
 #include "cli/launch.hpp"
 #include "cli/outputs.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/chosen_world.hpp"
 #include "project/files/installation.hpp"
-#include "project/files/simulation_file.hpp"
 #include "project/files/world_check.hpp"
 #include "project/verification/pipeline.hpp"
 
@@ -130,28 +130,24 @@ std::string drivers_section(const Json& contents) {
 }
 
 /// The world of a specification, or the file itself if it is one.
-std::optional<WorldOptions> world_of(const std::string& file) {
-  WorldOptions options;
+std::optional<ChosenWorld> world_named(const std::string& file) {
   if (file.ends_with(".xml") || file.ends_with(".mjb")) {
     const auto found = find_asset(file, std::filesystem::current_path(), "worlds");
     if (!found) return complain(fmt::format("there is no world {}", file)), std::nullopt;
-    options.world = found->string();
-    return options;
+    return world_in(*found);
   }
   const std::optional<Specification> specification = read(file, terminal());
   if (!specification) return std::nullopt;
   const auto& simulation = specification->model.simulation;
-  if (!simulation || simulation->world.empty())
+  if (!simulation || !simulation->has_world())
     return complain("the specification names no world under `simulation`"), std::nullopt;
-  const auto found = find_asset(simulation->world, specification->project, "worlds");
-  if (!found) return complain(fmt::format("there is no world {}", simulation->world)), std::nullopt;
-  options.world = found->string();
-  options.models = placements_json(*simulation, specification->project);
-  return options;
+  auto world = project::world_of(*simulation, specification->project);
+  if (!world) complain(fmt::format("there is no world {}", simulation->world));
+  return world;
 }
 
 int world_command(const WorldCommandOptions& options) {
-  const std::optional<WorldOptions> world = world_of(options.file);
+  const std::optional<ChosenWorld> world = world_named(options.file);
   if (!world) return failed;
   const auto contents = contents_of_world(*world);
   if (!contents) return complain(contents.problem());
@@ -160,7 +156,7 @@ int world_command(const WorldCommandOptions& options) {
     return ok;
   }
   const Json json = Json::parse(*contents);
-  fmt::print("{}: steps of {} s\n", world->world, json["timestep_s"].get<double>());
+  fmt::print("{}: steps of {} s\n", world->name, json["timestep_s"].get<double>());
   print_groups(json);
   if (const std::string drivers = drivers_section(json); !drivers.empty()) fmt::print("\n{}", drivers);
   return ok;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "sim/engine/seeds.hpp"
-
 namespace tessera::sim {
 namespace {
 
@@ -76,8 +74,6 @@ Frame frame_of(const Physics& physics, const DriverRequest& request, const std::
   for (std::string& site : names_for(physics.model(), mjOBJ_SITE, agent)) names.push_back(std::move(site));
   throw DeviceError(unknown_name("body or site", name, names));
 }
-
-Noise::Noise(std::uint64_t seed, const std::string& path) : random_(seed_of(path, seed)) {}
 
 std::unique_ptr<RealReceptor> reading(std::shared_ptr<Simulation> simulation, Buffer buffer, Look look,
                                       Distort distort) {

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <random>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "sim/devices/buffer.hpp"
 #include "sim/devices/kinds.hpp"
+#include "sim/devices/noise.hpp"
 #include "sim/devices/options.hpp"
 #include "sim/engine/elements.hpp"
 #include "sim/engine/physics.hpp"
@@ -31,17 +31,6 @@ struct Frame {
   int id = 0;
 };
 [[nodiscard]] Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name);
-
-/// Normally distributed numbers that come from the seed and the path of the device alone.
-class Noise {
- public:
-  Noise(std::uint64_t seed, const std::string& path);
-  [[nodiscard]] double draw(double deviation) { return deviation * normal_(random_); }
-
- private:
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
-};
 
 /// A receptor that reads a row of numbers. `look` sees the physics while nobody else does; `distort` adds
 /// noise. Reading throws std::runtime_error once the physics has failed.

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "project/files/chosen_world.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/simulation_file.hpp"
@@ -125,12 +126,11 @@ void add_floor(Command& command, const spec::Simulation& simulation, const Floor
 
 void add_world(Command& command, const Specification& specification, const LaunchOptions& options) {
   const spec::Simulation& simulation = *specification.model.simulation;
-  if (simulation.world.empty() && options.world.empty()) return;  // the drivers are C++ classes
-  append(command,
-         {"--world",
-          asset(options.world.empty() ? simulation.world : options.world, specification.project, "worlds")
-              .string(),
-          "--world-library", Installation::find().world_library.string()});
+  const std::string& file = options.world.empty() ? simulation.world : options.world;
+  if (!file.empty()) append(command, {"--world", asset(file, specification.project, "worlds").string()});
+  const auto world = world_of(simulation, specification.project, options.world);
+  if (!world) return;  // the drivers are C++ classes
+  append(command, {"--world-library", world->library.string()});
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);
   add_devices(command, specification, options);
@@ -164,7 +164,7 @@ std::string hint_for(const std::string& buffer, const spec::Model& model, const 
       "example\n"
       "      {}: {{ cpp: SimulatedMotor }}\n",
       buffer);
-  if (model.simulation && !model.simulation->world.empty())
+  if (model.simulation && model.simulation->has_world())
     hint += fmt::format("      `tessera world {}` lists what the world has.\n", options.spec);
   if (const auto without = model.without_driver(model.drivers);
       std::ranges::find(without, buffer) == without.end())

@@ -126,9 +126,10 @@ void Api::get_project(Response& response) {
                {"examples_hint", (options_.share / "examples").string()}};
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
   if (analysis->model) project["name"] = analysis->model->system;
-  if (analysis->model && analysis->model->simulation && !analysis->model->simulation->world.empty()) {
+  if (analysis->model && analysis->model->simulation && analysis->model->simulation->has_world()) {
     const spec::Simulation& simulation = *analysis->model->simulation;
-    project["simulation"] = {{"world", simulation.world}, {"track", nullptr}};
+    project["simulation"] = {{"world", simulation.coppelia ? "CoppeliaSim" : simulation.world},
+                             {"track", nullptr}};
     if (simulation.track)
       project["simulation"]["track"] = {{"image", simulation.track->image},
                                         {"metres_per_pixel", simulation.track->metres_per_pixel}};

@@ -118,12 +118,21 @@ tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions option
   std::string error;
   const auto world = open_world(options, error);
   if (!world) throw std::runtime_error(error);
-  Robot robot(*world);
+  drive(follower, *world, for_s);
+  if (!world->finish(error)) throw std::runtime_error(error);
+  auto trace = tessera::sim::read_trace(options.trace);
+  std::filesystem::remove(options.trace);
+  if (!trace) throw std::runtime_error(trace.problem());
+  return *trace;
+}
+
+void drive(const Follower& follower, tessera::World& world, double for_s) {
+  Robot robot(world);
   Search search;
   Line seen;
   std::deque<Command> commands;
   for (int ms = 0; ms < static_cast<int>(for_s * 1000); ms += 10) {
-    world->advance_to(tessera::Time(std::chrono::milliseconds(ms)));
+    world.advance_to(tessera::Time(std::chrono::milliseconds(ms)));
     if ((ms + follower.sensor_delay_ms) % 50 == 0) seen = robot.look();
     if (ms % 50 == 0) {
       const Velocity velocity = follower.search ? search.next(seen, follower)
@@ -135,9 +144,4 @@ tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions option
       commands.pop_front();
     }
   }
-  if (!world->finish(error)) throw std::runtime_error(error);
-  auto trace = tessera::sim::read_trace(options.trace);
-  std::filesystem::remove(options.trace);
-  if (!trace) throw std::runtime_error(trace.problem());
-  return *trace;
 }

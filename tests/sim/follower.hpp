@@ -16,3 +16,5 @@ struct Follower {
 
 /// Drives in `world` (replaces its trace) and reads the trace. Throws std::runtime_error if anything fails.
 tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions world, double for_s);
+/// The same in a world of any simulator that has the three eyes and the two wheels. It is left unfinished.
+void drive(const Follower& follower, tessera::World& world, double for_s);

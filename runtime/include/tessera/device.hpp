@@ -142,8 +142,16 @@ struct DriverProblem {
   std::string subject;  ///< the target or the name of the option that is wrong; empty: all of it
 };
 
+/// A simulator that is a program of its own, and a server: CoppeliaSim.
+struct WorldServer {
+  std::string host = "localhost";
+  std::uint16_t port = 23000;
+  std::string scene;  ///< file that the server loads; empty: the scene that it has open
+  Duration timeout = std::chrono::seconds(10);  ///< for one answer
+};
+
 struct WorldOptions {
-  std::string world;  ///< MJCF file
+  std::string world;  ///< MJCF file; empty: another program simulates the world (`server`)
   std::string track;  ///< PNG of the floor, dark is line; empty: a white floor
   double metres_per_pixel = 0.005;
   std::optional<double> start_x_m, start_y_m, start_heading_rad;  ///< unset: as the world file says
@@ -152,6 +160,10 @@ struct WorldOptions {
   std::string trace;   ///< file that gets the path of the robot; empty: none
   std::string checks;  ///< JSON: what the run is judged by (docs/worlds.md); empty: nothing
   std::string models;  ///< JSON: the placed models (docs/worlds.md); empty: none
+  std::optional<WorldServer> server{};
+  /// Nothing is going to run: the world is asked what would be wrong with its devices. A world on a server
+  /// then does not call it, and tells what can be known without it.
+  bool only_asked = false;
 };
 
 /// A check of the run that has failed.
@@ -231,10 +243,10 @@ class World {
 /// The types of the functions that the world's shared library exports. Their names have the version of this
 /// interface, so that a controller and a library of different versions do not come together.
 using OpenWorld = std::unique_ptr<World> (*)(const WorldOptions& options, std::string& error);
-inline constexpr const char* open_world_function = "tessera_open_world_2";
+inline constexpr const char* open_world_function = "tessera_open_world_3";
 /// Lists the contents of a world as JSON. false and `error`: it does not open.
 using ListWorld = bool (*)(const WorldOptions& options, std::string& json, std::string& error);
-inline constexpr const char* list_world_function = "tessera_list_world_2";
+inline constexpr const char* list_world_function = "tessera_list_world_3";
 
 /// Draws a world with its bodies where a recording says, without simulating it.
 ///

@@ -127,7 +127,8 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
     std::string error;
     if (!read_simulation_file(words.simulation, options.drivers, world, error)) return error;
   }
-  if (words.world.world.empty()) return "";
+  if (!world.world.empty()) world.server.reset();  // a world file on the command line comes first
+  if (world.world.empty() && !world.server) return "";
   options.world = world;
   options.world->seed = options.seed;
   if (words.start.size() == 3) {

@@ -38,6 +38,12 @@ using nlohmann::json;
   return request;
 }
 
+[[nodiscard]] WorldServer server_of(const json& server) {
+  const std::chrono::duration<double> timeout(server.at("timeout_s").get<double>());
+  return {server.at("host").get<std::string>(), server.at("port").get<std::uint16_t>(),
+          server.at("scene").get<std::string>(), std::chrono::duration_cast<Duration>(timeout)};
+}
+
 }  // namespace
 
 std::optional<double> parse_number(std::string_view text) {
@@ -86,6 +92,7 @@ bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& d
     for (const json& driver : file.at("drivers")) drivers.push_back(request_of(driver));
     if (const auto placed = file.find("models"); placed != file.end() && !placed->empty())
       world.models = placed->dump();
+    if (const auto server = file.find("coppelia"); server != file.end()) world.server = server_of(*server);
     json judged;
     for (const char* part : {"checks", "measures"})
       if (const auto found = file.find(part); found != file.end() && !found->empty()) judged[part] = *found;

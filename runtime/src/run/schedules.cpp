@@ -52,7 +52,7 @@ class Schedules {
             bool progress)
       : options_(options),
         parent_(parent),
-        jobs_(jobs_of(request)),
+        jobs_(jobs_of(request, options)),
         net_(request.coverage ? net_of(system) : FlatNet{}),
         firings_(net_.transitions.size() * jobs_),
         seeds_(options.seed, request.count, jobs_),
@@ -90,7 +90,9 @@ class Schedules {
   }
 
  private:
-  [[nodiscard]] static unsigned jobs_of(const ScheduleRequest& request) {
+  /// A simulator that is a server simulates one run at a time.
+  [[nodiscard]] static unsigned jobs_of(const ScheduleRequest& request, const RunOptions& options) {
+    if (options.world && options.world->server) return 1;
     const unsigned wanted = request.jobs == 0 ? usable_cores() : request.jobs;
     return static_cast<unsigned>(
         std::clamp<std::uint64_t>(wanted, 1, std::max<std::uint64_t>(1, request.count)));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
+#include "project/files/chosen_world.hpp"
 #include "project/files/installation.hpp"
 #include "tessera/nearest.hpp"
 
@@ -55,8 +56,11 @@ bool check_simulation_files(const spec::Model& model, const fs::path& project,
                             diagnostics::Diagnostics& out) {
   if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
-  bool found = simulation.world.empty() ||  // the drivers are C++ classes
+  bool found = simulation.world.empty() ||
                check_file(simulation.world, "world", "worlds", simulation.world_span, project, out);
+  if (simulation.coppelia && is_here(*simulation.coppelia))
+    found = check_file(simulation.coppelia->scene, "scene", "worlds", simulation.coppelia->scene_span,
+                       project, out);
   for (const spec::ModelPlacement& placement : simulation.models)
     if (&placement == &simulation.models.front() || (&placement)[-1].span != placement.span)
       found = check_file(placement.model, "model", "worlds", placement.model_span, project, out) && found;

@@ -11,7 +11,7 @@ Installation Installation::find() {
   for (const fs::path& prefix : {folder, folder.parent_path()}) {
     if (!fs::exists(prefix / "share/tessera")) continue;
     return {prefix / "share/tessera", prefix / "lib/cmake/tessera",
-            prefix / "lib/tessera/libtessera_world.so"};
+            prefix / "lib/tessera/libtessera_world.so", prefix / "lib/tessera/libtessera_coppelia.so"};
   }
   throw std::runtime_error("this installation is incomplete: no share/tessera beside " + folder.string());
 }

@@ -9,9 +9,10 @@ namespace tessera::project {
 /// Where this installation keeps its parts. The command is relocatable: everything is found from its own
 /// path, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
 struct Installation {
-  std::filesystem::path share;          ///< worlds/, tracks/, examples/, spec.schema.json
-  std::filesystem::path cmake_package;  ///< folder of tesseraConfig.cmake
-  std::filesystem::path world_library;  ///< libtessera_world.so
+  std::filesystem::path share;             ///< worlds/, tracks/, examples/, spec.schema.json
+  std::filesystem::path cmake_package;     ///< folder of tesseraConfig.cmake
+  std::filesystem::path world_library;     ///< libtessera_world.so, of MuJoCo
+  std::filesystem::path coppelia_library;  ///< libtessera_coppelia.so
 
   /// Throws std::runtime_error that names the missing part.
   [[nodiscard]] static Installation find();

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "project/files/chosen_world.hpp"
 #include "project/files/installation.hpp"
 
 namespace tessera::project {
@@ -64,6 +65,13 @@ Json models_of(const spec::Simulation& simulation, const fs::path& project) {
   return models;
 }
 
+Json json_of(const WorldServer& server) {
+  return {{"host", server.host},
+          {"port", server.port},
+          {"scene", server.scene},
+          {"timeout_s", seconds(server.timeout)}};
+}
+
 Json json_of(const checks::Check& check) {
   Json json{{"name", check.name},
             {"when", checks::name_of(check.when)},
@@ -99,6 +107,7 @@ std::string simulation_json(const spec::Model& model, const fs::path& project,
   for (const spec::Driver& driver : model.simulation->drivers)
     if (driver.kind != "cpp") json["drivers"].push_back(json_of(request_of(model, driver)));
   json["models"] = models_of(*model.simulation, project);
+  if (model.simulation->coppelia) json["coppelia"] = json_of(server_of(*model.simulation->coppelia, project));
   json["checks"] = Json::array();
   for (const spec::WorldCheck& one : model.simulation->checks) json["checks"].push_back(json_of(one.check));
   json["measures"] = Json::object();

@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A function of the library of worlds, which stays loaded.
-Result<void*> function_of_library(const char* name) {
-  const fs::path file = Installation::find().world_library;
+Result<void*> function_of_library(const fs::path& file, const char* name) {
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return Problem{"cannot load the library of worlds: " + std::string(dlerror())};
   void* const function = dlsym(library, name);
@@ -31,6 +30,11 @@ diagnostics::Span place_of(const spec::Driver& driver, const DriverProblem& prob
   const auto target = std::ranges::find(driver.targets, problem.subject, &spec::Driver::Target::name);
   if (target != driver.targets.end()) return target->span;
   return driver.targets.empty() ? driver.span : driver.targets.front().span;
+}
+
+diagnostics::Span place_of(const spec::Simulation& simulation) {
+  if (simulation.coppelia) return simulation.coppelia->span;
+  return simulation.world.empty() ? simulation.span : simulation.world_span;
 }
 
 /// One message for a whole fleet.
@@ -60,26 +64,27 @@ class Judge {
 
 }  // namespace
 
-Result<std::unique_ptr<World>> open_world_to_ask(const WorldOptions& options) {
-  const auto function = function_of_library(open_world_function);
+Result<std::unique_ptr<World>> open_world_to_ask(ChosenWorld chosen) {
+  const auto function = function_of_library(chosen.library, open_world_function);
   if (!function) return Problem{function.problem()};
+  chosen.options.only_asked = true;
   std::string error;
-  auto world = reinterpret_cast<OpenWorld>(*function)(options, error);
+  auto world = reinterpret_cast<OpenWorld>(*function)(chosen.options, error);
   if (world == nullptr) return Problem{error};
   return world;
 }
 
-Result<std::string> contents_of_world(const WorldOptions& options) {
-  const auto function = function_of_library(list_world_function);
+Result<std::string> contents_of_world(const ChosenWorld& world) {
+  const auto function = function_of_library(world.library, list_world_function);
   if (!function) return Problem{function.problem()};
   std::string json, error;
-  if (!reinterpret_cast<ListWorld>(*function)(options, json, error)) return Problem{error};
+  if (!reinterpret_cast<ListWorld>(*function)(world.options, json, error)) return Problem{error};
   return json;
 }
 
 Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
                                                    const PictureOptions& picture) {
-  const auto function = function_of_library(open_painter_function);
+  const auto function = function_of_library(Installation::find().world_library, open_painter_function);
   if (!function) return Problem{function.problem()};
   std::string error;
   auto painter = reinterpret_cast<OpenPainter>(*function)(options, picture, error);
@@ -87,24 +92,19 @@ Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
   return painter;
 }
 
-bool has_world_library() { return fs::exists(Installation::find().world_library); }
-
 bool check_world(const spec::Model& model, const fs::path& project, const std::string& world,
                  diagnostics::Diagnostics& out) {
-  if (!model.simulation || (model.simulation->world.empty() && world.empty())) return true;
+  if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
-  const diagnostics::Span place = simulation.world.empty() ? simulation.span : simulation.world_span;
-  if (!has_world_library()) {
+  const auto chosen = world_of(simulation, project, world);
+  if (!chosen) return true;  // there is none, or its file is missing, which is said elsewhere
+  const diagnostics::Span place = place_of(simulation);
+  if (!fs::exists(chosen->library)) {
     out.note("N313", place,
              "the library of simulated worlds is not installed, so the devices are not checked");
     return true;
   }
-  const auto file = find_asset(world.empty() ? simulation.world : world, project, "worlds");
-  if (!file) return true;  // said elsewhere
-  WorldOptions options;
-  options.world = file->string();
-  options.models = placements_json(simulation, project);
-  const auto opened = open_world_to_ask(options);
+  const auto opened = open_world_to_ask(*chosen);
   if (!opened) {
     out.error("E312", place, "the world cannot be opened: " + opened.problem());
     return false;

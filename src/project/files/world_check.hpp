@@ -6,6 +6,7 @@
 #include <string>
 
 #include "diagnostics/diagnostics.hpp"
+#include "project/files/chosen_world.hpp"
 #include "spec/model/model.hpp"
 #include "tessera/device.hpp"
 #include "tessera/result.hpp"
@@ -13,18 +14,16 @@
 /// Asks the library of simulated worlds, without running anything.
 namespace tessera::project {
 
-/// A world that is open to be asked. Problem: the library is not installed, or the world does not open.
-[[nodiscard]] Result<std::unique_ptr<World>> open_world_to_ask(const WorldOptions& options);
+/// A world that is open to be asked. No server is called. Problem: the library is not installed, or the world does not open.
+[[nodiscard]] Result<std::unique_ptr<World>> open_world_to_ask(ChosenWorld world);
 /// What a world offers, as JSON.
-[[nodiscard]] Result<std::string> contents_of_world(const WorldOptions& options);
-/// A world to be drawn as it was recorded. Problem: as OpenPainter, or the library is not installed.
+[[nodiscard]] Result<std::string> contents_of_world(const ChosenWorld& world);
+/// A world of MuJoCo to be drawn as it was recorded. Problem: as OpenPainter, or the library is not installed.
 [[nodiscard]] Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
                                                                  const PictureOptions& picture);
-/// Whether the library of worlds is installed.
-[[nodiscard]] bool has_world_library();
 
 /// Whether the devices of the simulation are in the world, and fit their buffers. The files of the simulation
-/// exist (check_simulation_files).
+/// exist (check_simulation_files). No server is called, so nobody asks CoppeliaSim for its objects.
 ///
 /// world: the file that is used in place of that of the specification; empty: none.
 /// Errors: E311 a device that the world does not have, or that does not fit; E312 the world cannot be opened.

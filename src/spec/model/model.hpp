@@ -338,15 +338,29 @@ struct WorldMeasure {
   Span span;  ///< of the number
 };
 
+/// CoppeliaSim, which simulates the world as a server of its own.
+struct CoppeliaServer {
+  std::string host = "localhost";
+  std::uint16_t port = 23000;
+  std::string scene;  ///< file; empty: the scene that it has open
+  Span scene_span;
+  Duration timeout = std::chrono::seconds(10);  ///< for one answer
+  Span span;
+};
+
 struct Simulation {
-  std::string world;  ///< empty: no world; the drivers are C++ classes
+  std::string world;  ///< MuJoCo model; empty: none
   Span world_span;
+  std::optional<CoppeliaServer> coppelia;  ///< instead of `world`
   std::optional<Track> track;
   std::vector<ModelPlacement> models;  ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;
   std::vector<WorldCheck> checks;
   std::vector<WorldMeasure> measures;
   Span span;
+
+  /// false: the drivers are C++ classes.
+  [[nodiscard]] bool has_world() const { return !world.empty() || coppelia.has_value(); }
 };
 
 /// A whole specification. Invariant: every index is valid, and every path is resolved.

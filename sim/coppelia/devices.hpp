@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "sim/coppelia/lock_step.hpp"
+#include "tessera/device.hpp"
+
+namespace tessera::coppelia {
+
+/// What devices share.
+struct DeviceContext {
+  std::shared_ptr<LockStep> scene;  ///< nullptr: devices are only judged, by what is known without a server
+  std::uint64_t seed = 1;
+};
+
+/// Make the device that the request asks for (docs/worlds.md). Throw sim::DeviceError if CoppeliaSim has no
+/// such kind, the scene no such object, or it does not fit the buffer.
+[[nodiscard]] std::unique_ptr<RealReceptor> make_receptor(const DeviceContext& context,
+                                                          const DriverRequest& request);
+[[nodiscard]] std::unique_ptr<RealEffector> make_effector(const DeviceContext& context,
+                                                          const DriverRequest& request);
+
+}  // namespace tessera::coppelia

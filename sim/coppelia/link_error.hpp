@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace tessera::coppelia {
+
+/// The connection to the simulator does not serve any more: nobody listens, the server has gone, it does
+/// not answer in time, or it speaks another protocol. The text is a sentence for the user.
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The simulator has answered that it cannot do what a call asks for.
+class RefusedCall : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace tessera::coppelia

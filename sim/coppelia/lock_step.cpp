@@ -1,0 +1,119 @@
+#include "sim/coppelia/lock_step.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+
+#include "sim/coppelia/link_error.hpp"
+
+namespace tessera::coppelia {
+
+LockStep::LockStep(const WorldServer& server) : simulator_(server) {
+  if (!simulator_.is_stopped())
+    throw LinkError("a simulation runs already in CoppeliaSim at " + server.host + ":" +
+                    std::to_string(server.port) + "; stop it there first");
+  if (!server.scene.empty()) simulator_.load(server.scene);
+  is_loaded_ = !server.scene.empty();
+  step_ = simulator_.time_step();
+}
+
+LockStep::~LockStep() { static_cast<void>(finish()); }
+
+void LockStep::advance_to(Time time) {
+  const std::scoped_lock lock(mutex_);
+  if (!failure_.empty() || is_finished_) return;
+  try {
+    if (!is_running_) start();
+    while (time_ + step_ <= time.time_since_epoch()) {
+      step();
+      time_ += step_;
+    }
+  } catch (const std::exception& error) {
+    failure_ = error.what();
+  }
+}
+
+/// A step that is asked for before the simulation has really begun does nothing.
+void LockStep::start() {
+  constexpr int most_tries = 10;
+  simulator_.start_stepping();
+  is_running_ = true;
+  send_commands();
+  for (int tries = 0; tries < most_tries && start_s_ == 0; ++tries) {
+    simulator_.step();
+    start_s_ = simulator_.time_s();
+  }
+  if (start_s_ == 0) throw LinkError("the simulation does not begin in CoppeliaSim");
+}
+
+void LockStep::step() {
+  send_commands();
+  simulator_.step();
+  ++steps_;
+  const double expected_s = start_s_ + seconds(step_) * static_cast<double>(steps_);
+  const double time_s = simulator_.time_s();
+  if (std::abs(time_s - expected_s) < seconds(step_) / 2) return;
+  throw LinkError(time_s < expected_s
+                      ? "the simulation has been paused or stopped in CoppeliaSim"
+                      : "the simulation has gone on by itself: CoppeliaSim was not asked for a minute, or "
+                        "somebody else steps it, too");
+}
+
+void LockStep::send_commands() {
+  const std::vector<Command> commands = std::exchange(commands_, {});
+  for (const Command& one : commands) simulator_.command(one.joint, one.how, one.value);
+}
+
+Duration LockStep::time() const {
+  const std::scoped_lock lock(mutex_);
+  return time_;
+}
+
+/// After a failure it still tries to stop the simulation: CoppeliaSim may only have been busy for too long.
+void LockStep::end() {
+  constexpr Duration patience = std::chrono::seconds(2);
+  if (simulator_.is_lost()) simulator_.connect_again(patience);
+  if (is_running_ && failure_.empty()) send_commands();
+  if (is_running_) simulator_.stop();
+  if (is_loaded_) simulator_.close_scene();
+}
+
+std::optional<Problem> LockStep::finish() {
+  const std::scoped_lock lock(mutex_);
+  if (!std::exchange(is_finished_, true)) {
+    try {
+      end();
+    } catch (const std::exception& error) {
+      if (failure_.empty()) failure_ = error.what();
+    }
+  }
+  return failure_.empty() ? std::nullopt : std::optional(Problem{failure_});
+}
+
+std::optional<Object> LockStep::find(const std::string& agent, const std::string& path) {
+  return use([&](Simulator& simulator) {
+    const bool is_absolute = path.starts_with('/');
+    const std::string absolute = is_absolute ? path : "/" + path;
+    const std::string own = "/" + agent + absolute;
+    for (const std::string& one : is_absolute ? std::vector{absolute} : std::vector{own, absolute}) {
+      const auto [entry, is_new] = found_.try_emplace(one);
+      if (is_new) entry->second = simulator.find(one);
+      if (entry->second) return entry->second;
+    }
+    return std::optional<Object>();
+  });
+}
+
+void LockStep::command(const Object& joint, JointCommand how, double value) {
+  const std::scoped_lock lock(mutex_);
+  throw_failure();
+  std::erase_if(commands_, [&](const Command& one) { return one.joint.handle == joint.handle; });
+  commands_.push_back({joint, how, value});
+}
+
+void LockStep::throw_failure() const {
+  if (!failure_.empty()) throw std::runtime_error(failure_);
+}
+
+}  // namespace tessera::coppelia

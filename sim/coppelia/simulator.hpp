@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/coppelia/client.hpp"
+#include "tessera/device.hpp"
+
+namespace tessera::coppelia {
+
+/// An object of the scene, as CoppeliaSim numbers it.
+struct Object {
+  enum class Type : std::uint8_t {
+    joint,
+    vision_sensor,
+    proximity_sensor,
+    force_sensor,
+    shape,
+    dummy,
+    other
+  };
+  std::int64_t handle = -1;
+  Type type = Type::other;
+};
+
+/// What the command of a joint means. Depends on the mode of the joint in the scene.
+enum class JointCommand : std::uint8_t {
+  velocity,  ///< target velocity of its motor, rad/s or m/s
+  position,  ///< target position of its controller, rad or m
+  force,     ///< target force or torque, N or N m
+  place,     ///< a kinematic joint is put there
+  none       ///< nothing drives it
+};
+
+struct Picture {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;  ///< rows from the bottom
+};
+
+/// The functions of CoppeliaSim that a world needs, typed.
+///
+/// Errors:  of all members: LinkError; RefusedCall, as Client.
+/// Threads: one at a time.
+class Simulator {
+ public:
+  /// Connects, and asks for version and constants. Errors: also LinkError if the version is too old.
+  explicit Simulator(const WorldServer& server);
+
+  [[nodiscard]] bool is_lost() const { return client_->is_lost(); }
+  /// After the connection was lost. patience: for each answer from now on. Errors: LinkError.
+  void connect_again(Duration patience);
+
+  // The simulation as a whole. scene: a file name as the server sees it.
+  void load(const std::string& scene);
+  void close_scene();
+  [[nodiscard]] Duration time_step();
+  [[nodiscard]] bool is_stopped();
+  void start_stepping();
+  void step();
+  [[nodiscard]] double time_s();
+  /// Waits until the simulation has stopped.
+  void stop();
+
+  /// nullopt: the scene has no object at this path ("/robot/eye").
+  [[nodiscard]] std::optional<Object> find(const std::string& path);
+  /// The paths of all objects of a type.
+  [[nodiscard]] std::vector<std::string> paths(Object::Type type);
+
+  // Readings. nullopt: there is no value yet.
+  [[nodiscard]] double joint_position(const Object& joint);
+  [[nodiscard]] double joint_velocity(const Object& joint);
+  /// x, y, z in m and a quaternion w, x, y, z, in the coordinates of the world.
+  [[nodiscard]] std::array<double, 7> pose(const Object& object);
+  /// The mean brightness of the picture of a vision sensor, from 0 to 1.
+  [[nodiscard]] std::optional<double> brightness(const Object& vision_sensor);
+  [[nodiscard]] std::array<int, 2> resolution(const Object& vision_sensor);
+  [[nodiscard]] Picture colours(const Object& vision_sensor);
+  /// Each pixel is a float32, in m.
+  [[nodiscard]] Picture depths(const Object& vision_sensor);
+  /// In m to the nearest point that a proximity sensor detects; -1: it detects nothing.
+  [[nodiscard]] std::optional<double> distance(const Object& proximity_sensor);
+  /// Force in N and torque in N m, in the axes of the sensor.
+  [[nodiscard]] std::optional<std::array<double, 6>> force(const Object& force_sensor);
+  [[nodiscard]] bool collide(const Object& one, const Object& other);
+
+  [[nodiscard]] JointCommand command_of(const Object& joint);
+  void command(const Object& joint, JointCommand how, double value);
+
+ private:
+  template <class... Arguments>
+  [[nodiscard]] nlohmann::json call(const char* function, const Arguments&... arguments);
+  [[nodiscard]] std::int64_t constant(const std::string& name) const;
+  void require_version();
+  [[nodiscard]] Object::Type type_of(std::int64_t type) const;
+  [[nodiscard]] bool is_handled_explicitly(const Object& sensor);
+  [[nodiscard]] Picture picture(const char* function, const Object& sensor, int options,
+                                std::size_t bytes_per_pixel);
+
+  WorldServer server_;
+  std::optional<Client> client_;
+  std::string name_;  // "localhost:23000"
+  std::map<std::string, std::int64_t, std::less<>> constants_;
+  std::map<std::int64_t, bool> explicit_;  // sensors by handle
+};
+
+}  // namespace tessera::coppelia

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/coppelia/devices.hpp"
+
+/// The objects that devices name.
+namespace tessera::coppelia {
+
+/// "joint", "vision sensor", ...
+[[nodiscard]] const char* word_for(Object::Type type);
+/// The agent that a path begins with: "robot[3]".
+[[nodiscard]] std::string agent_of(const DriverRequest& request);
+
+/// The objects that the request names, all of one of these types. Empty without a scene. Throws
+/// sim::DeviceError.
+[[nodiscard]] std::vector<Object> objects_of(const DeviceContext& context, const DriverRequest& request,
+                                             const std::vector<Object::Type>& types);
+/// The one object, whatever its type if `types` is empty. Without a scene, one without a handle.
+[[nodiscard]] Object only_object_of(const DeviceContext& context, const DriverRequest& request,
+                                    const std::vector<Object::Type>& types);
+
+}  // namespace tessera::coppelia

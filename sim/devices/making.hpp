@@ -1,0 +1,61 @@
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "sim/devices/device_error.hpp"
+#include "tessera/device.hpp"
+#include "tessera/result.hpp"
+
+/// What every library of worlds does alike: exceptions become what the interface of worlds says instead.
+namespace tessera::sim {
+
+/// What `make` returns, or the problem that it throws.
+template <class Make>
+auto without_exceptions(Make&& make) -> decltype(make()) try {
+  return make();
+} catch (const std::exception& thrown) {
+  return Problem{thrown.what()};
+} catch (...) {
+  return Problem{"the simulated world failed without saying why"};
+}
+
+/// As the interface of worlds has it: nullptr and `error`.
+template <class T>
+std::unique_ptr<T> value_or_null(Result<std::unique_ptr<T>> made, std::string& error) {
+  if (made) return std::move(*made);
+  error = made.problem();
+  return nullptr;
+}
+
+inline std::string sentence(const DriverProblem& problem) {
+  return problem.text + (problem.hint.empty() ? "" : "; " + problem.hint);
+}
+
+/// What `make` returns. nullptr and the problem if it throws.
+template <class Make>
+auto device_or_problem(Make&& make, DriverProblem& problem) -> decltype(make()) try {
+  return make();
+} catch (const DeviceError& error) {
+  problem = error.problem();
+  return nullptr;
+} catch (const std::exception& error) {
+  problem.text = error.what();
+  return nullptr;
+} catch (...) {
+  problem.text = "the simulated world failed without saying why";
+  return nullptr;
+}
+
+/// As the interface of worlds has it: nullptr, and in `error` the path and the reason.
+template <class Make>
+auto device_or_error(Make&& make, const DriverRequest& request, std::string& error) {
+  DriverProblem problem;
+  auto made = device_or_problem(std::forward<Make>(make), problem);
+  if (!made) error = request.path + ": " + sentence(problem);
+  return made;
+}
+
+}  // namespace tessera::sim

@@ -209,6 +209,8 @@ export class Runner {
     const { state, why, outcome, marking, firings } = info;
     this.store.set({ state, why, outcome });
     this.setMarked(marking, firings);
+    // Whoever stands has told all that it fired.
+    if (this.track && (state === "ended" || state === "paused")) this.track.known = this.track.end;
     if ("values" in info) {
       this.counted(firings);
       this.valued(info);

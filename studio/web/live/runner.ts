@@ -209,8 +209,6 @@ export class Runner {
     const { state, why, outcome, marking, firings } = info;
     this.store.set({ state, why, outcome });
     this.setMarked(marking, firings);
-    // Whoever stands has told all that it fired.
-    if (this.track && (state === "ended" || state === "paused")) this.track.known = this.track.end;
     if ("values" in info) {
       this.counted(firings);
       this.valued(info);
@@ -218,6 +216,8 @@ export class Runner {
       if (info.scene) this.sawScene(info.scene);
       if (info.poses) this.sawPoses(info.poses);
     } else if (state === "ended" || state === "paused") void this.seePath();
+    // Whoever stands has told all that it fired.
+    if (this.track && (state === "ended" || state === "paused")) this.track.known = this.track.end;
     const { breakpoints } = this.store.get();
     if (state === "running" && breakpoints.length > 0)
       void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });

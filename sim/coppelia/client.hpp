@@ -24,6 +24,7 @@ class Client {
   /// Takes leave of the server, unless the connection is lost.
   ~Client();
 
+  [[nodiscard]] bool is_lost() const { return lost_; }
   /// What the function returns, as an array. arguments: an array.
   ///
   /// Errors: RefusedCall: the simulator says why not. LinkError: after it, every call is one.

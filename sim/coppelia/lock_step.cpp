@@ -1,5 +1,6 @@
 #include "sim/coppelia/lock_step.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -69,8 +70,10 @@ Duration LockStep::time() const {
   return time_;
 }
 
-/// After a failure it still tries to stop the simulation, in case that the connection is not what failed.
+/// After a failure it still tries to stop the simulation: CoppeliaSim may only have been busy for too long.
 void LockStep::end() {
+  constexpr Duration patience = std::chrono::seconds(2);
+  if (simulator_.is_lost()) simulator_.connect_again(patience);
   if (is_running_ && failure_.empty()) send_commands();
   if (is_running_) simulator_.stop();
   if (is_loaded_) simulator_.close_scene();

@@ -16,6 +16,7 @@ using nlohmann::json;
 
 constexpr std::int64_t oldest_version = 40500;  // the first with protocol version 2
 constexpr Duration least_patience_for_scene = std::chrono::seconds(60);
+constexpr std::size_t longest_scene_name = 900;
 constexpr auto pause_between_looks = std::chrono::milliseconds(5);
 constexpr std::size_t mean_intensity = 10;  ///< of the 15 numbers of a vision sensor
 constexpr int short_unique_path = 1;        ///< option of sim.getObjectAlias
@@ -57,11 +58,12 @@ template <class... Arguments>
 json Simulator::call(const char* function, const Arguments&... arguments) {
   json list = json::array();
   (list.push_back(arguments), ...);
-  return client_.call(function, std::move(list), timeout_);
+  return client_->call(function, std::move(list), server_.timeout);
 }
 
 Simulator::Simulator(const WorldServer& server)
-    : client_(server), name_(server.host + ":" + std::to_string(server.port)), timeout_(server.timeout) {
+    : server_(server), name_(server.host + ":" + std::to_string(server.port)) {
+  client_.emplace(server_);
   const json info = call("zmqRemoteApi.info", "sim");
   const json& names = at(info, 0, "zmqRemoteApi.info");
   if (!names.is_object()) unexpected("zmqRemoteApi.info");
@@ -70,6 +72,11 @@ Simulator::Simulator(const WorldServer& server)
         entry.is_object() && value != entry.end() && value->is_number_integer())
       constants_.emplace(name, value->get<std::int64_t>());
   require_version();
+}
+
+void Simulator::connect_again(Duration patience) {
+  server_.timeout = std::min(patience, server_.timeout);
+  client_.emplace(server_);
 }
 
 std::int64_t Simulator::constant(const std::string& name) const {
@@ -88,9 +95,12 @@ void Simulator::require_version() {
 }
 
 void Simulator::load(const std::string& scene) {
+  // Longer ones would be taken for the content of a file.
+  if (scene.size() > longest_scene_name) throw RefusedCall("the name of the scene is too long: " + scene);
   // Other scenes stay open, so nobody loses what is not saved.
-  static_cast<void>(client_.call("sim.loadScene", json::array({scene + "@keepCurrent"}),
-                                 std::max(timeout_, least_patience_for_scene)));
+  const json values = client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
+                                    std::max(server_.timeout, least_patience_for_scene));
+  if (whole(values, 0, "sim.loadScene") < 0) throw RefusedCall("CoppeliaSim cannot load the scene " + scene);
 }
 
 void Simulator::close_scene() { static_cast<void>(call("sim.closeScene")); }
@@ -116,7 +126,7 @@ double Simulator::time_s() { return number(call("sim.getSimulationTime"), 0, "si
 
 void Simulator::stop() {
   static_cast<void>(call("sim.stopSimulation"));
-  const auto end = std::chrono::steady_clock::now() + timeout_;
+  const auto end = std::chrono::steady_clock::now() + server_.timeout;
   while (!is_stopped()) {
     if (std::chrono::steady_clock::now() > end)
       throw LinkError("the simulation at " + name_ + " does not stop");

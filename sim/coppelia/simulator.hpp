@@ -52,6 +52,10 @@ class Simulator {
   /// Connects, and asks for version and constants. Errors: also LinkError if the version is too old.
   explicit Simulator(const WorldServer& server);
 
+  [[nodiscard]] bool is_lost() const { return client_->is_lost(); }
+  /// After the connection was lost. patience: for each answer from now on. Errors: LinkError.
+  void connect_again(Duration patience);
+
   // The simulation as a whole. scene: a file name as the server sees it.
   void load(const std::string& scene);
   void close_scene();
@@ -98,9 +102,9 @@ class Simulator {
   [[nodiscard]] Picture picture(const char* function, const Object& sensor, int options,
                                 std::size_t bytes_per_pixel);
 
-  Client client_;
+  WorldServer server_;
+  std::optional<Client> client_;
   std::string name_;  // "localhost:23000"
-  Duration timeout_;
   std::map<std::string, std::int64_t, std::less<>> constants_;
   std::map<std::int64_t, bool> explicit_;  // sensors by handle
 };

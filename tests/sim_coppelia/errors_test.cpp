@@ -155,6 +155,21 @@ TEST_F(WhileItRuns, AServerThatEndsInAStepFailsTheRunAtOnce) {
   EXPECT_THAT(failure_of_run(), HasSubstr("has gone"));
 }
 
+TEST(CoppeliaErrors, ASimulatorThatWasBusyForTooLongIsLeftStopped) {
+  SceneServer server({.late = "sim.getSimulationTime", .lateness = 400ms});
+  WorldServer address = server.address();
+  address.timeout = 200ms;
+  std::string error;
+  const auto world = open_world({.server = address}, error);
+  ASSERT_NE(world, nullptr) << error;
+  world->advance_to(Time(0s));
+  std::this_thread::sleep_for(400ms);
+  EXPECT_TRUE(server.is_running());
+  EXPECT_FALSE(world->finish(error));
+  EXPECT_THAT(error, HasSubstr("has not answered"));
+  EXPECT_FALSE(server.is_running());
+}
+
 TEST_F(WhileItRuns, ASimulationThatGoesOnByItselfFailsTheRun) {
   world->advance_to(Time(20ms));
   server.step_by_itself();

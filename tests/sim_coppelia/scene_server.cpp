@@ -5,6 +5,8 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 namespace tessera::testing {
 namespace {
@@ -99,6 +101,8 @@ std::optional<Bytes> SceneServer::answer(const Bytes& request) {
   const std::string function = asked.at("func").get<std::string>();
   calls_.push_back(function);
   if (settings_.silent.contains(function)) return std::nullopt;
+  if (function == settings_.late)
+    std::this_thread::sleep_for(std::exchange(settings_.lateness, std::chrono::milliseconds(0)));
   const json wait{{"func", "_*wait*_"}, {"args", json::object()}};
   if (function == "_*end*_") return json::to_cbor(json::object());
   if (function == "sim.step") waits_left_ = settings_.waits_per_step;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -34,6 +35,8 @@ class SceneServer {
     std::uint16_t port = 0;        ///< 0: a free one
     int waits_per_step = 3;        ///< how often a step asks the client to wait
     std::set<std::string> silent;  ///< functions that never answer
+    std::string late;              ///< a function that answers late the first time
+    std::chrono::milliseconds lateness{0};
   };
 
   explicit SceneServer(Settings settings);

@@ -16,6 +16,7 @@ using nlohmann::json;
 
 constexpr std::int64_t oldest_version = 40500;  // the first with protocol version 2
 constexpr Duration least_patience_for_scene = std::chrono::seconds(60);
+constexpr std::size_t longest_scene_name = 900;
 constexpr auto pause_between_looks = std::chrono::milliseconds(5);
 constexpr std::size_t mean_intensity = 10;  ///< of the 15 numbers of a vision sensor
 constexpr int short_unique_path = 1;        ///< option of sim.getObjectAlias
@@ -94,9 +95,12 @@ void Simulator::require_version() {
 }
 
 void Simulator::load(const std::string& scene) {
+  // Longer ones would be taken for the content of a file.
+  if (scene.size() > longest_scene_name) throw RefusedCall("the name of the scene is too long: " + scene);
   // Other scenes stay open, so nobody loses what is not saved.
-  static_cast<void>(client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
-                                  std::max(server_.timeout, least_patience_for_scene)));
+  const json values = client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
+                                    std::max(server_.timeout, least_patience_for_scene));
+  if (whole(values, 0, "sim.loadScene") < 0) throw RefusedCall("CoppeliaSim cannot load the scene " + scene);
 }
 
 void Simulator::close_scene() { static_cast<void>(call("sim.closeScene")); }

@@ -113,7 +113,9 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
   const Specification& specification = controller.specification;
   const RunFiles files = run_files(options);
-  RunOutcome outcome{.summary = read_summary(files.summary), .recording = files.recording};
+  RunOutcome outcome;
+  outcome.summary = read_summary(files.summary);
+  outcome.recording = files.recording;
   if (outcome.summary.is_object()) {
     outcome.curves = outcome.summary.value("curves", json::array());
     outcome.summary.erase("curves");

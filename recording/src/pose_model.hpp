@@ -17,7 +17,8 @@ namespace tessera {
 /// was from that lately. All of it is computed with whole numbers, so that every machine expects the same.
 class PoseModel {
  public:
-  explicit PoseModel(std::size_t bodies) : bodies_(bodies) {}
+  /// parents: as PoseEncoder has them.
+  PoseModel(std::size_t bodies, const PoseParents& parents);
 
   /// Begins anew with bodies that rest there.
   void restart(const std::vector<RoundedPose>& poses);
@@ -28,15 +29,17 @@ class PoseModel {
 
  private:
   static constexpr std::size_t components = 7, longest_number = 44, classes = 16;
+  static constexpr std::size_t ways = 3;  // to guess: it rests; it goes on; it goes along with its parent
   /// Of numbers that are alike in size.
   struct NumberModel {
     BitModel zero, sign;
     std::array<BitModel, longest_number> length, next;  // next: the bit after the first, by length
   };
   struct Body {
-    RoundedPose last, before;
-    std::array<std::uint8_t, components> sizes{};                   // of the last surprises, in bits
-    std::array<std::array<std::uint32_t, 2>, components> misses{};  // of resting and of going on
+    RoundedPose last, before, older;  // of the last three frames
+    std::optional<std::size_t> parent;
+    std::array<std::uint8_t, components> sizes{};  // of the last surprises, in bits
+    std::array<std::array<std::uint32_t, ways>, components> misses{};
     bool rested = false;
   };
 
@@ -50,7 +53,7 @@ class PoseModel {
 
   std::vector<Body> bodies_;
   std::array<BitModel, 2> rests_;
-  std::array<std::array<NumberModel, classes>, 2> moved_;  // of positions and of rotations
+  std::array<std::array<NumberModel, classes>, 3> moved_;  // positions, rotations, their largest parts
   std::array<NumberModel, components> whole_;
 };
 

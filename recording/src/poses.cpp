@@ -121,8 +121,8 @@ BodyPose pose_of(const RoundedPose& rounded) {
 
 // ------------------------------------------------------------------------------------------------ encoder
 
-PoseEncoder::PoseEncoder(std::size_t bodies, Form form)
-    : last_(bodies), model_(form == Form::packed ? std::make_unique<PoseModel>(bodies) : nullptr) {}
+PoseEncoder::PoseEncoder(std::size_t bodies, Form form, const PoseParents& parents)
+    : last_(bodies), model_(form == Form::packed ? std::make_unique<PoseModel>(bodies, parents) : nullptr) {}
 PoseEncoder::~PoseEncoder() = default;
 PoseEncoder::PoseEncoder(PoseEncoder&&) noexcept = default;
 PoseEncoder& PoseEncoder::operator=(PoseEncoder&&) noexcept = default;
@@ -194,7 +194,8 @@ std::size_t PoseEncoder::longest_frame(std::size_t bodies) {
 
 // ------------------------------------------------------------------------------------------------ decoder
 
-PoseDecoder::PoseDecoder(std::size_t bodies) : poses_(bodies) {}
+PoseDecoder::PoseDecoder(std::size_t bodies, PoseParents parents)
+    : poses_(bodies), parents_(std::move(parents)) {}
 PoseDecoder::~PoseDecoder() = default;
 PoseDecoder::PoseDecoder(PoseDecoder&&) noexcept = default;
 PoseDecoder& PoseDecoder::operator=(PoseDecoder&&) noexcept = default;
@@ -212,7 +213,7 @@ bool PoseDecoder::take(std::string_view frame) {
   known_ = whole || (known_ && follows);
   if (!known_) return true;
   if (packed && !model_) {
-    model_ = std::make_unique<PoseModel>(poses_.size());
+    model_ = std::make_unique<PoseModel>(poses_.size(), parents_);
     model_->restart(poses_);
   }
   const std::string_view bytes = frame.substr(head_bytes);

@@ -133,6 +133,12 @@ bool is_scene_hash(std::string_view text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+std::vector<std::optional<std::size_t>> Recording::Scene::parents() const {
+  std::vector<std::optional<std::size_t>> all;
+  for (const Body& body : bodies) all.push_back(body.parent);
+  return all;
+}
+
 std::string scene_file(const std::string& recording, const std::string& hash) {
   return (std::filesystem::path(recording).parent_path() / (hash + ".glb")).string();
 }

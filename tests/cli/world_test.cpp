@@ -64,5 +64,45 @@ TEST_F(World, OfAnArmIsSimulatedWithTheSameBytesForTheSameSeed) {
   EXPECT_NE(content_of(folder_ / "first.tsr"), content_of(folder_ / "other.tsr")) << "the noise of the gyro";
 }
 
+/// Films need libEGL and a renderer, which a machine may lack.
+TEST_F(World, OfARunIsDrawnAsAFilm) {
+  ASSERT_EQ(tessera("simulate arm --for 1s").code, 0);
+  const std::string film = "replay arm/.tessera/last/recording.tsr --film ";
+  const project::Exit made = tessera(film + "run.png --size 64x48");
+  if (made.text.find("libEGL") != std::string::npos) GTEST_SKIP() << made.text;
+  EXPECT_EQ(made.code, 0) << made.text;
+  EXPECT_THAT(made.text, HasSubstr("run.png: 2"));
+  EXPECT_EQ(content_of(folder_ / "run.png").substr(0, 4), "\x89PNG");
+  EXPECT_EQ(tessera(film + "run.y4m --size 64x48 --speed 5 --camera eye").code, 0);
+  EXPECT_THAT(content_of(folder_ / "run.y4m"), ::testing::StartsWith("YUV4MPEG2 W64 H48 F25:1"));
+  const auto frame_bytes = 64 * 48 * 3 / 2 + 6;
+  EXPECT_EQ(content_of(folder_ / "run.y4m").size() / static_cast<std::size_t>(frame_bytes), 5U);
+  struct Case {
+    const char* options;
+    int code;
+    const char* says;
+  };
+  write(folder_ / "mine.y4m", "my own words");
+  for (const Case& wrong :
+       {Case{"run.avi", 2, "it ends in .mp4, .webm, .gif, .png or .y4m"},
+        Case{"run.png --size 64x47", 2, "two even numbers"}, Case{"run.png --speed 0", 2, "--speed"},
+        Case{"run.png --camera eie", 1, "did you mean 'eye'?"},
+        Case{"run.png --from 100", 1, "nothing of the recording"}, Case{"mine.y4m", 1, "is there already"},
+        Case{"/dev/full/run.png", 1, "cannot write"}}) {
+    const project::Exit refused = tessera(film + wrong.options);
+    EXPECT_EQ(refused.code, wrong.code) << wrong.options << refused.text;
+    EXPECT_THAT(refused.text, HasSubstr(wrong.says));
+  }
+  const project::Exit movie = tessera(film + "run.mp4 --size 64x48");
+  if (movie.code == 0)
+    EXPECT_THAT(content_of(folder_ / "run.mp4"), HasSubstr("ftyp"));
+  else
+    EXPECT_THAT(movie.text, HasSubstr("apt-get install ffmpeg"));
+  fs::remove(folder_ / "arm/.tessera/last/simulation.json");
+  EXPECT_THAT(tessera(film + "run.png").text, HasSubstr("--spec"));
+  EXPECT_EQ(tessera(film + "run.png --size 64x48 --spec arm").code, 0);
+  EXPECT_THAT(tessera(film + "run.png --check").text, HasSubstr("excludes"));
+}
+
 }  // namespace
 }  // namespace tessera::cli_test

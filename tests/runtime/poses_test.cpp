@@ -91,21 +91,31 @@ TEST_P(Poses, OfBodiesThatRestTakeNoFrameExceptTheWholeOneOfEachSecond) {
   return poses;
 }
 
+[[nodiscard]] PoseParents parents_of_rovers(std::size_t robots) {
+  PoseParents parents(3 * robots);
+  for (std::size_t index = 0; index < parents.size(); ++index)
+    if (index % 3 != 0) parents[index] = index / 3 * 3;
+  return parents;
+}
+
 /// The bar of a day of 50 robots: 1.5 GB are 17.4 kB a second.
 TEST(PackedPoses, OfFiftyRoversWithTurningWheelsTakeLessThanSeventeenKilobytesASecond) {
   constexpr std::size_t robots = 50;
   std::mt19937_64 random(3);
-  PoseEncoder encoder(3 * robots, Form::packed), plain(3 * robots);
-  PoseDecoder decoder(3 * robots), plain_decoder(3 * robots);
-  std::size_t bytes = 0, plain_bytes = 0;
+  const PoseParents parents = parents_of_rovers(robots);
+  PoseEncoder encoder(3 * robots, Form::packed, parents), alone(3 * robots, Form::packed), plain(3 * robots);
+  PoseDecoder decoder(3 * robots, parents);
+  std::size_t bytes = 0, alone_bytes = 0, plain_bytes = 0;
   for (int frame = 0; frame < 250; ++frame) {
     const std::vector<BodyPose> poses = rovers(robots, frame, random);
     const std::string packed(encoder.encode(frame * period_ns, poses));
     bytes += packed.size();
+    alone_bytes += alone.encode(frame * period_ns, poses).size();
     plain_bytes += plain.encode(frame * period_ns, poses).size();
     ASSERT_TRUE(decoder.take(packed));
   }
   EXPECT_LT(bytes / 10, 17'000u);
+  EXPECT_LT(bytes, alone_bytes) << "wheels go along with their robot";
   EXPECT_LT(2 * bytes, plain_bytes);
   RecordProperty("bytes_per_second", static_cast<int>(bytes / 10));
   RecordProperty("plain_bytes_per_second", static_cast<int>(plain_bytes / 10));
@@ -114,8 +124,12 @@ TEST(PackedPoses, OfFiftyRoversWithTurningWheelsTakeLessThanSeventeenKilobytesAS
 TEST(PackedPoses, HoldTheSameStepsAsPlainOnes) {
   constexpr std::size_t robots = 3;
   std::mt19937_64 random(5);
-  PoseEncoder packed(3 * robots, Form::packed), plain(3 * robots);
-  PoseDecoder from_packed(3 * robots), from_plain(3 * robots);
+  // A parent that comes later, or is far away, is none that helps.
+  PoseParents parents = parents_of_rovers(robots);
+  parents[0] = 5;
+  parents[7] = 1;
+  PoseEncoder packed(3 * robots, Form::packed, parents), plain(3 * robots);
+  PoseDecoder from_packed(3 * robots, parents), from_plain(3 * robots);
   for (int frame = 0; frame < 300; ++frame) {
     // Half of the time they stand still.
     const std::vector<BodyPose> poses = rovers(robots, frame / 40 % 2 == 0 ? frame : 40, random);
@@ -195,9 +209,10 @@ TEST_P(Poses, ThatAreNotFiniteLeaveTheBodyWhereItWas) {
 TEST_P(Poses, FromDamagedBytesAreRefusedOrWithinTheirLimits) {
   constexpr std::size_t bodies = 6;
   std::mt19937_64 random(7);
+  const PoseParents chain{std::nullopt, 0, 1, 2, 3, 4};
   for (int run = 0; run < 3000; ++run) {
-    PoseEncoder encoder(bodies, GetParam());
-    PoseDecoder decoder(bodies);
+    PoseEncoder encoder(bodies, GetParam(), chain);
+    PoseDecoder decoder(bodies, chain);
     for (int frame = 0; frame < 4; ++frame) {
       std::string bytes(encoder.encode(frame * period_ns, moved(bodies, frame)));
       if (frame > 0) bytes[random() % bytes.size()] = static_cast<char>(random());

@@ -56,7 +56,7 @@ TEST_F(InAWorld, MovesInLockStepWithTheSimulatedClock) {
 /// What a recording has of the first body, by time in ms.
 [[nodiscard]] std::map<std::int64_t, double> places_in(const Recording& recording) {
   std::map<std::int64_t, double> places;
-  PoseDecoder decoder(recording.scene->bodies.size());
+  PoseDecoder decoder(recording.scene->bodies.size(), recording.scene->parents());
   for (const Recording::Entry& entry : recording.entries) {
     if (entry.event.kind() != Event::Kind::poses) continue;
     EXPECT_TRUE(decoder.take(entry.text));

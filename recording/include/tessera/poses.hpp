@@ -24,7 +24,7 @@
 ///     uint16   its number, little-endian: one more than that of the frame before
 ///
 /// Forms 2 (differences) and 3 (whole) are *packed*, as recordings have them: both ends expect each body to go on
-/// as in the last two frames, and an arithmetic coder writes how far it is from that (pose_model.hpp beside the
+/// as in the last frames, or to go along with the body that it hangs on, and an arithmetic coder writes how far it is from that (pose_model.hpp beside the
 /// source). Forms 0 (differences) and 1 (whole) are *plain*, for the page of the studio, and in recordings of
 /// before; they list, per body in rising order of index,
 ///
@@ -56,6 +56,8 @@ struct RoundedPose {
 [[nodiscard]] BodyPose pose_of(const RoundedPose& rounded);
 
 class PoseModel;
+/// For each body the one that it hangs on, which has a lower index; nullopt, or fewer than there are bodies: none.
+using PoseParents = std::vector<std::optional<std::size_t>>;
 
 /// Makes the frames of one stream of poses. The same poses give the same bytes, on every machine.
 ///
@@ -63,7 +65,8 @@ class PoseModel;
 class PoseEncoder {
  public:
   enum class Form : std::uint8_t { plain, packed };
-  explicit PoseEncoder(std::size_t bodies, Form form = Form::plain);
+  /// parents: both ends of a stream of packed frames must have the same.
+  explicit PoseEncoder(std::size_t bodies, Form form = Form::plain, const PoseParents& parents = {});
   ~PoseEncoder();
   PoseEncoder(PoseEncoder&&) noexcept;
   PoseEncoder& operator=(PoseEncoder&&) noexcept;
@@ -93,7 +96,7 @@ class PoseEncoder {
 /// Threads: one at a time.
 class PoseDecoder {
  public:
-  explicit PoseDecoder(std::size_t bodies);
+  explicit PoseDecoder(std::size_t bodies, PoseParents parents = {});
   ~PoseDecoder();
   PoseDecoder(PoseDecoder&&) noexcept;
   PoseDecoder& operator=(PoseDecoder&&) noexcept;
@@ -108,6 +111,7 @@ class PoseDecoder {
  private:
   [[nodiscard]] bool apply(std::string_view bytes, bool whole);
   std::vector<RoundedPose> poses_;
+  PoseParents parents_;
   std::unique_ptr<PoseModel> model_;
   std::optional<std::uint16_t> number_;  // of the last frame
   bool known_ = false;

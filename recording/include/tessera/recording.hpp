@@ -149,8 +149,8 @@ struct Recording {
   /// The simulated world.
   struct Scene {
     struct Body {
-      std::string name;   ///< as in the scene
-      std::string agent;  ///< the agent that has it; empty: none
+      std::string name;                     ///< as in the scene
+      std::string agent;                    ///< the agent that has it; empty: none
       std::optional<std::size_t> parent{};  ///< the body that it hangs on; nullopt: none of these
     };
     /// A light sensor: the point at which it looks, in the frame of a body.
@@ -161,6 +161,8 @@ struct Recording {
     std::string hash;          ///< of the scene, which stands beside the recording as HASH.glb
     std::vector<Body> bodies;  ///< those whose poses are recorded
     std::vector<Eye> eyes;
+    /// The `parent` of each body, as the poses of a recording need them.
+    [[nodiscard]] std::vector<std::optional<std::size_t>> parents() const;
   };
   std::optional<Scene> scene;     ///< nullopt: recorded without poses
   std::vector<Buffer> buffers;    ///< empty: recorded without values

@@ -289,8 +289,7 @@ class Assembler {
     std::string problem;
     assembly_.scene_file = keep_scene(scene, assembly_.options.recording, problem);
     if (!problem.empty()) console::print(LogLevel::warning, clock_.now(), "tessera", problem);
-    assembly_.poses =
-        std::make_unique<PoseRecorder>(*assembly_.recorder->world_lane(), clock_, scene.bodies.size());
+    assembly_.poses = std::make_unique<PoseRecorder>(*assembly_.recorder->world_lane(), clock_, scene);
     assembly_.world->show_poses(*assembly_.poses);
   }
 

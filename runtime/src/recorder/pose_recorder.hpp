@@ -16,8 +16,7 @@ namespace tessera {
 /// Threads: the one that moves the world.
 class PoseRecorder final : public PoseSink {
  public:
-  PoseRecorder(RecordingLane& lane, const Clock& clock, std::size_t bodies)
-      : lane_(lane), clock_(clock), encoder_(bodies, PoseEncoder::Form::packed) {}
+  PoseRecorder(RecordingLane& lane, const Clock& clock, const WorldScene& scene);
   /// In real time, a frame has the time at which it is taken: the time of a slow world falls behind.
   void take(Time time, std::span<const BodyPose> poses) override;
 

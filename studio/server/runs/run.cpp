@@ -88,7 +88,9 @@ std::optional<project::ControlCommand> plain_command_of(const RunControl& wanted
 
 json read_summary(const std::filesystem::path& file) {
   std::ifstream stream(file);
-  return stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
+  json summary = stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
+  if (summary.is_object()) summary.erase("curves");  // for plots of a report
+  return summary;
 }
 
 /// The places that hold a token before anything fires.

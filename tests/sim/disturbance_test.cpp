@@ -17,7 +17,7 @@ namespace tessera::testing {
 namespace {
 
 /// A pile of boxes on a belt that wraps, an arm that knocks them about, and a camera.
-constexpr const char* pile = R"(<mujoco model="pile">
+constexpr const char* belt_and_arm = R"(<mujoco model="pile">
   <option timestep="0.002" cone="elliptic"/>
   <worldbody>
     <light pos="0 0 3"/>
@@ -90,8 +90,8 @@ class Watcher {
   std::unique_ptr<RealReceptor> gyro_, scan_, touch_, camera_;
 };
 
-Outcome run(std::uint64_t seed, bool watched, bool with_camera) {
-  WorldOptions options{.world = file_with("pile.xml", pile), .seed = seed};
+Outcome outcome_of(std::uint64_t seed, bool watched, bool with_camera) {
+  WorldOptions options{.world = file_with("belt_and_arm.xml", belt_and_arm), .seed = seed};
   if (watched) {
     options.trace = temporary("pile.csv");
     options.checks = watched_checks;
@@ -138,8 +138,8 @@ TEST(World, IsTheSameWhateverWatchesIt) {
   const bool with_camera = static_cast<bool>(sim::OffscreenContext::open("libEGL.so.1"));
   Outcome last;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const Outcome plain = run(seed, false, false);
-    ASSERT_EQ(plain, run(seed, true, with_camera)) << "seed " << seed;
+    const Outcome plain = outcome_of(seed, false, false);
+    ASSERT_EQ(plain, outcome_of(seed, true, with_camera)) << "seed " << seed;
     ASSERT_NE(plain, last);
     last = plain;
   }

@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// A pile of boxes on a belt that wraps, an arm that knocks them about, and a camera.
-constexpr const char* belt_and_arm = R"(<mujoco model="pile">
+/// Boxes in a pile on a belt that wraps, an arm that knocks them about, and a camera.
+constexpr const char* belt_and_arm = R"(<mujoco model="belt_and_arm">
   <option timestep="0.002" cone="elliptic"/>
   <worldbody>
     <light pos="0 0 3"/>
@@ -93,7 +93,7 @@ class Watcher {
 Outcome outcome_of(std::uint64_t seed, bool watched, bool with_camera) {
   WorldOptions options{.world = file_with("belt_and_arm.xml", belt_and_arm), .seed = seed};
   if (watched) {
-    options.trace = temporary("pile.csv");
+    options.trace = temporary("watched.csv");
     options.checks = watched_checks;
   }
   const auto world = open(options);

@@ -1,8 +1,8 @@
+#include "robot/control.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "robot/control.hpp"
 
 namespace scout::robot::control {
 namespace {

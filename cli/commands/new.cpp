@@ -43,6 +43,8 @@ struct Robot {
 constexpr std::array robots{
     Robot{"line_follower", "01_line_follower", "line_follower", "a robot that follows a line",
           "src/control.cpp"},
+    Robot{"rover", "08_rover", "scout", "a rover with a laser that drives about in a room",
+          "src/robot/control.cpp"},
     Robot{"arm", "04_arm", "cell", "an arm and three carts with drivers of their own", "src/arm/control.cpp"},
     Robot{"fleet", "05_crossing", "crossroads", "two rovers that share a crossing", "src/rover/control.cpp"},
 };
@@ -177,10 +179,10 @@ void add_new(CommandLine& app, int& exit_code) {
   for (const Robot& one : robots) names.emplace_back(one.name);
   command.option("name", *name, "Folder to make; its last part names the system").required();
   command
-      .option(
-          "--robot", *robot,
-          "What to begin with: a robot that follows a line, an arm with drivers, or two rovers that share "
-          "a crossing")
+      .option("--robot", *robot,
+              "What to begin with: a robot that follows a line, a rover with a laser, an arm with drivers, "
+              "or two "
+              "rovers that share a crossing")
       .one_of(names)
       .shows_default();
   command.footer(

@@ -47,8 +47,8 @@ TEST_F(World, IsListedWithDriversForIt) {
   for (const char* line : {"  gyro                     sensor          float64[3]\n",
                            "  yaw                      actuator        float64      -2.5 .. 2.5\n",
                            "  eye                      camera          uint8[9216]  width: 64, height: 48\n",
-                           "    robot.cameras.eye: { camera: eye, width: 64, height: 48 }  # uint8[9216]\n",
-                           "    robot.motors.yaw: { actuator: yaw }  # float64\n"})
+                           "    arm.cameras.eye: { camera: eye, width: 64, height: 48 }  # uint8[9216]\n",
+                           "    arm.motors.yaw: { actuator: yaw }  # float64\n"})
     EXPECT_THAT(listed.text, HasSubstr(line));
   EXPECT_EQ(json("world arm/arm.xml").at("actuators").size(), 4U);
 }

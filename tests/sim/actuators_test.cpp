@@ -87,5 +87,29 @@ TEST(Actuators, ColoursAreFromZeroToOne) {
   EXPECT_FALSE(write_as(*lamp, std::array{1.0F, 1.5F, 0.0F, 1.0F}));
 }
 
+TEST(Actuators, ABeltGoesBackByItsWrapAndCarriesOn) {
+  const auto world = open_text("belt", R"(<mujoco>
+    <worldbody>
+      <body name="belt" pos="0 0 0.1"><joint name="infeed" type="slide" axis="1 0 0" armature="50"/>
+        <geom type="box" size="1 0.2 0.05" mass="10"/></body>
+      <body name="box" pos="-0.5 0 0.2"><freejoint/><geom type="box" size="0.05 0.05 0.05" mass="0.1"/></body>
+    </worldbody>
+    <actuator><velocity name="belt" joint="infeed" kv="2000"/></actuator></mujoco>)");
+  std::string error;
+  const auto with_wrap = [&](double wrap) {
+    return world->effector(request_for<double>({"a.b.c", "actuator", {"belt"}, {{"wrap", wrap}}}), error);
+  };
+  EXPECT_EQ(with_wrap(0), nullptr);
+  EXPECT_NE(error.find("option 'wrap' must be more than 0"), std::string::npos) << error;
+  const auto belt = with_wrap(0.1);
+  const auto at = receptor<double>(*world, {"a.d.e", "joint_position", {"infeed"}, {}});
+  EXPECT_TRUE(write_as(*belt, 0.2));
+  world->advance_to(Time(1s));
+  const double before = pose_of(*world, "box")[0];
+  world->advance_to(Time(4s));
+  EXPECT_NEAR(pose_of(*world, "box")[0] - before, 0.6, 0.005);
+  EXPECT_LE(std::abs(read_as<double>(*at)), 0.1);
+}
+
 }  // namespace
 }  // namespace tessera::testing

@@ -41,7 +41,8 @@ TEST_F(Picture, OfABoxThatIsNotYetThereOrBesideTheBeltHasNothing) {
 }
 
 TEST(Eye, TellsEachBoxOnce) {
-  eye::control::Context context;
+  const eye::control::Parameters parameters;
+  eye::control::Context context(parameters);
   eye::control::Inputs in;
   eye::control::Memory memory;
   eye::control::Outputs out;

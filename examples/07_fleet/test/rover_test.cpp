@@ -13,6 +13,7 @@ class Rover : public ::testing::Test {
   /// The same distance all around, and now.
   void see(float distance) {
     in.scan.ranges.fill(distance);
+    in.scan.known = true;
     in.scan.valid = true;
     in.scan.age = {};
   }
@@ -66,6 +67,10 @@ TEST_F(Rover, StandsStillWithoutAScanOrWithAnOldOne) {
   EXPECT_EQ(out.motion.ahead, 0);
   see(3);
   in.scan.valid = false;
+  drive(context, in, memory, out);
+  EXPECT_EQ(out.motion.ahead, 0);
+  see(3);
+  in.scan.known = false;  // the laser is silent
   drive(context, in, memory, out);
   EXPECT_EQ(out.motion.ahead, 0);
 }

@@ -18,10 +18,11 @@ struct Angles {
 inline Angles angles_of(double out, double up) {
   const double height = up + hand - shoulder_up;
   const double distance = std::hypot(out, height);
-  const double bend = (distance * distance - upper_arm * upper_arm - fore_arm * fore_arm) / (2 * upper_arm * fore_arm);
+  const double bend =
+      (distance * distance - upper_arm * upper_arm - fore_arm * fore_arm) / (2 * upper_arm * fore_arm);
   const double elbow = std::acos(std::clamp(bend, -1.0, 1.0));
-  const double shoulder =
-      -std::atan2(height, out) - std::atan2(fore_arm * std::sin(elbow), upper_arm + fore_arm * std::cos(elbow));
+  const double shoulder = -std::atan2(height, out) -
+                          std::atan2(fore_arm * std::sin(elbow), upper_arm + fore_arm * std::cos(elbow));
   return {shoulder, elbow, std::numbers::pi / 2 - shoulder - elbow};
 }
 

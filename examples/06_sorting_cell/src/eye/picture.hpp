@@ -18,7 +18,7 @@ struct Sight {
 /// mean row.
 inline Sight middle_of_picture(std::span<const std::uint8_t> rgb) {
   constexpr double metres_per_pixel = 2 * 0.63 * 0.26795 / picture_height;  // 0.63 m above boxes, 30 deg
-  constexpr std::size_t least = 10;                      // pixels; a box has 14
+  constexpr std::size_t least = 10;                                         // pixels; a box has 14
   constexpr std::size_t far_edge = 12, near_edge = 36;  // of the belt; beyond it the arm carries boxes
   std::size_t red = 0, green = 0, rows = 0;
   for (std::size_t row = far_edge; row < near_edge; ++row)

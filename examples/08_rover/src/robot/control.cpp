@@ -9,7 +9,8 @@ namespace {
 
 /// What the scan says; nothing is free if there is no scan, or an old one.
 Room look(const Context& context, const Inputs& in) {
-  if (!in.scan.valid || in.scan.age > std::chrono::milliseconds(300)) return {};
+  const bool known = in.scan.valid && in.scan.known && in.scan.age < std::chrono::milliseconds(300);
+  if (!known) return {};
   return room_around(in.scan.ranges, context.parameters.gap);
 }
 

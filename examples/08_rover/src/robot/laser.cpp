@@ -2,9 +2,10 @@
 
 namespace scout::robot::laser {
 
-/// Behaviour look of robot.laser. Before the first scan nothing is known, and nothing is sent as free.
+/// Behaviour look of robot.laser: the last scan, and whether it is still true.
 void look(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  if (in.ranges.valid) out.scan.ranges = in.ranges;
+  out.scan.ranges = in.ranges;
+  out.scan.known = in.ranges.valid && in.ranges.age < std::chrono::milliseconds(150);
 }
 
 }  // namespace scout::robot::laser

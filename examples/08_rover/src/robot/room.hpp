@@ -10,12 +10,13 @@ namespace scout {
 
 /// What a scan tells a rover.
 struct Room {
-  double free_m = 0;    ///< how far it may drive ahead
-  double left_m = 0;    ///< mean distance on the left, in front of it
-  double right_m = 0;   ///< the same on the right
+  double free_m = 0;   ///< how far it may drive ahead
+  double left_m = 0;   ///< mean distance on the left, in front of it
+  double right_m = 0;  ///< the same on the right
 };
 
-/// ranges: all around in equal steps, from behind by the right. gap_m: what is to stay free, from hull to hull.
+/// ranges: all around in equal steps, from behind by the right.
+/// gap_m: what is to stay free, from hull to hull.
 ///
 /// A rover only drives ahead, so what is behind it does not count. What is beside it and near stops it, too:
 /// it may be another rover that comes closer.
@@ -24,7 +25,8 @@ inline Room room_around(std::span<const float> ranges, double gap_m) {
   Room room{10, 0, 0};
   int left = 0, right = 0;
   for (std::size_t ray = 0; ray < ranges.size(); ++ray) {
-    const double angle = (2.0 * static_cast<double>(ray) / static_cast<double>(ranges.size()) - 1) * std::numbers::pi;
+    const double angle =
+        (2.0 * static_cast<double>(ray) / static_cast<double>(ranges.size()) - 1) * std::numbers::pi;
     if (std::abs(angle) > 1.8) continue;
     const double distance = ranges[ray];
     const double ahead = distance * std::cos(angle), aside = std::abs(distance * std::sin(angle));

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace tessera::cli {
+
+/// An agent of the specification that names a world.
+struct WorldAgent {
+  std::string path;  ///< "arm", "robot[3]"
+  bool in_fleet = false;
+};
+
+/// A section `drivers` for what the world has, with a buffer for every sensor, camera, joint and actuator. A
+/// fleet whose robots have the same elements gets one line for each element: robot[*]. Things without an
+/// agent get none, since nobody can drive them. Empty: there is nothing to drive.
+///
+/// contents: as contents_of_world gives it. agents: none for a file that stands alone, whose agent is then
+/// called `robot`.
+[[nodiscard]] std::string drivers_section(const nlohmann::ordered_json& contents,
+                                          const std::vector<WorldAgent>& agents);
+
+}  // namespace tessera::cli

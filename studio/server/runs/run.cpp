@@ -220,6 +220,7 @@ void Run::execute(project::Controller controller) {
   options.world = request_.world;
   options.track = request_.track;
   options.seed = request_.seed;
+  if (request_.records_all) options.record_values = "all";
   options.base = controller.specification.project;
   options.folder = folder.path().string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate;
@@ -293,6 +294,7 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
   controllable_ = controllable_ || news.has_state;
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
   if (!news.values.is_null()) publish("values", std::move(news.values));
+  if (!news.arrays.is_null()) publish("arrays", std::move(news.arrays));
   if (!news.pose.is_null()) publish("pose", std::move(news.pose));
   if (!news.scene.is_null()) publish("scene", std::move(news.scene));
   if (!news.poses.is_null()) publish("poses", std::move(news.poses));

@@ -32,6 +32,7 @@ struct RunRequest {
   std::uint64_t seed = 1;
   double speed = 1;
   bool paused = false;
+  bool records_all = false;  ///< also values of more than 4 KiB, such as pictures
 };
 
 /// What is asked of a run that goes on; each command reads its own members.

@@ -55,7 +55,8 @@ constexpr const char* nameless = "?";
 class Sites {
  public:
   Sites(std::unique_ptr<World> world, const std::string& contents) : world_(std::move(world)) {
-    for (const nlohmann::json& site : nlohmann::json::parse(contents).at("sites"))
+    const nlohmann::json world_contents = nlohmann::json::parse(contents);
+    for (const nlohmann::json& site : world_contents.at("sites"))
       bodies_.emplace(site.at("name"),
                       site.contains("body") && site["body"] == "" ? nameless : site.value("body", ""));
   }

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "project/files/world_views.hpp"
 #include "project/verification/verdicts.hpp"
+#include "server/analysis/views.hpp"
 #include "server/http/answer.hpp"
 #include "server/http/guard.hpp"
 #include "server/runs/controller_link.hpp"
@@ -22,35 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-const char* name_of(project::WorldView::Kind kind) {
-  switch (kind) {
-    case project::WorldView::Kind::camera:
-      return "camera";
-    case project::WorldView::Kind::depth:
-      return "depth";
-    case project::WorldView::Kind::labels:
-      return "labels";
-    case project::WorldView::Kind::scan:
-      break;
-  }
-  return "scan";
-}
-
-json json_of(const project::WorldView& view) {
-  json told{{"path", view.path}, {"type", view.type}, {"kind", name_of(view.kind)}};
-  if (view.kind == project::WorldView::Kind::scan) {
-    told.update({{"body", view.body},
-                 {"position", view.position_m},
-                 {"quaternion", view.quaternion},
-                 {"from", view.from_rad},
-                 {"to", view.to_rad},
-                 {"reach", view.reach_m}});
-  } else {
-    told.update({{"width", view.width}, {"height", view.height}});
-  }
-  return told;
-}
 
 /// The worlds or tracks that a run may name: those of the installation, and those beside the specification.
 std::map<std::string, fs::path> assets_named(const fs::path& shipped, const fs::path& project,
@@ -351,9 +322,7 @@ void Api::get_views(Response& response) {
   const Result<std::vector<project::WorldView>> views =
       project::world_views(*analysis->model, parts_.file.folder());
   if (!views) return answer_error(response, 422, "the world cannot be asked: " + views.problem());
-  json told = json::array();
-  for (const project::WorldView& view : *views) told.push_back(json_of(view));
-  answer(response, text_of(json{{"views", std::move(told)}}));
+  answer(response, text_of(json_of(*views)));
 }
 
 void Api::get_poses(const Request& request, Response& response) {

@@ -91,14 +91,6 @@ json read_summary(const std::filesystem::path& file) {
   return stream ? json::parse(stream, nullptr, /*allow_exceptions=*/false) : json(nullptr);
 }
 
-/// The places that hold a token before anything fires.
-std::vector<std::uint32_t> initially_marked(const net::Net& net) {
-  std::vector<std::uint32_t> marked;
-  for (std::size_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].tokens > 0) marked.push_back(static_cast<std::uint32_t>(place));
-  return marked;
-}
-
 }  // namespace
 
 /// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
@@ -134,7 +126,7 @@ Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
       analysis_(std::move(analysis)),
       events_(events),
       reached_(*analysis_->net),
-      marking_(initially_marked(*analysis_->net)) {
+      marking_(MarkingTracker(*analysis_->net).marked()) {
   thread_ = std::thread([this] { make_and_run(); });
 }
 
@@ -384,14 +376,6 @@ json Run::info(bool all) const {
   info["subsystems"] = subsystems_;
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
-}
-
-json Run::coverage() const { return reached_.coverage(*analysis_->pages, *analysis_->net); }
-
-std::optional<std::string> Run::scene(const std::string& hash) const {
-  const std::lock_guard lock(mutex_);
-  if (glb_.empty() || scene_.is_null() || scene_.at("hash") != hash) return std::nullopt;
-  return glb_;
 }
 
 std::optional<Problem> Run::control(const RunControl& wanted) {

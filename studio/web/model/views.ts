@@ -1,4 +1,11 @@
-import type { WorldView } from "../live/protocol";
+/** A device of a simulated world whose values can be looked at. */
+export interface View {
+  kind: "scan" | "camera" | "depth" | "labels";
+  from?: number;
+  to?: number;
+  width?: number;
+  height?: number;
+}
 
 /** A scan as it is now: rays on a body. */
 export interface Rays {
@@ -28,7 +35,7 @@ export function numbersOf(type: string, bytes: Uint8Array): Float32Array | null 
 }
 
 /** As the device makes them: both ends included; a full circle has no two rays in one direction. */
-export function anglesOf({ from = -Math.PI, to = Math.PI }: WorldView, rays: number): Float32Array {
+export function anglesOf({ from = -Math.PI, to = Math.PI }: View, rays: number): Float32Array {
   if (rays === 1) return Float32Array.of((from + to) / 2);
   const isCircle = Math.abs(Math.abs(to - from) - 2 * Math.PI) < 1e-6;
   const step = (to - from) / (isCircle ? rays : rays - 1);
@@ -36,7 +43,7 @@ export function anglesOf({ from = -Math.PI, to = Math.PI }: WorldView, rays: num
 }
 
 /** Red, green, blue, opacity of each pixel; null: the numbers are not those of such a picture. */
-export function pixelsOf(view: WorldView, numbers: Float32Array): Uint8ClampedArray<ArrayBuffer> | null {
+export function pixelsOf(view: View, numbers: Float32Array): Uint8ClampedArray<ArrayBuffer> | null {
   const { kind, width = 0, height = 0 } = view;
   const pixels = width * height;
   if (pixels === 0 || numbers.length !== (kind === "camera" ? 3 : 1) * pixels) return null;

@@ -83,7 +83,10 @@ std::string contents_as_json(const mjModel& model) {
   });
   json["actuators"] =
       list(model, mjOBJ_ACTUATOR, [&](int id, Json& entry) { describe_actuator(model, id, entry); });
-  json["sites"] = list(model, mjOBJ_SITE, [&](int, Json& entry) {
+  json["sites"] = list(model, mjOBJ_SITE, [&](int id, Json& entry) {
+    // What is welded to a body moves as that body does.
+    if (const int body = model.body_weldid[model.site_bodyid[id]]; body != 0)
+      entry["body"] = name_of(model, mjOBJ_BODY, body);
     entry["kind"] = "scan";
     entry["type"] = "float32[N]";
   });

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "project/verification/verdicts.hpp"
+#include "server/analysis/views.hpp"
 #include "server/http/answer.hpp"
 #include "server/http/guard.hpp"
 #include "server/runs/controller_link.hpp"
@@ -78,6 +79,9 @@ void Api::serve_files(HttpServer& server) {
              [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
   server.Get("/api/recordings/([^/]+)",
              [this](const Request& request, Response& response) { get_recording(request, response); });
+  server.Get("/api/views", [this](const Request&, Response& response) { get_views(response); });
+  server.Get("/api/recordings/([^/]+)/arrays",
+             [this](const Request& request, Response& response) { get_arrays(request, response); });
   server.Get("/api/recordings/([^/]+)/coverage",
              [this](const Request& request, Response& response) { get_coverage(request, response); });
   server.Get("/api/recordings/([^/]+)/poses",
@@ -218,6 +222,7 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   wanted.seed = static_cast<std::uint64_t>(std::clamp(body.number("seed").value_or(1), 0.0, 9e15));
   wanted.speed = body.number("speed").value_or(1);
   wanted.paused = body.flag("paused");
+  wanted.records_all = body.text_or("values", "small") == "all";
   if (!body.good()) return std::nullopt;
   if (kind != "simulate" && kind != "run" && kind != "attach")
     return refuse("a run is of kind simulate, run or attach");
@@ -302,6 +307,23 @@ void Api::get_run_coverage(const Request& request, Response& response) {
   const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
   if (run == nullptr) return answer_error(response, 404, "there is no such run");
   answer(response, text_of(run->coverage()));
+}
+
+void Api::get_arrays(const Request& request, Response& response) {
+  const std::optional<Recordings::Span> span = span_of(request, response);
+  if (!span) return;
+  std::optional<std::string> arrays = parts_.recordings.arrays(request.matches[1], *span);
+  if (!arrays) return answer_error(response, 404, "there is no such recording");
+  answer(response, std::move(*arrays));
+}
+
+void Api::get_views(Response& response) {
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
+  if (!analysis->model) return answer_error(response, 422, "the specification has errors");
+  const Result<std::vector<project::WorldView>> views =
+      project::world_views(*analysis->model, parts_.file.folder());
+  if (!views) return answer_error(response, 422, "the world cannot be asked: " + views.problem());
+  answer(response, text_of(json_of(*views)));
 }
 
 void Api::get_poses(const Request& request, Response& response) {

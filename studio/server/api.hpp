@@ -45,6 +45,8 @@ class Api {
   void get_recording(const Request& request, Response& response);
   void get_coverage(const Request& request, Response& response);
   void get_run_coverage(const Request& request, Response& response);
+  void get_arrays(const Request& request, Response& response);
+  void get_views(Response& response);
   void get_poses(const Request& request, Response& response);
   void get_scene(const Request& request, Response& response);
   void get_track(const Request& request, Response& response);

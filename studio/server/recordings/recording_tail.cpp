@@ -70,6 +70,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     batch.firings.emplace_back(event.time_ns, transition.value);
   } else if (event.kind() == Event::Kind::value) {
     const auto change = segment_->values.follow(entry);
+    if (change && !change->event.has(ValueFlags::same)) arrays_.take(*change);
     if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
     segment_->has_changed[change->number] = true;
     segment_->changed.push_back(change->number);
@@ -104,6 +105,7 @@ RecordingTail::Batch RecordingTail::next() {
       values_ = take_changed_values();
       segment_.emplace(stream_.recording(), names_);
       poses_.begin(*stream_.recording());
+      arrays_.begin(*stream_.recording());
       if (reached_ != nullptr) reached_->begin(*stream_.recording());
     }
     if (!stream_.recording()) continue;

@@ -14,6 +14,7 @@
 #include "net/net.hpp"
 #include "replay/coverage.hpp"
 #include "replay/values.hpp"
+#include "server/recordings/arrays.hpp"
 #include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_stream.hpp"
@@ -80,6 +81,7 @@ class RecordingTail {
   [[nodiscard]] Batch next();
   /// The places with a token after everything that `next` has read.
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
+  [[nodiscard]] ArrayTrack& arrays() { return arrays_; }
   [[nodiscard]] PoseTrack& poses() { return poses_; }
   /// Whether the end of the recording is missing so far.
   [[nodiscard]] bool is_cut() const { return stream_.is_cut(); }
@@ -109,6 +111,7 @@ class RecordingTail {
   nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
   MarkingTracker tokens_;
   PoseTrack poses_;
+  ArrayTrack arrays_;
   Reached* reached_;
   std::vector<net::TransitionId> fired_;  // since reached_ was told
   std::vector<net::PlaceId> marked_;

@@ -40,6 +40,11 @@ class Recordings {
   /// std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> poses(const std::string& name, Span span) const;
   static constexpr std::size_t most_pose_bytes = 1'500'000;
+  /// {"arrays": [[t, {path: base64 or null}]...], "until"} of docs/studio.md: the arrays of numbers that devices
+  /// gave in the time span, those at its beginning first, at most about most_array_bytes and ten times a second.
+  /// nullopt: no recording has that name. Throws std::runtime_error if it cannot be read.
+  [[nodiscard]] std::optional<std::string> arrays(const std::string& name, Span span) const;
+  static constexpr std::size_t most_array_bytes = 4'000'000;
   /// What the recorded run has reached of the net of the specification: docs/studio.md. nullopt: no recording
   /// has that name. Throws std::runtime_error if it cannot be read, or is of another net.
   [[nodiscard]] std::optional<std::string> coverage(const std::string& name) const;

@@ -12,6 +12,8 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t most_values = std::size_t{64} << 10U;  // size of one event in bytes
+constexpr std::size_t most_arrays = std::size_t{1} << 20U;
+constexpr auto between_arrays = std::chrono::milliseconds(200);
 constexpr auto between_looks = std::chrono::milliseconds(30);
 constexpr auto between_values = std::chrono::milliseconds(50);
 constexpr auto between_poses = std::chrono::milliseconds(50);
@@ -38,6 +40,7 @@ RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, b
   const bool has_read_all = !news.more;
   if (snapshot_ && has_read_all) add_snapshot(*std::exchange(snapshot_, std::nullopt), news);
   add_values(news, news.rested || (last && has_read_all));
+  add_arrays(news, news.rested || (last && has_read_all));
   add_poses(news, news.rested || (last && has_read_all));
   return news;
 }
@@ -71,6 +74,14 @@ void RunFollower::add_values(News& news, bool at_once) {
   if (values.empty()) return;
   values_told_ = Clock::now();
   news.values = {{"t", time_ns_}, {"values", std::move(values)}};
+}
+
+void RunFollower::add_arrays(News& news, bool at_once) {
+  if (!at_once && Clock::now() - arrays_told_ < between_arrays) return;
+  json arrays = recording_.arrays().take_changed(most_arrays);
+  if (arrays.empty()) return;
+  arrays_told_ = Clock::now();
+  news.arrays = {{"t", time_ns_}, {"arrays", std::move(arrays)}};
 }
 
 void RunFollower::add_path(std::vector<PathPoint> path, News& news, bool at_once) {

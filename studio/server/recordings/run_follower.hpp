@@ -22,8 +22,9 @@ class RunFollower {
   RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached = nullptr);
 
   struct News {
-    nlohmann::json firings, values, pose, poses, subsystems;  ///< data of the events; null: nothing new
-    nlohmann::json scene;                                     ///< of the event; null: no new one
+    nlohmann::json firings, values, arrays, pose, poses,
+        subsystems;               ///< data of the events; null: nothing new
+    nlohmann::json scene;         ///< of the event; null: no new one
     nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a page that begins now
     std::vector<PathPoint> path;  ///< new points of the path
     std::optional<std::vector<std::uint32_t>> marking;
@@ -46,12 +47,13 @@ class RunFollower {
   [[nodiscard]] std::vector<PathPoint> add_firings(News& news);
   void add_path(std::vector<PathPoint> path, News& news, bool at_once);
   void add_values(News& news, bool at_once);
+  void add_arrays(News& news, bool at_once);
   void add_poses(News& news, bool at_once);
   void add_snapshot(const project::Snapshot& snapshot, News& news);
 
   RecordingTail recording_;
-  std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, pose_told_{}, poses_told_{},
-      subsystems_told_{};
+  std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, arrays_told_{}, pose_told_{},
+      poses_told_{}, subsystems_told_{};
   bool scene_told_ = false;
   std::optional<PathPoint> pose_waiting_;
   std::optional<project::Snapshot> snapshot_;

@@ -93,14 +93,6 @@ json read_summary(const std::filesystem::path& file) {
   return summary;
 }
 
-/// The places that hold a token before anything fires.
-std::vector<std::uint32_t> initially_marked(const net::Net& net) {
-  std::vector<std::uint32_t> marked;
-  for (std::size_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].tokens > 0) marked.push_back(static_cast<std::uint32_t>(place));
-  return marked;
-}
-
 }  // namespace
 
 /// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
@@ -136,7 +128,7 @@ Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
       analysis_(std::move(analysis)),
       events_(events),
       reached_(*analysis_->net),
-      marking_(initially_marked(*analysis_->net)) {
+      marking_(MarkingTracker(*analysis_->net).marked()) {
   thread_ = std::thread([this] { make_and_run(); });
 }
 
@@ -222,6 +214,7 @@ void Run::execute(project::Controller controller) {
   options.world = request_.world;
   options.track = request_.track;
   options.seed = request_.seed;
+  if (request_.records_all) options.record_values = "all";
   options.base = controller.specification.project;
   options.folder = folder.path().string();
   const bool simulated = request_.kind == RunRequest::Kind::simulate;
@@ -295,6 +288,7 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
   controllable_ = controllable_ || news.has_state;
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
   if (!news.values.is_null()) publish("values", std::move(news.values));
+  if (!news.arrays.is_null()) publish("arrays", std::move(news.arrays));
   if (!news.pose.is_null()) publish("pose", std::move(news.pose));
   if (!news.scene.is_null()) publish("scene", std::move(news.scene));
   if (!news.poses.is_null()) publish("poses", std::move(news.poses));
@@ -383,14 +377,6 @@ json Run::info(bool all) const {
   info["subsystems"] = subsystems_;
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
-}
-
-json Run::coverage() const { return reached_.coverage(*analysis_->pages, *analysis_->net); }
-
-std::optional<std::string> Run::scene(const std::string& hash) const {
-  const std::lock_guard lock(mutex_);
-  if (glb_.empty() || scene_.is_null() || scene_.at("hash") != hash) return std::nullopt;
-  return glb_;
 }
 
 std::optional<Problem> Run::control(const RunControl& wanted) {

@@ -32,6 +32,7 @@ struct RunRequest {
   std::uint64_t seed = 1;
   double speed = 1;
   bool paused = false;
+  bool records_all = false;  ///< also values of more than 4 KiB, such as pictures
 };
 
 /// What is asked of a run that goes on; each command reads its own members.
@@ -60,9 +61,15 @@ class Run {
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
   /// What it has reached of the net so far: docs/studio.md.
-  [[nodiscard]] nlohmann::json coverage() const;
+  [[nodiscard]] nlohmann::json coverage() const {
+    return reached_.coverage(*analysis_->pages, *analysis_->net);
+  }
   /// The scene with that hash, if it came through a tunnel.
-  [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
+  [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const {
+    const std::lock_guard lock(mutex_);
+    if (glb_.empty() || scene_.is_null() || scene_.at("hash") != hash) return std::nullopt;
+    return glb_;
+  }
   /// nullopt: done.
   [[nodiscard]] std::optional<Problem> control(const RunControl& wanted);
   void stop() { stop_ = true; }

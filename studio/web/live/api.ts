@@ -113,6 +113,11 @@ export class Api {
   /** As much of it as is sent at once; from a moment on. */
   recording = (name: string, from?: number) =>
     this.ask("GET /api/recordings/NAME", { of: name, query: from === undefined ? {} : { from: String(from) } });
+  /** The scans and pictures of a recording between two times. */
+  arrays = (name: string, from: number, to: number) =>
+    this.ask("GET /api/recordings/NAME/arrays", { of: name, query: { from: String(from), to: String(to) } });
+  /** Which devices of the simulated world give scans and pictures. */
+  views = () => this.ask("GET /api/views");
   /** What a recording has reached of the net of the specification; and a run, so far. */
   coverage = (name: string) => this.ask("GET /api/recordings/NAME/coverage", { of: name });
   runCoverage = (run: string) => this.ask("GET /api/runs/RUN/coverage", { of: run });

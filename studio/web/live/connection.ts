@@ -17,6 +17,7 @@ const listened: Record<keyof Events, true> = {
   run: true,
   firings: true,
   values: true,
+  arrays: true,
   pose: true,
   scene: true,
   poses: true,

@@ -18,6 +18,8 @@ export type FiringRow = [number, number];
 export type Sample = [number, unknown];
 /** Nanoseconds of the run's clock, and a frame (tessera/poses.hpp), base64. */
 export type PoseFrameRow = [number, string];
+/** Nanoseconds of the run's clock, and what has changed since the row before. */
+export type ArraysRow = [number, Arrays];
 export type VerifyEvent = VerifyStarted | VerifyProgress | VerifyEnd;
 
 /**
@@ -101,6 +103,17 @@ export interface Requests {
     status: 200;
     answer: RecordedPoses;
   };
+  "GET /api/recordings/NAME/arrays": {
+    query: {
+      /** Nanoseconds of the run's clock. */
+      from?: string;
+      /** Nanoseconds of the run's clock. */
+      to?: string;
+    };
+    status: 200;
+    answer: RecordedArrays;
+  };
+  "GET /api/views": { status: 200; answer: Views };
   "GET /api/scenes/HASH.glb": {
     status: 200;
     /** The scene of a simulated world: a glTF file. */
@@ -310,6 +323,8 @@ export interface StartRequest {
   /** Simulated seconds a second; 0: as fast as possible. */
   speed?: number;
   paused?: boolean;
+  /** What is recorded; all: also values of more than 4 KiB, such as pictures. */
+  values?: "small" | "all";
 }
 export interface AttachRequest {
   kind: "attach";
@@ -530,6 +545,40 @@ export interface RecordedPoses {
   /** All frames up to this time are there. */
   until: number;
 }
+export interface RecordedArrays {
+  arrays: ArraysRow[];
+  /** All rows up to this time are there. */
+  until: number;
+}
+/** By path of a real receptor's buffer: its numbers as in a recording, base64; null: not recorded, or too large. */
+export interface Arrays {
+  [k: string]: string | null;
+}
+export interface Views {
+  views: WorldView[];
+}
+/** A device of the simulated world whose values can be looked at. */
+export interface WorldView {
+  /** Of the real buffer. */
+  path: string;
+  /** Of the buffer: float64[32]. */
+  type: string;
+  kind: "scan" | "camera" | "depth" | "labels";
+  /** That carries a scan; empty: it does not move. */
+  body?: string;
+  /** On that body, in m. */
+  position?: number[];
+  /** w, x, y, z: x ahead, turned about z. */
+  quaternion?: number[];
+  /** The first ray, in rad. */
+  from?: number;
+  to?: number;
+  /** In m. */
+  reach?: number;
+  /** Of a picture. */
+  width?: number;
+  height?: number;
+}
 /** What the server tells, by the name of the event. */
 export interface Events {
   hello: Hello;
@@ -541,6 +590,7 @@ export interface Events {
   firings: FiringsEvent;
   subsystems: SubsystemsEvent;
   values: ValuesEvent;
+  arrays: ArraysEvent;
   pose: PoseEvent;
   scene: SceneEvent;
   poses: PosesEvent;
@@ -614,6 +664,13 @@ export interface ValuesEvent {
   /** Nanoseconds of the run's clock. */
   t: number;
   values: Values;
+}
+export interface ArraysEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  arrays: Arrays;
 }
 export interface PoseEvent {
   /** Names the run. */

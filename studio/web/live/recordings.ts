@@ -1,5 +1,6 @@
 import type { NetModel } from "../model/net";
 import type { Api } from "./api";
+import { RecordedArrays } from "./arrays";
 import { message, type Draft } from "./draft";
 import type { Recording, RecordingInfo } from "./protocol";
 import { Replay } from "./replay";
@@ -43,6 +44,7 @@ export class Recordings {
         });
       const replay = new Replay(name, net, recording, source, () => this.store.set({ open: [...this.store.get().open] }));
       if (recording.scene) replay.track.world = new RecordedWorld(recording.scene, (from, to) => this.api.poses(name, from, to));
+      replay.track.arrays = new RecordedArrays((from, to) => this.api.arrays(name, from, to));
       this.keep(keep);
       this.store.set({ open: [...this.store.get().open, replay], problem: "" });
       if (replay.track.path.length > 0) replay.track.floor = await this.api.floor(recording.track);

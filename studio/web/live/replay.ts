@@ -99,9 +99,9 @@ export class Replay {
       const from = Math.max(this.first, Math.floor(this.wanted! - before));
       const part = await this.source(from);
       if (!part) break;
-      const { floor, world } = this.track;
+      const { floor, world, arrays } = this.track;
       this.take(part, from);
-      Object.assign(this.track, { floor, world });
+      Object.assign(this.track, { floor, world, arrays });
       this.onPart();
     }
     const time = Math.min(this.end, Math.max(this.begin, this.wanted!));

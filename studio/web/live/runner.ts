@@ -1,3 +1,4 @@
+import { LiveArrays } from "./arrays";
 import { runningBehaviours } from "../model/game";
 import type { NetModel } from "../model/net";
 import { bounded } from "../model/sorted";
@@ -38,6 +39,8 @@ export interface Wishes {
   time: string;
   seed: string;
   speed: string;
+  /** Record values of more than 4 KiB, too. */
+  all: boolean;
 }
 
 export interface RunnerState {
@@ -82,7 +85,7 @@ const kept = 400;
 export class Runner {
   readonly store = new Store<RunnerState>(idle);
   readonly stage = new Stage();
-  readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1" });
+  readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1", all: false });
   track: Track | null = null;
   private asking = false;
   /** Questions whose answers have not arrived; events wait for them. */
@@ -109,6 +112,7 @@ export class Runner {
     on("firings", (event) => this.fired(event));
     on("values", (event) => this.valued(event));
     on("pose", (event) => this.posed(event));
+    on("arrays", (event) => this.track?.arrays instanceof LiveArrays && this.track.arrays.take(event));
     on("scene", (event) => this.sawScene(event));
     on("poses", (event) => this.sawPoses(event));
     on("subsystems", (event) => this.reported(event));

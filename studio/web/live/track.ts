@@ -4,6 +4,7 @@ import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/timeline";
 import type { Floor } from "./api";
 import type { PathRow } from "./protocol";
+import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
 export interface Pose {
@@ -36,6 +37,8 @@ export class Track {
   floor: Floor | null = null;
   /** The simulated world; null: there is none, or nothing is known of it yet. */
   world: World | null = null;
+  /** Scans and pictures. */
+  arrays: Arrays = new LiveArrays();
 
   /** whole: nothing is discarded, because the run has an end. */
   constructor(

@@ -71,7 +71,7 @@ export function StartForm() {
   const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const { wishes } = studio.runner;
-  const { kind, track, time, seed, speed } = useStore(wishes, (all) => all);
+  const { kind, track, time, seed, speed, all } = useStore(wishes, (all) => all);
   const tracks = worlds.flatMap((world) => world.tracks);
   if (kind === "attach") return <AttachForm />;
   const start = async (paused: boolean) => {
@@ -83,6 +83,7 @@ export function StartForm() {
       paused,
       ...(time ? { for: time } : {}),
       ...(track ? { track } : {}),
+      ...(all ? { values: "all" } : {}),
       ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
     };
     await studio.run(request);
@@ -105,6 +106,12 @@ export function StartForm() {
         )}
         {kind === "simulate" && <Field label="Seed" value={seed} onChange={(seed) => wishes.set({ seed })} wrong={wrongSeed} />}
       </div>
+      {hasWorld && (
+        <label className="check" title="Otherwise a recording holds values of up to 4 KiB. Pictures make it large.">
+          <input type="checkbox" checked={all} onChange={(event) => wishes.set({ all: event.target.checked })} />
+          Record pictures and other large values
+        </label>
+      )}
       <div className="buttons">
         <button className="primary" disabled={!current} onClick={() => void start(false)}>
           {dirty ? "Save and run" : "Run"}

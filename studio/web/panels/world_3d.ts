@@ -6,6 +6,7 @@ import {
   DirectionalLight,
   Group,
   InstancedMesh,
+  LineSegments,
   Material,
   Mesh,
   MeshLambertMaterial,
@@ -23,7 +24,9 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import type { Poses } from "../live/world";
 import { perBody } from "../model/pose_frames";
 import { Bodies3d, still } from "./bodies_3d";
+import type { Rays } from "../model/views";
 import { Pace } from "./pace";
+import { Rays3d } from "./rays_3d";
 
 /** Whether WebGL runs on the processor, where every pixel counts. Throws if there is none. */
 function isSoftware(): boolean {
@@ -55,6 +58,8 @@ export class World3d {
   /** Made with the first ghosts. */
   private ghosts: Bodies3d | null = null;
   private ghostPoses: Poses | null = null;
+  private readonly rays = new Rays3d();
+  private scans: readonly Rays[] = [];
   private changed = true;
   private frame = 0;
   private waiting: ReturnType<typeof setTimeout> | undefined;
@@ -71,6 +76,8 @@ export class World3d {
       poses: () => Poses | null;
       /** The same bodies in the run beside; null: there is none in this world. */
       ghosts: () => Poses | null;
+      /** Scans that are drawn as rays. */
+      scans: () => readonly Rays[];
       background: () => string;
       picked: (body: number) => void;
       lost: () => void;
@@ -105,7 +112,7 @@ export class World3d {
     this.drawn = Bodies3d.of(this.bodies);
     const fixed = still(this.root);
     this.root.clear();
-    this.root.add(...this.bodies, ...this.drawn.meshes, ...fixed);
+    this.root.add(...this.bodies, ...this.drawn.meshes, ...fixed, this.rays.lines);
     this.root.updateMatrixWorld(true);
     this.tick();
   }
@@ -118,7 +125,7 @@ export class World3d {
     this.canvas.removeEventListener("webglcontextlost", this.given.lost);
     this.controls.dispose();
     this.scene.traverse((node) => {
-      if (!(node instanceof Mesh)) return;
+      if (!(node instanceof Mesh || node instanceof LineSegments)) return;
       node.geometry.dispose();
       const material = node.material as MeshLambertMaterial;
       material.map?.dispose();
@@ -145,6 +152,11 @@ export class World3d {
       this.poses = poses;
       this.changed = true;
     }
+    const scans = this.given.scans();
+    if (scans !== this.scans) {
+      this.scans = scans;
+      this.changed = true;
+    }
     this.haunt(this.given.ghosts());
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const background = this.given.background();
@@ -158,13 +170,15 @@ export class World3d {
       this.scene.background = new Color(background);
       this.changed = true;
     }
-    if (this.changed && this.pace.isDue(performance.now())) this.draw();
+    const isSeen = width > 0 && height > 0;
+    if (isSeen && this.changed && this.pace.isDue(performance.now())) this.draw();
   };
 
   private draw(): void {
     this.changed = false;
     this.pace.begin(performance.now());
     this.show();
+    this.rays.show(this.scans, this.bodies);
     this.renderer.render(this.scene, this.camera);
     this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
     this.pace.ordered(performance.now());

@@ -1,12 +1,15 @@
 import { useEffect, useMemo, useRef, useState } from "react";
-import { useStudio } from "../hooks/use";
+import { useStore, useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import type { Track } from "../live/track";
+import { Scans, viewsOf } from "../live/views";
+import type { WorldView } from "../live/protocol";
 import type { World } from "../live/world";
 import { robotsOf, type Robot } from "../model/robots";
 import { colourOf, cut, drawFleet } from "./draw_fleet";
 import { drawWorld } from "./draw_world";
 import { Painted } from "./painted";
+import { Pictures } from "./pictures";
 import type { World3d } from "./world_3d";
 
 const kept = "tessera.world";
@@ -18,6 +21,10 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
   const [problem, setProblem] = useState("");
   const [followed, setFollowed] = useState(-1);
   const [large, setLarge] = useState(false);
+  const [rays, setRays] = useState(true);
+  const views = useViews(world);
+  const scans = useMemo(() => views.filter(({ kind }) => kind === "scan"), [views]);
+  const cameras = useMemo(() => views.filter(({ kind }) => kind !== "scan"), [views]);
   useEffect(() => {
     setProblem("");
     const timer = setInterval(() => world?.problem && setProblem(world.problem), 500);
@@ -37,6 +44,11 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
         <h2>World</h2>
         {(inSpace || fleet) && world && <Followed world={world} followed={followed} onFollow={setFollowed} />}
         <span className="spring" />
+        {inSpace && scans.length > 0 && (
+          <button className="small" aria-pressed={rays} title="Scans as rays" onClick={() => setRays(!rays)}>
+            Rays
+          </button>
+        )}
         {inSpace && (
           <button className="small" aria-pressed={large} onClick={() => setLarge(!large)}>
             Large
@@ -50,7 +62,17 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
         {!inSpace && <span className="faint">{problem || (track.path.length > 0 ? "from above" : "")}</span>}
       </div>
       {inSpace ? (
-        <Space track={track} beside={beside} world={world} followed={followed} onProblem={setProblem} />
+        <div className="seen">
+          <Space
+            track={track}
+            beside={beside}
+            world={world}
+            scans={rays ? scans : noViews}
+            followed={followed}
+            onProblem={setProblem}
+          />
+          <Pictures track={track} views={cameras} />
+        </div>
       ) : fleet ? (
         <>
           <Painted
@@ -94,6 +116,21 @@ function Legend({ robots }: { robots: readonly Robot[] }) {
   );
 }
 
+const noViews: readonly WorldView[] = [];
+
+/** The devices whose values can be looked at. */
+function useViews(world: World | null): readonly WorldView[] {
+  const studio = useStudio();
+  const revision = useStore(studio.draft.store, (draft) => draft.revision);
+  const [views, setViews] = useState(noViews);
+  useEffect(() => {
+    let closed = false;
+    if (world) void viewsOf(studio.api).then((found) => !closed && setViews(found));
+    return () => void (closed = true);
+  }, [world, revision]);
+  return views;
+}
+
 /** The world of a track, which may come later than the track. */
 function useWorld(track: Track): World | null {
   const [world, setWorld] = useState(track.world);
@@ -123,6 +160,7 @@ interface SpaceProps {
   /** Its run is shown as ghosts, if it is in the same world. */
   beside: Track | null;
   world: World;
+  scans: readonly WorldView[];
   followed: number;
   onProblem: (problem: string) => void;
 }
@@ -130,12 +168,13 @@ interface SpaceProps {
 const posesOf = ({ world, now }: Track) => world?.at(now) ?? null;
 
 /** A body that is clicked chooses its agent in the drawing. */
-function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
+function Space({ track, beside, world, scans, followed, onProblem }: SpaceProps) {
   const studio = useStudio();
   const canvas = useRef<HTMLCanvasElement>(null);
   const view = useRef<World3d | null>(null);
-  const shown = useRef({ track, beside });
-  shown.current = { track, beside };
+  const rays = useMemo(() => new Scans(scans, world.scene.bodies), [scans, world]);
+  const shown = useRef({ track, beside, rays });
+  shown.current = { track, beside, rays };
   const { hash } = world.scene;
   useEffect(() => {
     // React forgets the element before it closes the view, which may draw meanwhile.
@@ -148,6 +187,7 @@ function Space({ track, beside, world, followed, onProblem }: SpaceProps) {
         const made = new World3d(element, {
           poses: () => posesOf(shown.current.track),
           ghosts: () => (shown.current.beside?.world?.scene.hash === hash ? posesOf(shown.current.beside) : null),
+          scans: () => shown.current.rays.at(shown.current.track),
           background: () => getComputedStyle(element).getPropertyValue("--sunken").trim(),
           picked: (body) => {
             const agent = world.scene.bodies[body]?.[1];

@@ -81,6 +81,25 @@ test("a recorded world is seen in three dimensions at every time of the timeline
     await element(page, "robot").and(page.locator(".selected")).waitFor();
   }));
 
+test("what was never reached is shaded and counted as --coverage counts it", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    await withWorlds(page, server, [{ name: "one", robots: 1 }]);
+    await page.getByRole("button", { name: /^one\.tsr/ }).click();
+    const shaded = page.locator(".element.unreached");
+    await button(page, "Never reached").click();
+    const counts = page.getByRole("group", { name: "Coverage" }).locator("dd");
+    await counts.first().waitFor();
+    // Only the first transition of the net has fired.
+    const { missing, places } = await (await api(server, "/api/recordings/one.tsr/coverage")).json();
+    assert.equal(missing.behaviours.length, 4);
+    assert.ok(!missing.transitions.includes(0) && missing.transitions.includes(1));
+    assert.deepEqual((await counts.allInnerTexts()).slice(0, 2), ["4 of 4", `${places.all - places.reached} of ${places.all}`]);
+    await until(page, async () => (await shaded.count()) > 5, "the drawing is shaded");
+    await button(page, "Never reached").click();
+    await until(page, async () => (await shaded.count()) === 0, "the shade is gone");
+    assert.equal((await api(server, "/api/recordings/none.tsr/coverage")).status, 404);
+  }));
+
 test("the scene goes to those with the token only, and only by its hash", () =>
   onPage(example("01_line_follower"), async (page, server) => {
     await withWorlds(page, server, [{ name: "one", robots: 1 }]);

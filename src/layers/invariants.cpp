@@ -247,7 +247,7 @@ class Channels {
   void gather_fused(PlaceId place) {
     Gathered& channel = at(net_[place].channel);
     const std::vector<spec::SharedPlace>& shared = channel.model->shared;
-    while (channel.shared < shared.size() && !net_[place].name.ends_with("." + shared[channel.shared].name))
+    while (channel.shared < shared.size() && role_of(shared[channel.shared]) != net_[place].role)
       ++channel.shared;
     for (std::size_t index = 0; index < channel.invariants.size(); ++index)
       add_term(channel.invariants[index], place, (*channel.known)[index].shared[channel.shared]);

@@ -57,6 +57,29 @@ TEST_F(VerificationGate, AnAcceptedViolationIsWrittenIntoTheController) {
   EXPECT_NE(system.find(result.at("verification_hash").get<std::string>()), std::string::npos);
 }
 
+TEST_F(VerificationGate, ADeploymentIsJudgedByVerifyAndLeftOutOfControllersWithAWarning) {
+  constexpr const char* deployed =
+      "tessera: 1\nsystem: s\ntypes: { V: { v: float64 } }\nagents:\n"
+      "  a: { control: { rate: 10 Hz, outputs: { y: V }, behaviours: { go: {} } } }\n"
+      "  b: { control: { rate: 10 Hz, inputs: { x: V }, behaviours: { go: {} } } }\n"
+      "channels:\n"
+      "  - { from: a.control.y, to: b.control.x, receive: blocking }\n"
+      "deploy: { processes: { left: a, right: b } }\n";
+  write(folder_ / "p/spec.yaml", deployed);
+  const project::Exit judged = tessera("verify p");
+  EXPECT_EQ(judged.code, 0) << "survives_partition is a warning\n" << judged.text;
+  for (const char* part : {"goes_on: holds", "warning: survives_partition: violated",
+                           "and the network is cut", "receive_timeout on line 8"})
+    EXPECT_NE(judged.text.find(part), std::string::npos) << part << "\n" << judged.text;
+  const project::Exit made = tessera("generate p --stubs");
+  EXPECT_EQ(made.code, 0) << made.text;
+  EXPECT_NE(made.text.find("2 processes, which are not executed yet"), std::string::npos) << made.text;
+  const std::string system = content_of(folder_ / "p/.tessera/generated/system.cpp");
+  EXPECT_EQ(system.find("survives_partition"), std::string::npos)
+      << "the controller was judged in one process";
+  EXPECT_EQ(tessera("verify p --scenario out.json").code, 1);
+}
+
 TEST_F(VerificationGate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
   const fs::path project = example("01_line_follower");
   const auto kept = [&] {

@@ -80,6 +80,7 @@ bool Model::receiver_waits(const Channel& channel) const {
 }
 
 bool Model::crosses_processes(const Channel& channel) const {
+  if (!deployment) return false;
   const auto process = [&](const ChannelEnd& end) { return agents[instances[end.instance].agent].process; };
   return process(channel.from) != process(channel.to);
 }

@@ -19,9 +19,10 @@ std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.'
 
 /// The description of one firing.
 struct Deed {
-  std::string behaviour;  ///< in which it happens; empty: between behaviours
-  std::string text;       ///< empty: belongs to the deed before
-  std::string done;       ///< replaces text once a deed of the same block without text follows
+  std::string behaviour;          ///< in which it happens; empty: between behaviours
+  std::string text;               ///< empty: belongs to the deed before
+  std::string done;               ///< replaces text once a deed of the same block without text follows
+  std::string alone = "goes on";  ///< replaces an empty text if no deed before is told with it
   net::BlockId block{};
   std::string transition;   ///< as drawn
   bool then_waits = false;  ///< for an acknowledgement
@@ -110,6 +111,10 @@ class Teller {
         deed.done = "receives " + buffer;
       }
     }
+    const bool sends = std::ranges::any_of(net_.postset(id), [&](const Arc& arc) {
+      return net_[arc.place].role == net::PlaceRole::sent || net_[arc.place].role == net::PlaceRole::more;
+    });
+    if (sends) deed.alone = "sends " + buffer;
     if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
     if (net_[id].role == net::TransitionRole::skip) deed.text = "finds nothing new in " + buffer;
     deed.then_waits = touches_wait(net_, net_.postset(id));
@@ -139,7 +144,7 @@ class Sentence {
       if (!last.done.empty() && last.block == deed.block) last.text = last.done;
     } else {
       clauses_.push_back({deed.behaviour,
-                          deed.text.empty() ? "goes on" : deed.text,
+                          deed.text.empty() ? deed.alone : deed.text,
                           deed.done,
                           deed.block,
                           {deed.transition}});

@@ -43,9 +43,9 @@ constexpr const char* belt_and_arm = R"(<mujoco model="belt_and_arm">
 
 constexpr const char* watched_checks = R"json({
   "checks": [{"name": "a", "when": "never", "formula": "contact(box[*], floor)"},
-             {"name": "b", "when": "always", "formula": "distance(box[*], box[*]) > 1 cm"},
+             {"name": "b", "when": "always", "formula": "distance(box[*], box[*]) > 0.01"},
              {"name": "c", "when": "at_end", "formula": "all(inside(box[*], zone))"}],
-  "measures": {"pace": "speed(box[0])", "gyro": "sensor(gyro)"}})json";
+  "measures": {"pace": "speed(box[0])", "gyro": "sensor(gyro, 0)"}})json";
 
 class CountingSink final : public PoseSink {
  public:

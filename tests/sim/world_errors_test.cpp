@@ -52,7 +52,7 @@ TEST(WorldErrors, SaysWhatItHasWhenAskedForWhatItHasNot) {
                 "a.b.c: option 'noise' must be a number from 0 up"},
            Case{{"a.b.c", "velocity", {"wheel_left"}, {{"gain", 1}}},
                 false,
-                "a.b.c: 'velocity' has no option 'gain'; its options: outside"},
+                "a.b.c: 'velocity' has no option 'gain'; its options: outside, wrap"},
        }) {
     std::string error;
     const DriverRequest request = request_for<double>(c.request);

@@ -29,7 +29,7 @@ using server::PoseTrack;
 struct PosesOfAPage : ::testing::Test {
   Recording header;
   PoseEncoder recorder{2};
-  PosesOfAPage() { header.scene = {"0123456789abcdef", {{"rover", "robot"}, {"stone", ""}}}; }
+  PosesOfAPage() { header.scene = {"0123456789abcdef", {{"rover", "robot"}, {"stone", ""}}, {}}; }
 
   [[nodiscard]] static std::vector<BodyPose> poses(int frame) {
     std::vector<BodyPose> all(2);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "project/files/installation.hpp"
+#include "project/files/chosen_world.hpp"
 #include "project/files/simulation_file.hpp"
 #include "project/files/world_check.hpp"
 #include "tessera/world_state.hpp"
@@ -86,14 +86,11 @@ class Sites {
 };
 
 Result<Sites> open_sites(const spec::Simulation& simulation, const std::filesystem::path& project) {
-  const auto file = find_asset(simulation.world, project, "worlds");
-  if (!file) return Problem{"there is no world " + simulation.world};
-  WorldOptions options;
-  options.world = file->string();
-  options.models = placements_json(simulation, project);
-  Result<std::string> contents = contents_of_world(options);
+  std::optional<ChosenWorld> chosen = world_of(simulation, project);
+  if (!chosen) return Problem{"there is no world " + simulation.world};
+  Result<std::string> contents = contents_of_world(*chosen);
   if (!contents) return Problem{contents.problem()};
-  Result<std::unique_ptr<World>> world = open_world_to_ask(options);
+  Result<std::unique_ptr<World>> world = open_world_to_ask(std::move(*chosen));
   if (!world) return Problem{world.problem()};
   return Sites(std::move(*world), *contents);
 }

@@ -274,9 +274,15 @@ class Parser : private TextReader {
       return number;
     }
     at_ += static_cast<std::size_t>(end - left.data());
-    number.value *= unit_factor();
+    number.value = converted(number.value, unit_factor());
     number.place = since(from);
     return number;
+  }
+
+  /// 35 cm are 35 / 100 m, which people read as 0.35; 35 * 0.01 is 0.35000000000000003.
+  [[nodiscard]] static double converted(double number, double factor) {
+    const double parts = std::round(1 / factor);
+    return parts > 1 && parts * factor == 1 ? number / parts : number * factor;
   }
 
   /// m, rad, or m/s. A slash before anything but a letter divides.

@@ -18,7 +18,6 @@
 #include "sim/placed_world.hpp"
 #include "sim/rendering/renderer.hpp"
 #include "sim/scene/scene.hpp"
-#include "sim/track.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -71,12 +70,13 @@ void place(const Frame& body, const mjtNum* position, const mjtNum* rotation, mj
 class Painter final : public WorldPainter {
  public:
   Painter(std::unique_ptr<Physics> physics, std::vector<int> bodies, const PictureOptions& picture,
-          int camera)
+          int camera, TrackFile track)
       : physics_(std::move(physics)),
         data_(mj_makeData(&model())),
         bodies_(std::move(bodies)),
         size_{picture.width, picture.height},
-        view_(-1, {picture.width * finer, picture.height * finer}, PictureKind::colour) {
+        view_(-1, {picture.width * finer, picture.height * finer}, PictureKind::colour),
+        renderer_(std::move(track)) {
     if (data_ == nullptr) throw std::runtime_error("the engine cannot make the state of the world");
     const mjData& start = physics_->positions();
     std::copy_n(start.qpos, model().nq, data_->qpos);
@@ -222,7 +222,7 @@ Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
   if (picture.width < 1 || picture.height < 1 || picture.width * finer > longest_side ||
       picture.height * finer > longest_side)
     return Problem{fmt::format("a picture has at most {0} x {0} pixels", longest_side / finer)};
-  auto physics = physics_to_look_at(options);
+  auto physics = physics_of(options);
   if (!physics) return Problem{physics.problem()};
   const mjModel& model = (*physics)->model();
   std::vector<int> bodies = moving_bodies(model);
@@ -230,7 +230,8 @@ Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
   const Result<int> camera = camera_of(model, picture.camera);
   if (!camera) return Problem{camera.problem()};
   return std::unique_ptr<WorldPainter>(
-      std::make_unique<Painter>(std::move(*physics), std::move(bodies), picture, *camera));
+      std::make_unique<Painter>(std::move(*physics), std::move(bodies), picture, *camera,
+                                TrackFile{options.track, options.metres_per_pixel}));
 }
 
 }  // namespace tessera::sim

@@ -11,7 +11,6 @@
 #include "sim/compose/compose.hpp"
 #include "sim/compose/layout.hpp"
 #include "sim/engine/seeds.hpp"
-#include "sim/track.hpp"
 #include "sim/variation.hpp"
 
 namespace tessera::sim {
@@ -103,25 +102,6 @@ Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options, const C
   return physics;
 }
 
-/// Text of an attribute.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    result += c == '&' ? "&amp;" : c == '"' ? "&quot;" : c == '<' ? "&lt;" : std::string(1, c);
-  return result;
-}
-
-/// The picture of the track, a hair above the floor.
-std::string floor_elements(const std::string& image, const Track& track) {
-  const std::string half_x = std::to_string(track.width_m() / 2),
-                    half_y = std::to_string(track.height_m() / 2);
-  return "<asset><texture name=\"tessera floor\" type=\"2d\" file=\"" + escaped(image) +
-         "\"/><material name=\"tessera floor\" texture=\"tessera floor\" reflectance=\"0\" specular=\"0\" "
-         "rgba=\"1 1 1 1\"/></asset><worldbody><geom name=\"tessera floor\" type=\"plane\" group=\"0\" "
-         "contype=\"0\" conaffinity=\"0\" material=\"tessera floor\" size=\"" +
-         half_x + " " + half_y + " 1\" pos=\"" + half_x + " " + half_y + " 0.0004\"/></worldbody>";
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
@@ -130,18 +110,6 @@ Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options) {
   const Result<Composition> composition = composition_of(options, models);
   if (!composition) return Problem{composition.problem()};
   return physics_of(options, *composition, models);
-}
-
-Result<std::unique_ptr<Physics>> physics_to_look_at(const WorldOptions& options) {
-  if (options.track.empty()) return physics_of(options);
-  const Result<Track> track = Track::load(options.track, options.metres_per_pixel);
-  if (!track) return Problem{track.problem()};
-  const json models = options.models.empty() ? json::array() : json::parse(options.models);
-  Result<Composition> composition = composition_of(options, models);
-  const auto end = composition ? composition->mjcf.rfind("</mujoco>") : std::string::npos;
-  if (end == std::string::npos) return physics_of(options);  // without the floor
-  composition->mjcf.insert(end, floor_elements(options.track, *track));
-  return physics_of(options, *composition, json::array());
 }
 
 }  // namespace tessera::sim

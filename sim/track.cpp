@@ -6,12 +6,6 @@
 #include <cmath>
 
 namespace tessera::sim {
-namespace {
-
-constexpr std::uint64_t largest_picture_px = 100'000'000;
-
-}  // namespace
-
 Result<Track> Track::load(const std::string& png, double metres_per_pixel) {
   if (!std::isfinite(metres_per_pixel) || metres_per_pixel <= 0)
     return Problem{"metres per pixel must be a positive number"};

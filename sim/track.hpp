@@ -24,6 +24,8 @@ struct Point {
 /// A floor picture: dark is line. Outside it the floor is white.
 class Track {
  public:
+  static constexpr std::uint64_t largest_picture_px = 100'000'000;
+
   /// Any PNG that libpng reads; colours become grey, transparency white.
   [[nodiscard]] static Result<Track> load(const std::string& png, double metres_per_pixel);
 

@@ -91,8 +91,9 @@ Result<std::unique_ptr<World>> open(const WorldOptions& options) {
   }
   auto simulation = std::make_shared<Simulation>(std::move(*physics), std::move(floor), options.trace);
   if (auto problem = simulation->judge_by(options.checks)) return std::move(*problem);
+  auto renderer = std::make_shared<Renderer>(TrackFile{options.track, options.metres_per_pixel});
   return std::unique_ptr<World>(std::make_unique<MujocoWorld>(
-      DeviceContext{std::move(simulation), options.footprint_m, options.seed, std::make_shared<Renderer>()}));
+      DeviceContext{std::move(simulation), options.footprint_m, options.seed, std::move(renderer)}));
 }
 
 Result<std::string> list(const WorldOptions& options) {

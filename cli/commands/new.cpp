@@ -45,7 +45,7 @@ constexpr std::array robots{
           "src/control.cpp"},
     Robot{"rover", "08_rover", "scout", "a rover with a laser that drives about in a room",
           "src/robot/control.cpp"},
-    Robot{"arm", "04_arm", "cell", "an arm and three carts with drivers of their own", "src/arm/control.cpp"},
+    Robot{"arm", "09_arm", "arm_bench", "an arm that brings its hand over a wall", "src/arm/control.cpp"},
     Robot{"fleet", "05_crossing", "crossroads", "two rovers that share a crossing", "src/rover/control.cpp"},
 };
 
@@ -180,9 +180,8 @@ void add_new(CommandLine& app, int& exit_code) {
   command.option("name", *name, "Folder to make; its last part names the system").required();
   command
       .option("--robot", *robot,
-              "What to begin with: a robot that follows a line, a rover with a laser, an arm with drivers, "
-              "or two "
-              "rovers that share a crossing")
+              "What to begin with: a robot that follows a line, a rover with a laser, an arm over a wall, "
+              "or two rovers that share a crossing")
       .one_of(names)
       .shows_default();
   command.footer(

@@ -88,6 +88,10 @@ void CameraView::look(const mjModel& model, mjData& state, mjvCamera& camera) {
   }
 }
 
+void CameraView::add(const mjvGeom& thing) {
+  if (scene_.ngeom < scene_.maxgeom) scene_.geoms[scene_.ngeom++] = thing;  // a look leaves room for one
+}
+
 std::uint16_t CameraView::body_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
   const std::size_t number = number_of(red, green, blue);
   return number < bodies_.size() ? bodies_[number] : std::uint16_t{0};
@@ -122,24 +126,39 @@ void Renderer::prepare(const mjModel& model) {
   if (!context) throw std::runtime_error(context.problem());
   context_ = context->get();
   release();
+  make_resources(model);
+  if (!fits()) throw std::runtime_error("the renderer of this machine makes no pictures of this size");
+}
+
+void Renderer::make_resources(const mjModel& model) {
   catch_complaints();
   mjModel sized = model;  // its numbers; its arrays are those of the model
   sized.vis.global.offwidth = room_.width;
   sized.vis.global.offheight = room_.height;
   sized.vis.quality.offsamples = 0;  // depths and labels of two bodies cannot be mixed
   sized.vis.quality.shadowsize = std::min(sized.vis.quality.shadowsize, most_shadow_pixels);
+  std::optional<TexturesWithTrack> textures;
+  if (!track_file_.png.empty()) {
+    if (!track_) {
+      Result<TrackPicture> loaded = TrackPicture::load(track_file_);
+      if (!loaded) throw std::runtime_error(loaded.problem());
+      track_ = std::move(*loaded);
+    }
+    track_texture_ = model.ntex;
+    textures.emplace(model, *track_).lend_to(sized);
+  }
   auto made = std::make_unique<mjrContext>();
   const OffscreenContext::Current current(*context_);
   mjr_defaultContext(made.get());
   call_engine("the cameras cannot be rendered", [&] { mjr_makeContext(&sized, made.get(), mjFONTSCALE_50); });
   resources_ = std::move(made);
-  if (!fits()) throw std::runtime_error("the renderer of this machine makes no pictures of this size");
 }
 
 template <class Read>
 void Renderer::draw(CameraView& view, Read&& read) {
   const std::scoped_lock lock(mutex_);
   const OffscreenContext::Current current(*context_);
+  if (track_ && view.kind() == PictureKind::colour) view.add(track_->geom(track_texture_));
   const mjrRect all{0, 0, view.size().width, view.size().height};
   call_engine("a camera cannot be rendered", [&] {
     mjr_setBuffer(mjFB_OFFSCREEN, resources_.get());

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/engine/physics.hpp"
 #include "sim/rendering/offscreen.hpp"
+#include "sim/rendering/track_picture.hpp"
 
 namespace tessera::sim {
 
@@ -40,6 +43,8 @@ class CameraView {
   void look(const Physics& physics);
   /// From any camera. state: the engine only reads it.
   void look(const mjModel& model, mjData& state, mjvCamera& camera);
+  /// One thing more, until the view looks again.
+  void add(const mjvGeom& thing);
 
   [[nodiscard]] PictureSize size() const { return size_; }
   [[nodiscard]] PictureKind kind() const { return kind_; }
@@ -64,7 +69,8 @@ class CameraView {
 /// Threads: any.
 class Renderer {
  public:
-  Renderer() = default;
+  /// track: a track that pictures in colour show.
+  explicit Renderer(TrackFile track = {}) : track_file_(std::move(track)) {}
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
   ~Renderer();
@@ -72,10 +78,10 @@ class Renderer {
   /// Pictures of this size will be drawn.
   void make_room_for(PictureSize size);
   /// Hands meshes and textures over. Called before `draw`, while nobody changes the model. Throws
-  /// std::runtime_error if this machine cannot render.
+  /// std::runtime_error if this machine cannot render, or the picture of the track cannot be read.
   void prepare(const mjModel& model);
 
-  /// The view as it was when it last looked, rows from the top. Three numbers a pixel.
+  /// The view as it was when it last looked, rows from the top. Three numbers a pixel. Draws once a look.
   void draw_colours(CameraView& view, std::span<std::uint8_t> rgb);
   /// In metres along the direction of the camera. What is farther than the far clipping plane, or
   /// nothing at all, has the distance of that plane.
@@ -83,11 +89,15 @@ class Renderer {
 
  private:
   void release();
+  void make_resources(const mjModel& model);
   template <class Read>
   void draw(CameraView& view, Read&& read);
 
   std::mutex mutex_;
   PictureSize room_;
+  TrackFile track_file_;
+  std::optional<TrackPicture> track_;  // as soon as it is needed
+  int track_texture_ = -1;
   OffscreenContext* context_ = nullptr;
   std::unique_ptr<mjrContext> resources_;  // nullptr: not prepared
 };

@@ -29,7 +29,7 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
 TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   for (const auto& [robot, part] :
        {std::pair{"line_follower", "line_world.xml"}, std::pair{"rover", "src/robot/room.hpp"},
-        std::pair{"arm", "src/drivers.hpp"}, std::pair{"fleet", "rover.xml"}}) {
+        std::pair{"arm", "arm.xml"}, std::pair{"fleet", "rover.xml"}}) {
     const std::string name = std::string("my_") + robot;
     const project::Exit made = tessera("new " + name + " --robot " + robot);
     ASSERT_EQ(made.code, 0) << made.text;
@@ -42,6 +42,23 @@ TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   }
   EXPECT_EQ(tessera("new other --robot submarine").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(Project, AnArmKeepsOffTheWallUntilAMotionIsWrong) {
+  ASSERT_EQ(tessera("new my_arm --robot arm").code, 0);
+  const nlohmann::json run = json("simulate my_arm --for 20s");
+  ASSERT_EQ(run.at("checks").size(), 3U);
+  for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
+  const project::Exit tests = tessera("test my_arm");
+  EXPECT_EQ(tests.code, 0) << tests.text;
+  const fs::path source = folder_ / "my_arm/src/arm/control.cpp";
+  std::string text = content_of(source);
+  const std::string above = "above_wall{0, -0.6, 0.8}";
+  ASSERT_NE(text.find(above), std::string::npos);
+  write(source, text.replace(text.find(above), above.size(), "above_wall{0, -0.1, 0.8}"));
+  const project::Exit hit = tessera("simulate my_arm --for 20s");
+  EXPECT_EQ(hit.code, 1);
+  EXPECT_NE(hit.text.find("arm, wall touch"), std::string::npos) << hit.text;
 }
 
 TEST_F(Project, TwoRoversShareACrossing) {

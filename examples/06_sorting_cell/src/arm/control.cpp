@@ -1,5 +1,6 @@
 #include "arm/control.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "arm/geometry.hpp"
@@ -12,6 +13,7 @@ namespace {
 constexpr double belt_away = 0.3, top_of_box = 0.17, high = 0.26;
 constexpr double bins_away = 0.31, cell_of_bin = 0.075, drop_height = 0.078;
 constexpr double period_s = 0.02;
+constexpr double faster = 0.1;  // in each period; a jolt tears off a box that hangs a little to one side
 
 Tool above_belt(const Order& order, double up) { return {0, belt_away - order.across, up}; }
 
@@ -37,8 +39,10 @@ bool near(const Joints& a, const Joints& b) {
 /// there for `pause` iterations.
 void move(const Tool& goal, std::uint32_t pause, const Inputs& in, Memory& memory, Outputs& out) {
   Tool& at = memory.at;
-  at = {towards(goal.yaw, at.yaw, 2.5, period_s), towards(goal.out, at.out, 0.5, period_s),
-        towards(goal.up, at.up, 0.5, period_s)};
+  memory.pace = at == goal ? 0 : std::min(1.0, memory.pace + faster);
+  const double yaw_speed = 2.5 * memory.pace, speed = 0.5 * memory.pace;
+  at = {towards(goal.yaw, at.yaw, yaw_speed, period_s), towards(goal.out, at.out, speed, period_s),
+        towards(goal.up, at.up, speed, period_s)};
   out.goal = joints_for(at);
   const bool known = in.joints.valid && in.joints.age < std::chrono::milliseconds(200);
   const bool arrived = at == goal && known && near(in.joints, out.goal);
@@ -54,6 +58,7 @@ void wait(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   if (memory.at.up == 0) memory.at = {0, 0.25, high};
   out.goal = joints_for(memory.at);
   out.suction = 0;
+  memory.pace = 0;
   memory.tries = 0;
 }
 

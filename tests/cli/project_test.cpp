@@ -88,9 +88,9 @@ TEST_F(Project, ARoverDrivesAboutAndTakesParametersWithUnits) {
   const nlohmann::json run = json("simulate scout_2 --for 30s");
   ASSERT_EQ(run.at("checks").size(), 2U);
   for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
-  EXPECT_NEAR(run.at("measures").at("speed").at("most"), 0.4, 0.01);
+  EXPECT_NEAR(run.at("measures").at("speed").at("greatest"), 0.4, 0.01);
   const nlohmann::json slow = json("simulate scout_2 --for 10s --set speed='20 cm/s'");
-  EXPECT_NEAR(slow.at("measures").at("speed").at("most"), 0.2, 0.01);
+  EXPECT_NEAR(slow.at("measures").at("speed").at("greatest"), 0.2, 0.01);
   const project::Exit wrong = tessera("simulate scout_2 --for 10s --set speed='20 s'");
   EXPECT_EQ(wrong.code, 1);
   EXPECT_NE(wrong.text.find("the parameter is in m/s; write a number in m/s"), std::string::npos)

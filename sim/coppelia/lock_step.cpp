@@ -6,16 +6,36 @@
 #include <stdexcept>
 
 #include "sim/coppelia/link_error.hpp"
+#include "sim/coppelia/run_mark.hpp"
 
 namespace tessera::coppelia {
 
 LockStep::LockStep(const WorldServer& server) : simulator_(server) {
-  if (!simulator_.is_stopped())
-    throw LinkError("a simulation runs already in CoppeliaSim at " + server.host + ":" +
-                    std::to_string(server.port) + "; stop it there first");
+  if (!simulator_.is_stopped()) end_abandoned(server.host + ":" + std::to_string(server.port));
   if (!server.scene.empty()) simulator_.load(server.scene);
   is_loaded_ = !server.scene.empty();
   step_ = simulator_.time_step();
+}
+
+/// Stops the simulation if it was left by a run that was killed. Errors: LinkError if somebody may need it.
+void LockStep::end_abandoned(const std::string& place) {
+  std::optional<RunMark> mark;
+  try {
+    mark = mark_of(simulator_.mark());
+  } catch (const RefusedCall&) {  // nothing can be told from it
+  }
+  if (!mark)
+    throw LinkError("a simulation runs already in CoppeliaSim at " + place + "; stop it there first");
+  const Owner owner = owner_of(*mark);
+  if (owner != Owner::has_gone)
+    throw LinkError("another run of Tessera simulates in CoppeliaSim at " + place + ": process " +
+                    std::to_string(mark->process) +
+                    (owner == Owner::on_another_machine ? " on " + mark->host +
+                                                              ". If it was killed, begin "
+                                                              "the next run there"
+                                                        : "; end it first"));
+  simulator_.stop();
+  if (mark->has_loaded) simulator_.close_scene();
 }
 
 LockStep::~LockStep() { static_cast<void>(finish()); }
@@ -45,6 +65,10 @@ void LockStep::start() {
     start_s_ = simulator_.time_s();
   }
   if (start_s_ == 0) throw LinkError("the simulation does not begin in CoppeliaSim");
+  try {
+    simulator_.set_mark(text_of(mark_of_this_process(is_loaded_)));
+  } catch (const RefusedCall&) {  // whoever kills the run must stop the simulation, too
+  }
 }
 
 void LockStep::step() {

@@ -66,6 +66,10 @@ class Simulator {
   [[nodiscard]] double time_s();
   /// Waits until the simulation has stopped.
   void stop();
+  /// Leaves a text in the simulation, which goes when the simulation ends. It must have made a step.
+  void set_mark(const std::string& text);
+  /// Empty: the simulation has none.
+  [[nodiscard]] std::string mark();
 
   /// nullopt: the scene has no object at this path ("/robot/eye").
   [[nodiscard]] std::optional<Object> find(const std::string& path);

@@ -78,7 +78,9 @@ void LockStep::step() {
   const double expected_s = start_s_ + seconds(step_) * static_cast<double>(steps_);
   const double time_s = simulator_.time_s();
   if (std::abs(time_s - expected_s) < seconds(step_) / 2) return;
-  throw LinkError(time_s < expected_s
+  // A simulation that somebody stops still makes some steps, without waiting for its clients.
+  const bool is_ended = time_s < expected_s || !simulator_.goes_on();
+  throw LinkError(is_ended
                       ? "the simulation has been paused or stopped in CoppeliaSim"
                       : "the simulation has gone on by itself: CoppeliaSim was not asked for a minute, or "
                         "somebody else steps it, too");

@@ -116,6 +116,14 @@ bool Simulator::is_stopped() {
   return whole(call("sim.getSimulationState"), 0, "sim.getSimulationState") == constant("simulation_stopped");
 }
 
+bool Simulator::goes_on() {
+  const std::int64_t state = whole(call("sim.getSimulationState"), 0, "sim.getSimulationState");
+  for (const char* ending : {"simulation_stopped", "simulation_paused", "simulation_advancing_abouttostop",
+                             "simulation_advancing_lastbeforestop"})
+    if (state == constant(ending)) return false;
+  return true;
+}
+
 void Simulator::start_stepping() {
   static_cast<void>(call("sim.setStepping", true));
   static_cast<void>(call("sim.startSimulation"));

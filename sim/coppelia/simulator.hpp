@@ -61,6 +61,8 @@ class Simulator {
   void close_scene();
   [[nodiscard]] Duration time_step();
   [[nodiscard]] bool is_stopped();
+  /// It runs, and nobody has paused it or asked it to stop.
+  [[nodiscard]] bool goes_on();
   void start_stepping();
   void step();
   [[nodiscard]] double time_s();

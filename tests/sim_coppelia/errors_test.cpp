@@ -254,6 +254,13 @@ TEST_F(WhileItRuns, ASimulationThatGoesOnByItselfFailsTheRun) {
   EXPECT_FALSE(server.is_running()) << "it is stopped all the same";
 }
 
+TEST_F(WhileItRuns, ASimulationThatIsStoppedFailsTheRun) {
+  world->advance_to(Time(20ms));
+  server.begin_to_stop_by_hand();
+  world->advance_to(Time(40ms));
+  EXPECT_THAT(failure_of_run(), HasSubstr("paused or stopped"));
+}
+
 TEST_F(WhileItRuns, ASimulationThatIsPausedFailsTheRun) {
   world->advance_to(Time(20ms));
   server.pause();

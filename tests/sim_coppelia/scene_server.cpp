@@ -20,6 +20,9 @@ constexpr int advancing = 16, paused = 8;
 // The numbers are CoppeliaSim's. A client must take them from zmqRemoteApi.info, so some are others here.
 const json constants{{"intparam_program_version", 1007},
                      {"simulation_stopped", 0},
+                     {"simulation_paused", 8},
+                     {"simulation_advancing_abouttostop", 21},
+                     {"simulation_advancing_lastbeforestop", 22},
                      {"handle_scene", -11},
                      {"scripttype_mainscript", 7},
                      {"handle_all", -2},
@@ -223,7 +226,7 @@ json SceneServer::of_sensor(const std::string& function, const json& arguments) 
     if (time_s_ == 0 && !eye.is_explicit) return json::array({-1});
     json numbers = json::array();
     for (int index = 0; index < 15; ++index) numbers.push_back(index == 10 ? brightness(eye) : -1.0);
-    return json::array({0, numbers, json::array()});
+    return json::array({0, numbers, json::object()});
   }
   if (function == "sim.getVisionSensorRes") return json::array({row({4, 3})});
   if (function == "sim.getVisionSensorImg") {
@@ -243,7 +246,7 @@ json SceneServer::of_sensor(const std::string& function, const json& arguments) 
     return json::array({json::binary(bytes), row({4, 3})});
   }
   if (function == "sim.readProximitySensor") {
-    if (time_s_ == 0) return json::array({-1, 0.0, row({0, 0, 0}), -1, row({0, 0, 0})});
+    if (time_s_ == 0) return json::array({0, 0.0, row({0, 0, 0}), -1, row({0, 0, 0})});
     const bool near = time_s_ < 0.1;  // only then it sees something
     return json::array({near ? 1 : 0, near ? 0.25 : 0.0, row({0, 0, 0.25}), 10, row({0, 0, 1})});
   }
@@ -330,6 +333,11 @@ void SceneServer::run_by_hand(const std::map<std::string, std::string>& signals)
 std::map<std::string, std::string> SceneServer::signals() const {
   const std::scoped_lock lock(mutex_);
   return signals_;
+}
+void SceneServer::begin_to_stop_by_hand() {
+  const std::scoped_lock lock(mutex_);
+  state_ = constant("simulation_advancing_abouttostop");
+  for (int steps = 0; steps < 3; ++steps) step();
 }
 void SceneServer::pause() {
   const std::scoped_lock lock(mutex_);

@@ -55,6 +55,8 @@ class SceneServer {
   void step_by_itself();
   void pause();
   void stop_by_hand();
+  /// As CoppeliaSim does it: the simulation still makes some steps, without waiting for clients.
+  void begin_to_stop_by_hand();
   /// A simulation runs that left these signals.
   void run_by_hand(const std::map<std::string, std::string>& signals);
   [[nodiscard]] std::map<std::string, std::string> signals() const;

@@ -102,10 +102,12 @@ class DriversSection {
   /// to a thing that nobody drives.
   [[nodiscard]] std::pair<std::string, std::string> placed(const std::string& name) const {
     if (agents_.empty()) return {"robot", name};
-    const std::size_t slash = name.find('/');
+    const bool is_path = name.starts_with('/');  // of CoppeliaSim, whose things belong to nobody
+    const std::size_t begin = is_path ? 1 : 0, slash = name.find('/', begin);
     if (slash == std::string::npos) return {agents_.front().path, name};
-    const std::string instance = name.substr(0, slash);
+    const std::string instance = name.substr(begin, slash - begin);
     const bool is_agent = std::ranges::find(agents_, instance, &WorldAgent::path) != agents_.end();
+    if (is_path && !is_agent) return {agents_.front().path, name};
     return {is_agent ? instance : "", name.substr(slash + 1)};
   }
 

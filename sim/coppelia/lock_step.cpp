@@ -6,16 +6,36 @@
 #include <stdexcept>
 
 #include "sim/coppelia/link_error.hpp"
+#include "sim/coppelia/run_mark.hpp"
 
 namespace tessera::coppelia {
 
 LockStep::LockStep(const WorldServer& server) : simulator_(server) {
-  if (!simulator_.is_stopped())
-    throw LinkError("a simulation runs already in CoppeliaSim at " + server.host + ":" +
-                    std::to_string(server.port) + "; stop it there first");
+  if (!simulator_.is_stopped()) end_abandoned(server.host + ":" + std::to_string(server.port));
   if (!server.scene.empty()) simulator_.load(server.scene);
   is_loaded_ = !server.scene.empty();
   step_ = simulator_.time_step();
+}
+
+/// Stops the simulation if it was left by a run that was killed. Errors: LinkError if somebody may need it.
+void LockStep::end_abandoned(const std::string& place) {
+  std::optional<RunMark> mark;
+  try {
+    mark = mark_of(simulator_.mark());
+  } catch (const RefusedCall&) {  // nothing can be told from it
+  }
+  if (!mark)
+    throw LinkError("a simulation runs already in CoppeliaSim at " + place + "; stop it there first");
+  const Owner owner = owner_of(*mark);
+  if (owner != Owner::has_gone)
+    throw LinkError("another run of Tessera simulates in CoppeliaSim at " + place + ": process " +
+                    std::to_string(mark->process) +
+                    (owner == Owner::on_another_machine ? " on " + mark->host +
+                                                              ". If it was killed, begin "
+                                                              "the next run there"
+                                                        : "; end it first"));
+  simulator_.stop();
+  if (mark->has_loaded) simulator_.close_scene();
 }
 
 LockStep::~LockStep() { static_cast<void>(finish()); }
@@ -45,6 +65,10 @@ void LockStep::start() {
     start_s_ = simulator_.time_s();
   }
   if (start_s_ == 0) throw LinkError("the simulation does not begin in CoppeliaSim");
+  try {
+    simulator_.set_mark(text_of(mark_of_this_process(is_loaded_)));
+  } catch (const RefusedCall&) {  // whoever kills the run must stop the simulation, too
+  }
 }
 
 void LockStep::step() {
@@ -54,7 +78,9 @@ void LockStep::step() {
   const double expected_s = start_s_ + seconds(step_) * static_cast<double>(steps_);
   const double time_s = simulator_.time_s();
   if (std::abs(time_s - expected_s) < seconds(step_) / 2) return;
-  throw LinkError(time_s < expected_s
+  // A simulation that somebody stops still makes some steps, without waiting for its clients.
+  const bool is_ended = time_s < expected_s || !simulator_.goes_on();
+  throw LinkError(is_ended
                       ? "the simulation has been paused or stopped in CoppeliaSim"
                       : "the simulation has gone on by itself: CoppeliaSim was not asked for a minute, or "
                         "somebody else steps it, too");

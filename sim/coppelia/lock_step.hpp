@@ -26,7 +26,8 @@ namespace tessera::coppelia {
 /// Threads: all members lock.
 class LockStep {
  public:
-  /// Connects and loads the scene. Errors: LinkError; RefusedCall; also LinkError if a simulation runs already.
+  /// Connects and loads the scene. A simulation that a killed run has left is stopped before. Errors:
+  /// LinkError; RefusedCall; also LinkError if another simulation runs already.
   explicit LockStep(const WorldServer& server);
   LockStep(const LockStep&) = delete;
   LockStep& operator=(const LockStep&) = delete;
@@ -66,6 +67,7 @@ class LockStep {
     JointCommand how = JointCommand::none;
     double value = 0;
   };
+  void end_abandoned(const std::string& place);
   void start();
   void step();
   void send_commands();

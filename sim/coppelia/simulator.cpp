@@ -19,8 +19,9 @@ constexpr Duration least_patience_for_scene = std::chrono::seconds(60);
 constexpr std::size_t longest_scene_name = 900;
 constexpr auto pause_between_looks = std::chrono::milliseconds(5);
 constexpr std::size_t mean_intensity = 10;  ///< of the 15 numbers of a vision sensor
-constexpr int short_unique_path = 1;        ///< option of sim.getObjectAlias
-constexpr int depth_in_metres = 1;          ///< option of sim.getVisionSensorDepth
+constexpr const char* mark_name = "tessera.run";
+constexpr int short_unique_path = 1;  ///< option of sim.getObjectAlias
+constexpr int depth_in_metres = 1;    ///< option of sim.getVisionSensorDepth
 
 [[noreturn]] void unexpected(const std::string& function) {
   throw LinkError("CoppeliaSim is of an unknown version: " + function + " does not return what it should");
@@ -115,6 +116,14 @@ bool Simulator::is_stopped() {
   return whole(call("sim.getSimulationState"), 0, "sim.getSimulationState") == constant("simulation_stopped");
 }
 
+bool Simulator::goes_on() {
+  const std::int64_t state = whole(call("sim.getSimulationState"), 0, "sim.getSimulationState");
+  for (const char* ending : {"simulation_stopped", "simulation_paused", "simulation_advancing_abouttostop",
+                             "simulation_advancing_lastbeforestop"})
+    if (state == constant(ending)) return false;
+  return true;
+}
+
 void Simulator::start_stepping() {
   static_cast<void>(call("sim.setStepping", true));
   static_cast<void>(call("sim.startSimulation"));
@@ -132,6 +141,20 @@ void Simulator::stop() {
       throw LinkError("the simulation at " + name_ + " does not stop");
     std::this_thread::sleep_for(pause_between_looks);
   }
+}
+
+/// A signal of the main script goes with the main script, whoever stops the simulation.
+void Simulator::set_mark(const std::string& text) {
+  const std::int64_t script =
+      whole(call("sim.getScript", constant("scripttype_mainscript")), 0, "sim.getScript");
+  static_cast<void>(call("sim.callScriptFunction", "sim.setStringSignal", script, mark_name, text));
+}
+
+std::string Simulator::mark() {
+  const json values = call("sim.getStringSignal", mark_name);
+  if (values.empty()) return {};
+  if (values[0].is_binary()) return {values[0].get_binary().begin(), values[0].get_binary().end()};
+  return values[0].is_string() ? values[0].get<std::string>() : std::string();
 }
 
 Object::Type Simulator::type_of(std::int64_t type) const {

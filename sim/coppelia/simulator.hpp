@@ -61,11 +61,17 @@ class Simulator {
   void close_scene();
   [[nodiscard]] Duration time_step();
   [[nodiscard]] bool is_stopped();
+  /// It runs, and nobody has paused it or asked it to stop.
+  [[nodiscard]] bool goes_on();
   void start_stepping();
   void step();
   [[nodiscard]] double time_s();
   /// Waits until the simulation has stopped.
   void stop();
+  /// Leaves a text in the simulation, which goes when the simulation ends. It must have made a step.
+  void set_mark(const std::string& text);
+  /// Empty: the simulation has none.
+  [[nodiscard]] std::string mark();
 
   /// nullopt: the scene has no object at this path ("/robot/eye").
   [[nodiscard]] std::optional<Object> find(const std::string& path);

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -21,10 +24,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using SteadyClock = std::chrono::steady_clock;
 
-/// Why the world does not open.
+/// Why the world does not open. Empty: it opens.
 std::string problem_with(const WorldServer& server) {
   std::string error;
-  EXPECT_EQ(open_world({.server = server}, error), nullptr);
+  static_cast<void>(open_world({.server = server}, error));
   return error;
 }
 
@@ -96,6 +99,78 @@ TEST(CoppeliaErrors, ASimulationOfSomebodyElseIsLeftAlone) {
   EXPECT_THAT(problem_with(server.address()), HasSubstr("a simulation runs already"));
   EXPECT_TRUE(server.is_running());
   EXPECT_THAT(server.calls(), ::testing::Not(::testing::Contains("sim.stopSimulation")));
+}
+
+/// A run in a process of its own that is killed while it simulates.
+std::string mark_of_a_killed_run(SceneServer& server, const std::string& scene) {
+  const pid_t run = fork();
+  if (run == 0) {
+    WorldServer address = server.address();
+    address.scene = scene;
+    std::string error;
+    const auto world = open_world({.server = address}, error);
+    if (world != nullptr) world->advance_to(Time(20ms));
+    kill(getpid(), SIGKILL);
+  }
+  for (int tries = 0; tries < 500 && server.signals().empty(); ++tries) std::this_thread::sleep_for(10ms);
+  const auto signals = server.signals();
+  while (waitid(P_PID, static_cast<id_t>(run), nullptr, WEXITED | WNOWAIT) != 0) {
+  }
+  EXPECT_EQ(problem_with(server.address()), "") << "a process that has ended is gone before it is collected";
+  waitpid(run, nullptr, 0);
+  return signals.empty() ? std::string() : signals.at("tessera.run");
+}
+
+TEST(CoppeliaErrors, ASimulationThatAKilledRunHasLeftIsStopped) {
+  for (const char* scene : {"", "/tmp/hall.ttt"}) {
+    SceneServer server({});
+    const std::string mark = mark_of_a_killed_run(server, scene);
+    EXPECT_THAT(mark, HasSubstr("\"process\":"));
+    EXPECT_FALSE(server.is_running());
+    EXPECT_EQ(std::ranges::count(server.calls(), "sim.closeScene"), *scene == '\0' ? 0 : 1);
+
+    server.run_by_hand({{"tessera.run", mark}});
+    EXPECT_EQ(problem_with(server.address()), "") << "the next run does so, too";
+    EXPECT_FALSE(server.is_running());
+  }
+}
+
+TEST(CoppeliaErrors, ARunThatLivesOrMayLiveIsLeftAlone) {
+  SceneServer server({});
+  std::string error;
+  const auto world = open_world({.server = server.address()}, error);
+  ASSERT_NE(world, nullptr) << error;
+  world->advance_to(Time(20ms));
+  const auto signals = server.signals();
+  EXPECT_THAT(problem_with(server.address()), AllOf(HasSubstr("another run of Tessera"),
+                                                    HasSubstr("process " + std::to_string(getpid()) + ";")));
+  EXPECT_TRUE(server.is_running());
+  EXPECT_TRUE(world->finish(error)) << error;
+  EXPECT_TRUE(server.signals().empty());
+
+  std::string elsewhere = signals.at("tessera.run");
+  const std::size_t machine = elsewhere.find("\"machine\":\"");
+  ASSERT_NE(machine, std::string::npos);
+  elsewhere.insert(machine + 11, "not ");
+  for (const auto& [mark, message] : {std::pair{elsewhere, "If it was killed, begin the next run there"},
+                                      {std::string("nonsense"), "a simulation runs already"},
+                                      {std::string("[]"), "a simulation runs already"}}) {
+    server.run_by_hand({{"tessera.run", mark}});
+    EXPECT_THAT(problem_with(server.address()), HasSubstr(message));
+    EXPECT_TRUE(server.is_running());
+  }
+  server.stop_by_hand();
+  server.run_by_hand({});
+  EXPECT_THAT(problem_with(server.address()), HasSubstr("a simulation runs already"));
+}
+
+TEST(CoppeliaErrors, AServerThatTakesNoMarkIsUsedAllTheSame) {
+  SceneServer server({.no_marks = true});
+  std::string error;
+  const auto world = open_world({.server = server.address()}, error);
+  ASSERT_NE(world, nullptr) << error;
+  world->advance_to(Time(20ms));
+  EXPECT_TRUE(world->finish(error)) << error;
 }
 
 TEST(CoppeliaErrors, ASceneThatDoesNotLoadIsTold) {
@@ -177,6 +252,13 @@ TEST_F(WhileItRuns, ASimulationThatGoesOnByItselfFailsTheRun) {
   EXPECT_THAT(failure_of_reading(), HasSubstr("has gone on by itself"));
   EXPECT_THAT(failure_of_run(), HasSubstr("has gone on by itself"));
   EXPECT_FALSE(server.is_running()) << "it is stopped all the same";
+}
+
+TEST_F(WhileItRuns, ASimulationThatIsStoppedFailsTheRun) {
+  world->advance_to(Time(20ms));
+  server.begin_to_stop_by_hand();
+  world->advance_to(Time(40ms));
+  EXPECT_THAT(failure_of_run(), HasSubstr("paused or stopped"));
 }
 
 TEST_F(WhileItRuns, ASimulationThatIsPausedFailsTheRun) {

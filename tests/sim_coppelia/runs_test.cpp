@@ -59,7 +59,7 @@ TEST_F(InCoppelia, TheLineFollowerKeepsToItsLine) {
   const project::Exit listed = tessera("world 01_line_follower");
   EXPECT_EQ(listed.code, 0) << listed.text;
   EXPECT_THAT(listed.text, HasSubstr("CoppeliaSim at 127.0.0.1:"));
-  EXPECT_THAT(listed.text, HasSubstr("robot.motors.robot_wheel_left: { actuator: \"/robot/wheel_left\" }"));
+  EXPECT_THAT(listed.text, HasSubstr("robot.motors.wheel_left: { actuator: wheel_left }"));
 }
 
 TEST_F(InCoppelia, AMissingServerAndADyingOneAreToldInOneSentence) {

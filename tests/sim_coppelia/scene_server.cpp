@@ -14,13 +14,17 @@ namespace {
 using nlohmann::json;
 
 constexpr double wheel_radius_m = 0.03, wheel_distance_m = 0.16, eye_footprint_m = 0.008;
-constexpr int first_handle = 10;
+constexpr int first_handle = 10, main_script = 1000000;
 constexpr int advancing = 16, paused = 8;
 
 // The numbers are CoppeliaSim's. A client must take them from zmqRemoteApi.info, so some are others here.
 const json constants{{"intparam_program_version", 1007},
                      {"simulation_stopped", 0},
+                     {"simulation_paused", 8},
+                     {"simulation_advancing_abouttostop", 21},
+                     {"simulation_advancing_lastbeforestop", 22},
                      {"handle_scene", -11},
+                     {"scripttype_mainscript", 7},
                      {"handle_all", -2},
                      {"handle_world", -1},
                      {"sceneobject_shape", 100},
@@ -137,7 +141,26 @@ json SceneServer::of_simulation(const std::string& function, const json& argumen
     if (!is_stepping_) refuse(function, "the test wants lock-step");
     return state_ = advancing, json::array({1});
   }
-  if (function == "sim.stopSimulation") return state_ = 0, is_stepping_ = false, json::array();
+  if (function == "sim.stopSimulation") {
+    end();
+    return json::array();
+  }
+  if (function == "sim.getScript") {
+    if (arguments.at(0) != constant("scripttype_mainscript")) refuse(function, "script does not exist.");
+    return json::array({main_script});
+  }
+  if (function == "sim.callScriptFunction") {
+    if (settings_.no_marks || time_s_ == 0 || arguments.at(1) != main_script ||
+        arguments.at(0) != "sim.setStringSignal")
+      refuse(function, "failed calling script function.");
+    signals_[arguments.at(2).get<std::string>()] = arguments.at(3).get<std::string>();
+    return json::array({1});
+  }
+  if (function == "sim.getStringSignal") {
+    const auto found = signals_.find(arguments.at(0).get<std::string>());
+    if (found == signals_.end()) return json::array();
+    return json::array({json::binary({found->second.begin(), found->second.end()})});
+  }
   if (function == "sim.loadScene") {
     const std::string scene = arguments.at(0).get<std::string>();
     if (!scene.ends_with(".ttt@keepCurrent")) refuse(function, "file could not be read");
@@ -203,7 +226,7 @@ json SceneServer::of_sensor(const std::string& function, const json& arguments) 
     if (time_s_ == 0 && !eye.is_explicit) return json::array({-1});
     json numbers = json::array();
     for (int index = 0; index < 15; ++index) numbers.push_back(index == 10 ? brightness(eye) : -1.0);
-    return json::array({0, numbers, json::array()});
+    return json::array({0, numbers, json::object()});
   }
   if (function == "sim.getVisionSensorRes") return json::array({row({4, 3})});
   if (function == "sim.getVisionSensorImg") {
@@ -223,7 +246,7 @@ json SceneServer::of_sensor(const std::string& function, const json& arguments) 
     return json::array({json::binary(bytes), row({4, 3})});
   }
   if (function == "sim.readProximitySensor") {
-    if (time_s_ == 0) return json::array({-1, 0.0, row({0, 0, 0}), -1, row({0, 0, 0})});
+    if (time_s_ == 0) return json::array({0, 0.0, row({0, 0, 0}), -1, row({0, 0, 0})});
     const bool near = time_s_ < 0.1;  // only then it sees something
     return json::array({near ? 1 : 0, near ? 0.25 : 0.0, row({0, 0, 0.25}), 10, row({0, 0, 1})});
   }
@@ -289,6 +312,32 @@ double SceneServer::joint(const std::string& path) const {
 void SceneServer::step_by_itself() {
   const std::scoped_lock lock(mutex_);
   step();
+}
+/// The main script takes its signals with it.
+void SceneServer::end() {
+  state_ = 0;
+  time_s_ = 0;
+  is_stepping_ = false;
+  signals_.clear();
+}
+
+void SceneServer::stop_by_hand() {
+  const std::scoped_lock lock(mutex_);
+  end();
+}
+void SceneServer::run_by_hand(const std::map<std::string, std::string>& signals) {
+  const std::scoped_lock lock(mutex_);
+  state_ = advancing;
+  signals_ = signals;
+}
+std::map<std::string, std::string> SceneServer::signals() const {
+  const std::scoped_lock lock(mutex_);
+  return signals_;
+}
+void SceneServer::begin_to_stop_by_hand() {
+  const std::scoped_lock lock(mutex_);
+  state_ = constant("simulation_advancing_abouttostop");
+  for (int steps = 0; steps < 3; ++steps) step();
 }
 void SceneServer::pause() {
   const std::scoped_lock lock(mutex_);

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,7 @@ class SceneServer {
     bool runs_already = false;     ///< somebody else's simulation
     std::uint16_t port = 0;        ///< 0: a free one
     int waits_per_step = 3;        ///< how often a step asks the client to wait
+    bool no_marks = false;         ///< refuses to call functions of scripts
     std::set<std::string> silent;  ///< functions that never answer
     std::string late;              ///< a function that answers late the first time
     std::chrono::milliseconds lateness{0};
@@ -52,6 +54,12 @@ class SceneServer {
   /// The simulation makes a step that nobody asked for.
   void step_by_itself();
   void pause();
+  void stop_by_hand();
+  /// As CoppeliaSim does it: the simulation still makes some steps, without waiting for clients.
+  void begin_to_stop_by_hand();
+  /// A simulation runs that left these signals.
+  void run_by_hand(const std::map<std::string, std::string>& signals);
+  [[nodiscard]] std::map<std::string, std::string> signals() const;
 
  private:
   using json = nlohmann::json;
@@ -73,6 +81,7 @@ class SceneServer {
   [[nodiscard]] sim::Point eye_at(const Thing& eye) const;
   [[nodiscard]] double brightness(const Thing& eye) const;
   void step();
+  void end();
 
   Settings settings_;
   std::optional<sim::Track> floor_;
@@ -82,6 +91,7 @@ class SceneServer {
   int state_ = 0;
   bool is_stepping_ = false;
   int waits_left_ = 0;
+  std::map<std::string, std::string> signals_;
   sim::Trace trace_;
   std::vector<std::string> calls_;
   mutable std::mutex mutex_;

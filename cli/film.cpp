@@ -1,17 +1,12 @@
 #include "cli/film.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -26,7 +21,6 @@
 #include "project/files/simulation_file.hpp"
 #include "project/files/world_check.hpp"
 #include "project/launch.hpp"
-#include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/robots.hpp"
 #include "report/film.hpp"

@@ -152,7 +152,8 @@ TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {
     events.append(reinterpret_cast<const char*>(&head), sizeof head).append(frame);
     events.resize((events.size() + sizeof head - 1) / sizeof head * sizeof head);
   }
-  const json scene{{"hash", "0123456789abcdef"}, {"bodies", {{"rover", "robot"}, {"stone", ""}}}};
+  const json scene =
+      json::parse(R"({"hash": "0123456789abcdef", "bodies": [["rover", "robot"], ["stone", ""]]})");
   write(last / "recording.tsr", header(0, scene) + events);
   write(last / "summary.json", R"({"track": "/somewhere/tracks/oval.png"})");
   serve();

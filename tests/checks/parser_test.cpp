@@ -21,7 +21,7 @@ std::string read(std::string_view text) {
 TEST(ParserOfChecks, ReadsFormulas) {
   EXPECT_EQ(read("contact(robot[*], robot[*])"), "contact(robot[*], robot[*])");
   EXPECT_EQ(read("distance(robot[i],robot[i+1])>200 mm"), "distance(robot[i], robot[i+1]) > 0.2");
-  EXPECT_EQ(read("distance(robot[i],robot[i+1]) > 35 cm"), "distance(robot[i], robot[i+1]) > 0.35");
+  EXPECT_EQ(read("distance(robot[i],robot[i+1]) > 350 mm"), "distance(robot[i], robot[i+1]) > 0.35");
   EXPECT_EQ(read("all(inside(box[*], bin))"), "all(inside(box[*], bin))");
   EXPECT_EQ(read("not contact(arm/hand) and height(box[3]/lid) >= 1.5m"),
             "(not (contact(arm/hand)) and height(box[3]/lid) >= 1.5)");

@@ -45,7 +45,7 @@ std::string fleet_of(const std::string& agent) { return agent.substr(0, agent.fi
 /// One real buffer with its driver.
 struct Line {
   std::string kind, target, type, options;
-  friend auto operator<=>(const Line&, const Line&) = default;
+  bool operator==(const Line&) const = default;
 };
 
 /// A subsystem and the list of the world that its buffers come from.

@@ -316,7 +316,8 @@ TEST_F(WhileItRuns, WhatTheSceneDoesNotHaveIsNamedWithWhatItHas) {
 
 TEST(CoppeliaErrors, WhatNeedsNoServerIsJudgedWithoutOne) {
   std::string error;
-  const auto world = open_world({.server = WorldServer{"127.0.0.1", 1, "", std::chrono::seconds(10)}, .only_asked = true}, error);
+  const auto world = open_world(
+      {.server = WorldServer{"127.0.0.1", 1, "", std::chrono::seconds(10)}, .only_asked = true}, error);
   ASSERT_NE(world, nullptr) << error;
   const auto problem = [&](DriverRequest request, bool effector, std::string type) {
     request.type = std::move(type);

@@ -22,6 +22,31 @@ constexpr int protocol_version = 2;
 constexpr int forgotten_after_s = 60;
 constexpr auto pause_before_repeating = std::chrono::milliseconds(1);
 
+/// Reads a reply whose nesting is bounded: the library calls itself once for each level, on the stack.
+class BoundedReader : public nlohmann::detail::json_sax_dom_parser<json> {
+ public:
+  explicit BoundedReader(json& value) : json_sax_dom_parser(value, /*allow_exceptions_=*/false) {}
+  bool start_object(std::size_t size) {
+    return ++depth_ <= deepest && json_sax_dom_parser::start_object(size);
+  }
+  bool start_array(std::size_t size) { return ++depth_ <= deepest && json_sax_dom_parser::start_array(size); }
+  bool end_object() { return --depth_, json_sax_dom_parser::end_object(); }
+  bool end_array() { return --depth_, json_sax_dom_parser::end_array(); }
+
+ private:
+  static constexpr int deepest = 32;
+  int depth_ = 0;
+};
+
+/// Null: these bytes are no CBOR, or nested too deeply.
+template <class Bytes>
+json from_bounded_cbor(const Bytes& bytes) {
+  json value;
+  BoundedReader reader(value);
+  const bool good = json::sax_parse(bytes, &reader, json::input_format_t::cbor, /*strict=*/true);
+  return good ? value : json(nullptr);
+}
+
 /// A random UUID of version 4.
 std::string random_uuid() {
   std::random_device random;
@@ -71,8 +96,7 @@ json Client::exchange(json request, Duration patience) {
     request["lang"] = "cpp";
     request["timeout"] = forgotten_after_s;
   }
-  json reply = json::from_cbor(socket_.ask(json::to_cbor(request), patience), /*strict=*/true,
-                               /*allow_exceptions=*/false);
+  json reply = from_bounded_cbor(socket_.ask(json::to_cbor(request), patience));
   if (reply.is_object()) return reply;
   throw LinkError("what answers at " + name_ + " speaks another protocol: the reply is no map in CBOR");
 }

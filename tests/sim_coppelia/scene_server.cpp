@@ -53,7 +53,7 @@ json info() {
   json names = json::object();
   for (const auto& [name, value] : constants.items()) names[name] = {{"const", value}};
   names["step"] = {{"func", json::object()}};
-  return {names};
+  return json::array({names});
 }
 
 json row(std::initializer_list<double> numbers) { return json(numbers); }

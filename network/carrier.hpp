@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "network/messages.hpp"
+
+namespace tessera::network {
+
+/// A value of a channel on its way to another process.
+struct Value {
+  std::chrono::nanoseconds stamp{0};  ///< when it was written, by the clock of its sender
+  bool valid = false;                 ///< the transition function that made it had not failed
+  std::span<const std::byte> bytes;   ///< as recordings encode it (tessera/value_encoding.hpp)
+};
+
+/// Which process of the deployment, as the verified system numbers them.
+using ProcessNumber = std::uint32_t;
+/// Which channel of the system. All processes number them alike: they execute parts of one verified net.
+using ChannelNumber = std::uint32_t;
+
+/// Moves messages between the processes of one deployment. It may lose, repeat, delay and reorder them: the
+/// protocol bears that. It never alters one, and never delivers one of another deployment.
+///
+/// Threads: all members from one thread, except wake().
+class Carrier {
+ public:
+  /// Receives what has arrived. Spans are valid during the call only.
+  class Listener {
+   public:
+    virtual ~Listener() = default;
+    virtual void heard(ChannelNumber channel, const Data& data, const Value& value) = 0;
+    virtual void heard(ChannelNumber channel, const State& state) = 0;
+    /// A process of the deployment has been found, or is not heard of any more.
+    virtual void reachable(ProcessNumber process, bool is_there) = 0;
+    /// Something was dropped that a person should know of: another version, another net, bytes that make no sense.
+    virtual void complaint(std::string_view text) = 0;
+  };
+
+  virtual ~Carrier() = default;
+  /// value: ignored for a recall. Never waits: what cannot be sent now is lost.
+  virtual void send(ChannelNumber channel, const Data& data, const Value& value) = 0;
+  virtual void send(ChannelNumber channel, const State& state) = 0;
+  /// Hands over everything that has arrived. Waits for it until there is something, wake() was called, or `longest` is
+  /// over.
+  virtual void receive(Listener& listener, std::chrono::nanoseconds longest) = 0;
+  /// Ends a wait of receive(), or the next one. Threads: any.
+  virtual void wake() = 0;
+};
+
+}  // namespace tessera::network

@@ -25,29 +25,29 @@ namespace {
 /// Pictures are drawn larger and made smaller, so that edges are smooth.
 constexpr int finer = 2;
 
-struct Frame {
+struct RigidFrame {
   std::array<mjtNum, 3> position{};
   std::array<mjtNum, 4> rotation{1, 0, 0, 0};
 };
 
-[[nodiscard]] Frame frame_of(const mjData& data, int body) {
-  Frame frame;
+[[nodiscard]] RigidFrame frame_of(const mjData& data, int body) {
+  RigidFrame frame;
   std::copy_n(data.xpos + 3 * body, 3, frame.position.begin());
   std::copy_n(data.xquat + 4 * body, 4, frame.rotation.begin());
   return frame;
 }
 
 /// `inner` is given in `outer`.
-[[nodiscard]] Frame within(const Frame& outer, const Frame& inner) {
-  Frame all;
+[[nodiscard]] RigidFrame within(const RigidFrame& outer, const RigidFrame& inner) {
+  RigidFrame all;
   mju_rotVecQuat(all.position.data(), inner.position.data(), outer.rotation.data());
   mju_addTo3(all.position.data(), outer.position.data());
   mju_mulQuat(all.rotation.data(), outer.rotation.data(), inner.rotation.data());
   return all;
 }
 
-[[nodiscard]] Frame seen_from(const Frame& outer, const Frame& inner) {
-  Frame from;
+[[nodiscard]] RigidFrame seen_from(const RigidFrame& outer, const RigidFrame& inner) {
+  RigidFrame from;
   std::array<mjtNum, 3> way{};
   std::array<mjtNum, 4> back{};
   mju_negQuat(back.data(), outer.rotation.data());
@@ -58,11 +58,12 @@ struct Frame {
 }
 
 /// Where the engine's arrays have a thing that is fixed to a body.
-void place(const Frame& body, const mjtNum* position, const mjtNum* rotation, mjtNum* xpos, mjtNum* xmat) {
-  Frame own;
+void place(const RigidFrame& body, const mjtNum* position, const mjtNum* rotation, mjtNum* xpos,
+           mjtNum* xmat) {
+  RigidFrame own;
   std::copy_n(position, 3, own.position.begin());
   std::copy_n(rotation, 4, own.rotation.begin());
-  const Frame frame = within(body, own);
+  const RigidFrame frame = within(body, own);
   std::ranges::copy(frame.position, xpos);
   mju_quat2Mat(xmat, frame.rotation.data());
 }
@@ -142,10 +143,10 @@ class Painter final : public WorldPainter {
     mjData& data = *data_;
     for (int body = 0; body < model().nbody; ++body) {
       const Hung& hung = hung_[static_cast<std::size_t>(body)];
-      Frame frame = hung.there;
+      RigidFrame frame = hung.there;
       if (hung.recorded) {
         const BodyPose& pose = poses[*hung.recorded];
-        Frame of_pose;
+        RigidFrame of_pose;
         std::ranges::copy(pose.position_m, of_pose.position.begin());
         std::ranges::copy(pose.rotation, of_pose.rotation.begin());
         frame = within(of_pose, hung.there);
@@ -181,7 +182,7 @@ class Painter final : public WorldPainter {
   /// Where a body is, relative to one whose pose is recorded; otherwise in the world.
   struct Hung {
     std::optional<std::size_t> recorded;
-    Frame there;
+    RigidFrame there;
   };
   std::unique_ptr<Physics> physics_;
   DataPtr data_;

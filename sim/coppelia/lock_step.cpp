@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <stdexcept>
 
@@ -36,6 +37,11 @@ void LockStep::end_abandoned(const std::string& place) {
                                                         : "; end it first"));
   simulator_.stop();
   if (mark->has_loaded) simulator_.close_scene();
+  std::fprintf(
+      stderr,
+      "tessera: note: a run that was killed (process %lld) had left a simulation in CoppeliaSim at %s; "
+      "it has been stopped\n",
+      static_cast<long long>(mark->process), place.c_str());
 }
 
 LockStep::~LockStep() { static_cast<void>(finish()); }

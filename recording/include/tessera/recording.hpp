@@ -52,6 +52,8 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
+///      "process": {"name", "number", "incarnation": decimal string}, "processes": [name...],
+///      "networked": [channel...],
 ///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]},
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
@@ -78,6 +80,10 @@ struct Event {
     /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene", in
     /// files that begin with recording_magic_with_poses. Not counted in `sequence`.
     poses = 11,
+    /// Like log: "CHANNEL\nINCARNATION": from here on the subsystem hears, at the other end of a channel between
+    /// processes, that incarnation of the process there. Written by the one that receives before its first
+    /// firing that reads a value of it, and by the one that sends before its first acknowledgement by it.
+    peer = 12,
     /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
@@ -167,6 +173,16 @@ struct Recording {
   std::optional<Scene> scene;     ///< nullopt: recorded without poses
   std::vector<Buffer> buffers;    ///< empty: recorded without values
   std::uint64_t value_limit = 0;  ///< larger values are hashed
+  /// Of a run of one process of a deployed system. Its `incarnation` is greater than those of all its starts
+  /// before.
+  struct Process {
+    std::string name;
+    std::uint32_t number;  ///< into processes
+    std::uint64_t incarnation;
+  };
+  std::optional<Process> process;
+  std::vector<std::string> processes;  ///< of the deployed system; empty: the system is not deployed
+  std::vector<std::string> networked;  ///< its channels between processes
   /// In a recording with a limit: the number of this segment, from 0. If several were
   /// read together: of the first.
   std::optional<std::uint64_t> segment;

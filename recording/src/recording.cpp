@@ -49,8 +49,8 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("networked")) header.at("networked").get_to(recording.networked);
   if (!header.contains("process")) return true;
   const nlohmann::json& process = header.at("process");
-  Recording::Process& read =
-      recording.process.emplace(Recording::Process{.name = {}, .number = 0, .incarnation = 0});
+  Recording::OneProcess& read =
+      recording.process.emplace(Recording::OneProcess{.name = {}, .number = 0, .incarnation = 0});
   process.at("name").get_to(read.name);
   process.at("number").get_to(read.number);
   const auto text = process.at("incarnation").get<std::string>();

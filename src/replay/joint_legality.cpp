@@ -402,7 +402,7 @@ Legality check_joint(std::span<const Recording> recordings, const net::Net& net,
                      const ProcessMap& processes) {
   JointOrder order(recordings, net, processes);
   auto [verdict, why] = order.judge();
-  return {.verdict = verdict, .why = std::move(why), .firings = order.firings()};
+  return {.verdict = verdict, .why = std::move(why), .firings = order.firings(), .marking = {}};
 }
 
 }  // namespace tessera::replay

@@ -39,13 +39,16 @@ JointPlay::JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one
 void JointPlay::link_up(ChannelId id, bool one_run) {
   const DeployedNet::Channel& channel = net_[id];
   Link& link = links_[id.value];
-  if (channel.sending == none || channel.receiving == none) return;
-  const std::vector<std::uint32_t>&senders = of_process_[channel.sending],
-        &receivers = of_process_[channel.receiving];
+  // A side that no behaviour uses has no process.
+  const auto starts = [&](std::uint32_t process) {
+    return process == none ? std::vector<std::uint32_t>() : of_process_[process];
+  };
+  const std::vector<std::uint32_t> senders = starts(channel.sending), receivers = starts(channel.receiving);
   link.sending.resize(senders.size());
   link.receiving.resize(receivers.size());
-  link.tracked = senders.size() == 1 && receivers.size() == 1;
-  if (one_run) {
+  link.tracked = (channel.sending == none || senders.size() == 1) &&
+                 (channel.receiving == none || receivers.size() == 1);
+  if (one_run && !senders.empty() && !receivers.empty()) {
     link.sending.front().peer = receivers.front();
     link.receiving.front().peer = senders.front();
   }
@@ -363,7 +366,9 @@ std::string JointPlay::hear(ChannelId channel, std::uint32_t start, std::uint64_
   if (!ends.networked || (process != ends.sending && process != ends.receiving))
     return fmt::format("'{}' does not join this process with another", name);
   const bool sends = process == ends.sending;
-  const std::uint32_t peer = find_start(sends ? ends.receiving : ends.sending, incarnation);
+  const std::uint32_t other = sends ? ends.receiving : ends.sending;
+  if (other == none) return fmt::format("nobody is at the other end of '{}'", name);
+  const std::uint32_t peer = find_start(other, incarnation);
   const bool forwards =
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);
   if (!forwards) return fmt::format("at '{}' it turns back to an earlier start of the other process", name);

@@ -63,7 +63,7 @@ std::optional<std::string> cannot_be_joined(std::span<const Recording> recording
     if (recording.processes != processes.names)
       return "the recording is of other processes than those that the specification deploys";
     if (!recording.process) continue;
-    const Recording::Process& own = *recording.process;
+    const Recording::OneProcess& own = *recording.process;
     if (own.number >= processes.names.size() || processes.names[own.number] != own.name)
       return fmt::format("the specification deploys no process '{}' with number {}", own.name, own.number);
     if (++seen[{own.number, own.incarnation}] > 1)

@@ -151,9 +151,9 @@ JointPlay::Obstacle JointPlay::acknowledgement_obstacle(const Firing& firing) co
     return {.kind = Kind::never, .reason = Reason::number, .due = side.written};
   if (side.peer == none) return {.kind = Kind::never, .reason = Reason::no_peer};
   if (side.peer == unknown) return {};
-  if (is_read_later(channel, firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
-  const Receiving& reader = receiving(channel, side.peer);
-  if (reader.peer == firing.start && reader.ended == firing.version) return {};
+  if (is_read_later(firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
+  const auto read = std::ranges::find(side.reads, side.peer, &Read::start);
+  if (read != side.reads.end() && read->ended == firing.version) return {};
   if (assumed_[side.peer]) return {};
   return {.kind = Kind::waits, .reason = Reason::untaken, .awaited = side.peer};
 }
@@ -192,10 +192,9 @@ bool JointPlay::was_left_behind(ChannelId channel, const Firing& firing, const R
 }
 
 /// A later start of the reader has read the value that an earlier one acknowledges.
-bool JointPlay::is_read_later(ChannelId channel, const Firing& firing, const Sending& side) const {
-  const std::vector<Receiving>& all = links_[channel.value].receiving;
-  return std::any_of(all.begin() + ordinals_[side.peer] + 1, all.end(), [&](const Receiving& later) {
-    return later.peer == firing.start && later.first != 0 && !is_before(firing.version, later.first);
+bool JointPlay::is_read_later(const Firing& firing, const Sending& side) const {
+  return std::ranges::any_of(side.reads, [&](const Read& read) {
+    return ordinals_[read.start] > ordinals_[side.peer] && !is_before(firing.version, read.first);
   });
 }
 
@@ -274,20 +273,28 @@ void JointPlay::stop_tracking(const Firing& firing) {
   if (peer < unknown && assumed_[peer]) links_[channel.value].tracked = false;
 }
 
+/// nullptr: whom it reads is not given.
+JointPlay::Read* JointPlay::read_by(const Firing& firing) {
+  const ChannelId channel = net_[firing.transition].channel;
+  const std::uint32_t sender = receiving(channel, firing.start).peer;
+  if (sender >= unknown) return nullptr;
+  std::vector<Read>& reads = sending(channel, sender).reads;
+  if (reads.empty() || reads.back().start != firing.start) reads.push_back({.start = firing.start});
+  return &reads.back();
+}
+
 void JointPlay::count(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   switch (net_[firing.transition].step) {
     case ChannelStep::writes:
       sending(channel, firing.start).written = firing.version;
       break;
-    case ChannelStep::begins_read: {
-      Receiving& side = receiving(channel, firing.start);
-      if (side.first == 0) side.first = firing.version;
-      side.last = firing.version;
+    case ChannelStep::begins_read:
+      receiving(channel, firing.start).last = firing.version;
+      if (Read* read = read_by(firing); read != nullptr && read->first == 0) read->first = firing.version;
       break;
-    }
     case ChannelStep::ends_read:
-      receiving(channel, firing.start).ended = firing.version;
+      if (Read* read = read_by(firing); read != nullptr) read->ended = firing.version;
       break;
     case ChannelStep::is_acknowledged:
       sending(channel, firing.start).acknowledged = firing.version;
@@ -355,7 +362,7 @@ bool JointPlay::turn(ChannelId channel, std::uint32_t start, std::uint32_t peer,
       incarnation <= side.peer_incarnation ||
       std::any_of(all.begin(), all.begin() + ordinals_[start],
                   [&](const Receiving& before) { return before.peer_incarnation > incarnation; });
-  if (!goes_back) side = {.peer = peer, .peer_incarnation = incarnation};
+  if (!goes_back) side = {.last = 0, .peer = peer, .peer_incarnation = incarnation};
   return !goes_back;
 }
 

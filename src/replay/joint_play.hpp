@@ -81,14 +81,19 @@ class JointPlay {
 
  private:
   static constexpr std::uint32_t unknown = none - 1;  ///< a start whose recording is not given
+  /// What one start of the receiver has read of one start of the sender: numbers.
+  struct Read {
+    std::uint32_t start = none, first = 0, ended = 0;
+  };
   /// One side of a channel between processes, in one start of its process.
   struct Sending {
     std::uint32_t written = 0, acknowledged = 0;  ///< the last numbers; 0: none
     std::uint32_t peer = none;                    ///< the start that acknowledges
     std::uint64_t peer_incarnation = 0;
+    std::vector<Read> reads{};  ///< of the starts of the receiver, in their order
   };
   struct Receiving {
-    std::uint32_t first = 0, last = 0, ended = 0;  ///< numbers of reads of this peer: 0: none
+    std::uint32_t last = 0;  ///< the number that was last read of this peer; 0: none
     std::uint32_t peer = none;
     std::uint64_t peer_incarnation = 0;
   };
@@ -110,7 +115,8 @@ class JointPlay {
   [[nodiscard]] Obstacle acknowledgement_obstacle(const Firing& firing) const;
   [[nodiscard]] bool was_left_behind(net::ChannelId channel, const Firing& firing,
                                      const Receiving& side) const;
-  [[nodiscard]] bool is_read_later(net::ChannelId channel, const Firing& firing, const Sending& side) const;
+  [[nodiscard]] bool is_read_later(const Firing& firing, const Sending& side) const;
+  [[nodiscard]] Read* read_by(const Firing& firing);
   void stop_tracking(const Firing& firing);
   void count(const Firing& firing);
   [[nodiscard]] bool move_markings(const Firing& firing);

@@ -15,8 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& entry, const char* key) { return entry.value(key, std::string()); }
-
 /// A name of the world as the name of a buffer: letters, digits, single underscores.
 std::string buffer_name(const std::string& name, std::set<std::string>& taken) {
   std::string made;
@@ -79,8 +77,8 @@ class DriversSection {
   void add(const Source& source) {
     std::vector<std::pair<std::string, Lines>> of_agents;
     for (const Json& entry : contents_[source.list]) {
-      if (text_of(entry, "kind").empty()) continue;
-      const auto [agent, target] = placed(text_of(entry, "name"));
+      if (text_in(entry, "kind").empty()) continue;
+      const auto [agent, target] = placed(text_in(entry, "name"));
       if (agent.empty()) continue;
       auto found = std::ranges::find(of_agents, agent, &std::pair<std::string, Lines>::first);
       if (found == of_agents.end()) found = of_agents.insert(found, {agent, {}});
@@ -88,7 +86,7 @@ class DriversSection {
       if (entry.contains("picture"))
         options = fmt::format(", width: {}, height: {}", entry["picture"][0].get<int>(),
                               entry["picture"][1].get<int>());
-      found->second.push_back({source.kind, target, text_of(entry, "type"), options});
+      found->second.push_back({source.kind, target, text_in(entry, "type"), options});
     }
     std::set<std::string> done;
     for (const auto& [agent, lines] : of_agents) {

@@ -12,6 +12,11 @@ struct WorldAgent {
   bool in_fleet = false;
 };
 
+/// A text in an entry of the contents of a world; empty: it has none of that key.
+[[nodiscard]] inline std::string text_in(const nlohmann::ordered_json& entry, const char* key) {
+  return entry.value(key, std::string());
+}
+
 /// A section `drivers` for what the world has, with a buffer for every sensor, camera, joint and actuator. A
 /// fleet whose robots have the same elements gets one line for each element: robot[*]. Things without an
 /// agent get none, since nobody can drive them. Empty: there is nothing to drive.

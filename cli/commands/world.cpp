@@ -35,22 +35,20 @@ constexpr Group groups[] = {{"sensors", "Sensors"}, {"joints", "Joints"},       
                             {"sites", "Sites"},     {"cameras", "Cameras"},       {"bodies", "Bodies"},
                             {"geoms", "Geoms"},     {"equalities", "Equalities"}, {"keyframes", "Keyframes"}};
 
-std::string text_of(const Json& entry, const char* key) { return entry.value(key, std::string()); }
-
 /// "gyro  sensor  float64[3]", and what else there is to say.
 std::string line_of(const Json& entry) {
   std::string more;
-  if (entry.contains("joint")) more += "  " + text_of(entry, "joint");
+  if (entry.contains("joint")) more += "  " + text_in(entry, "joint");
   if (entry.contains("range"))
     more += fmt::format("  {} .. {}", entry["range"][0].get<double>(), entry["range"][1].get<double>());
   if (entry.contains("picture"))
     more += fmt::format("  width: {}, height: {}", entry["picture"][0].get<int>(),
                         entry["picture"][1].get<int>());
-  if (entry.contains("velocity_type")) more += "  joint_velocity " + text_of(entry, "velocity_type");
+  if (entry.contains("velocity_type")) more += "  joint_velocity " + text_in(entry, "velocity_type");
   if (entry.contains("label")) more += fmt::format("  label {}", entry["label"].get<int>());
-  if (const std::string by = text_of(entry, "moved_by"); !by.empty()) more += "  " + by + " float64[7]";
-  return fmt::format("  {:<24} {:<15} {:<11}{}", text_of(entry, "name"), text_of(entry, "kind"),
-                     text_of(entry, "type"), more);
+  if (const std::string by = text_in(entry, "moved_by"); !by.empty()) more += "  " + by + " float64[7]";
+  return fmt::format("  {:<24} {:<15} {:<11}{}", text_in(entry, "name"), text_in(entry, "kind"),
+                     text_in(entry, "type"), more);
 }
 
 void print_groups(const Json& contents) {

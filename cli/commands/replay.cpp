@@ -205,7 +205,7 @@ std::optional<replay::Legality> check(const Recording& recording, const ReplayOp
   const std::string file = specification_of(options);
   std::optional<Specification> specification = read(file, terminal());
   if (!specification) return std::nullopt;
-  const std::optional<Nets> nets = build_executed(*specification, terminal());
+  const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return std::nullopt;
   const std::string hash = verify::hash_of(nets->flat);
   if (hash != recording.net_hash) {

@@ -60,8 +60,7 @@ std::optional<replay::Legality> check_against(const std::string& specification,
   if (!deployed && recordings.size() > 1)
     return complain("several recordings are checked together only if they are of processes of one system"),
            std::nullopt;
-  const std::optional<project::Nets> nets =
-      deployed ? project::build(*read, terminal()) : project::build_executed(*read, terminal());
+  const std::optional<project::Nets> nets = project::build(*read, terminal());
   if (!nets || !is_of_this_net(recordings, verify::hash_of(nets->flat), *read)) return std::nullopt;
   if (!deployed) return replay::check_legal(recordings.front(), nets->flat);
   const replay::ProcessMap processes = processes_of(read->model);

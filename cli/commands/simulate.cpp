@@ -87,6 +87,7 @@ std::string reproduction(const SimulateOptions& options) {
   if (options.accept_stuck) line.emplace_back("--accept-stuck");
   if (options.gate.accept_violations) line.emplace_back("--accept-violations");
   add("--parameters", options.parameters);
+  add("--network", options.network);
   add("--track", options.track);
   if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
   if (!options.start.empty()) line.push_back("--start=" + options.start);
@@ -261,6 +262,9 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.option("--report", options->report, "Folder for a page and a picture of the run")
       .excludes(schedules);
   command.declared("--record").excludes(schedules);
+  command.option("--network", options->network,
+                 "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
+                 "duplicate=0.01,reorder=0.05 (docs/fleets.md)");
   for (const char* other :
        {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
         "--scenario", "--schedules", "--coverage", "--interleave", "--realtime", "--report", "--hardware"})

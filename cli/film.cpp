@@ -16,8 +16,8 @@
 
 #include "cli/film_file.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/chosen_world.hpp"
 #include "project/files/file_names.hpp"
-#include "project/files/installation.hpp"
 #include "project/files/simulation_file.hpp"
 #include "project/files/world_check.hpp"
 #include "project/launch.hpp"
@@ -104,9 +104,9 @@ struct Survey {
     throw std::runtime_error(fmt::format("'{}' is no recording of Tessera, or it is empty", recording));
   if (found.scene.bodies.empty())
     throw std::runtime_error(
-        "the recording has no poses of bodies: it was made without a simulated world, or by an older "
-        "Tessera\n"
-        "hint: run `tessera simulate` again, which records them");
+        "the recording has no poses of bodies: its run had no simulated world of MuJoCo, or an older Tessera "
+        "made it\n"
+        "hint: `tessera simulate` records them if `simulation` names a world");
   if (found.last.empty() || found.first_ns > found.last_ns)
     throw std::runtime_error("nothing of the recording is between --from and --to");
   return found;
@@ -232,13 +232,14 @@ WorldOptions world_of_recording(const std::string& recording, const std::string&
   const std::optional<Specification> specification = read(spec, terminal());
   if (!specification) throw std::runtime_error("the world of the recording is not known");
   const auto& simulation = specification->model.simulation;
-  if (!simulation || simulation->world.empty())
+  if (!simulation || !simulation->has_world())
     throw std::runtime_error("the specification names no world under `simulation`");
-  const auto world = find_asset(simulation->world, specification->project, "worlds");
+  if (simulation->coppelia)
+    throw std::runtime_error(
+        "the world of the specification is a scene of CoppeliaSim, which cannot be drawn");
+  const auto world = world_of(*simulation, specification->project);
   if (!world) throw std::runtime_error("there is no world " + simulation->world);
-  WorldOptions options;
-  options.world = world->string();
-  options.models = placements_json(*simulation, specification->project);
+  WorldOptions options = world->options;
   if (const std::optional<Floor> floor = floor_of(*specification, LaunchOptions{})) {
     options.track = floor->image.string();
     options.metres_per_pixel = floor->metres_per_pixel;

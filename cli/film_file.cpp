@@ -60,6 +60,13 @@ namespace {
   return command;
 }
 
+volatile std::sig_atomic_t film_interrupted = 0;
+
+void note_interrupt(int /*signal*/) { film_interrupted = 1; }
+
+/// Signals that end the command otherwise, and would leave the unfinished film behind.
+constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
+
 }  // namespace
 
 std::string ending_of(const std::string& file) {
@@ -89,9 +96,14 @@ FilmFile::FilmFile(const std::string& file, const std::string& ending)
     descriptor_ = open(unfinished_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file_, std::strerror(errno)));
+  film_interrupted = 0;
+  for (std::size_t index = 0; index < interrupting.size(); ++index)
+    before_[index] = std::signal(interrupting[index], note_interrupt);
 }
 
 FilmFile::~FilmFile() {
+  for (std::size_t index = 0; index < interrupting.size(); ++index)
+    std::signal(interrupting[index], before_[index]);
   if (descriptor_ >= 0) close(descriptor_);
   if (child_ > 0) waitpid(child_, nullptr, 0);
   std::error_code ignored;
@@ -100,6 +112,7 @@ FilmFile::~FilmFile() {
 
 bool FilmFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
+    if (film_interrupted != 0) return false;
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
@@ -117,9 +130,10 @@ std::string FilmFile::finish(bool complete) {
     int status = 0;
     while (waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
     child_ = -1;
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    if (film_interrupted == 0 && (!WIFEXITED(status) || WEXITSTATUS(status) != 0))
       return "ffmpeg failed; what it says stands above\nhint: --film FILE.png needs no other program";
   }
+  if (film_interrupted != 0) return fmt::format("interrupted: there is no new '{}'", file_);
   if (!complete || !reason_.empty()) return fmt::format("cannot write '{}': {}", file_, reason_);
   std::error_code problem;
   fs::rename(unfinished_, file_, problem);

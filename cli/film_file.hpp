@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,7 @@ namespace tessera::cli {
 void check_film_file(const std::string& file, const std::string& ending);
 
 /// The unfinished film, which gets its name at the end; written by this process, or by ffmpeg.
+/// While it exists, SIGINT, SIGTERM and SIGHUP end the film and not the process. One at a time.
 class FilmFile {
  public:
   /// Throws std::runtime_error with a hint: it cannot be written, or ffmpeg is needed and not installed.
@@ -33,6 +35,7 @@ class FilmFile {
   std::string file_, unfinished_, reason_;
   int descriptor_ = -1;
   pid_t child_ = -1;
+  std::array<void (*)(int), 3> before_{};  ///< who handled the signals
   bool finished_ = false;
 };
 

@@ -58,8 +58,8 @@ struct RigidFrame {
 }
 
 /// Where the engine's arrays have a thing that is fixed to a body.
-void place(const RigidFrame& body, const mjtNum* position, const mjtNum* rotation, mjtNum* xpos,
-           mjtNum* xmat) {
+void put_frame(const RigidFrame& body, const mjtNum* position, const mjtNum* rotation, mjtNum* xpos,
+               mjtNum* xmat) {
   RigidFrame own;
   std::copy_n(position, 3, own.position.begin());
   std::copy_n(rotation, 4, own.rotation.begin());
@@ -154,15 +154,15 @@ class Painter final : public WorldPainter {
       std::ranges::copy(frame.position, data.xpos + 3 * body);
       std::ranges::copy(frame.rotation, data.xquat + 4 * body);
       mju_quat2Mat(data.xmat + 9 * body, frame.rotation.data());
-      place(frame, model().body_ipos + 3 * body, model().body_iquat + 4 * body, data.xipos + 3 * body,
-            data.ximat + 9 * body);
+      put_frame(frame, model().body_ipos + 3 * body, model().body_iquat + 4 * body, data.xipos + 3 * body,
+                data.ximat + 9 * body);
     }
     for (int geom = 0; geom < model().ngeom; ++geom)
-      place(frame_of(data, model().geom_bodyid[geom]), model().geom_pos + 3 * geom,
-            model().geom_quat + 4 * geom, data.geom_xpos + 3 * geom, data.geom_xmat + 9 * geom);
+      put_frame(frame_of(data, model().geom_bodyid[geom]), model().geom_pos + 3 * geom,
+                model().geom_quat + 4 * geom, data.geom_xpos + 3 * geom, data.geom_xmat + 9 * geom);
     for (int site = 0; site < model().nsite; ++site)
-      place(frame_of(data, model().site_bodyid[site]), model().site_pos + 3 * site,
-            model().site_quat + 4 * site, data.site_xpos + 3 * site, data.site_xmat + 9 * site);
+      put_frame(frame_of(data, model().site_bodyid[site]), model().site_pos + 3 * site,
+                model().site_quat + 4 * site, data.site_xpos + 3 * site, data.site_xmat + 9 * site);
     mj_comPos(&model(), &data);
     mj_camlight(&model(), &data);
     mj_tendon(&model(), &data);

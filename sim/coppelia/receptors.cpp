@@ -13,6 +13,7 @@
 #include "sim/devices/buffer.hpp"
 #include "sim/devices/noise.hpp"
 #include "sim/devices/options.hpp"
+#include "sim/devices/pose_fields.hpp"
 
 namespace tessera::coppelia {
 namespace {
@@ -162,24 +163,17 @@ std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverReq
   Buffer buffer(request);
   Options(request).refuse_others();
   const Object object = only_object_of(context, request, {});
-  if (buffer.is_real() && buffer.size() == 7)
+  if (takes_whole_pose(buffer))
     return std::make_unique<Reading>(context, std::move(buffer),
                                      [object](Simulator& simulator, std::span<double> numbers) {
                                        std::ranges::copy(simulator.pose(object), numbers.begin());
                                        return true;
                                      });
-  const std::vector<std::string> planar{"x", "y", "heading"};
-  if (!buffer.is_real() || !std::ranges::is_permutation(buffer.fields(), planar))
-    throw DeviceError("a pose is 7 numbers (x y z, quaternion w x y z), and the buffer is " + buffer.type(),
-                      "make the buffer float64[7], or a structure with the fields x, y and heading");
-  std::vector<std::size_t> order;  // of the fields in the buffer
-  for (const std::string& field : buffer.fields())
-    order.push_back(static_cast<std::size_t>(std::ranges::find(planar, field) - planar.begin()));
+  const sim::PlanarFields fields(buffer);
   return std::make_unique<Reading>(
-      context, std::move(buffer), [object, order](Simulator& simulator, std::span<double> numbers) {
+      context, std::move(buffer), [object, fields](Simulator& simulator, std::span<double> numbers) {
         const std::array<double, 7> all = simulator.pose(object);
-        const std::array<double, 3> flat{all[0], all[1], heading_of(std::span(all).subspan(3))};
-        for (std::size_t index = 0; index < order.size(); ++index) numbers[index] = flat.at(order[index]);
+        fields.put({all[0], all[1], heading_of(std::span(all).subspan(3))}, numbers);
         return true;
       });
 }

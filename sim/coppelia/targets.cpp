@@ -29,7 +29,7 @@ std::vector<std::string> names_of(LockStep& scene, const std::vector<Object::Typ
 
 Object object_of(const DeviceContext& context, const DriverRequest& request, const std::string& name,
                  const std::vector<Object::Type>& types) {
-  const auto object = context.scene->find(agent_of(request), name);
+  const auto object = context.scene->find(request.agent(), name);
   const bool fits = object && (types.empty() || std::ranges::find(types, object->type) != types.end());
   if (fits) return *object;
   const std::vector<std::string> names = names_of(*context.scene, types);
@@ -61,8 +61,6 @@ const char* word_for(Object::Type type) {
   }
   return "object";
 }
-
-std::string agent_of(const DriverRequest& request) { return request.path.substr(0, request.path.find('.')); }
 
 std::vector<Object> objects_of(const DeviceContext& context, const DriverRequest& request,
                                const std::vector<Object::Type>& types) {

@@ -10,8 +10,6 @@ namespace tessera::coppelia {
 
 /// "joint", "vision sensor", ...
 [[nodiscard]] const char* word_for(Object::Type type);
-/// The agent that a path begins with: "robot[3]".
-[[nodiscard]] std::string agent_of(const DriverRequest& request);
 
 /// The objects that the request names, all of one of these types. Empty without a scene. Throws
 /// sim::DeviceError.

@@ -18,7 +18,7 @@ void add_body(const mjModel& model, int body, Geoms& geoms) {
 Geoms geoms_named(const Physics& physics, const DriverRequest& request,
                   const std::vector<std::string>& names) {
   const mjModel& model = physics.model();
-  const std::string agent = agent_of(request);
+  const std::string agent = request.agent();
   Geoms geoms(static_cast<std::size_t>(model.ngeom), names.empty());
   for (const std::string& name : names) {
     if (const auto body = find_element(model, mjOBJ_BODY, agent, name)) {

@@ -52,10 +52,8 @@ class Commanding final : public RealEffector {
 
 }  // namespace
 
-std::string agent_of(const DriverRequest& request) { return request.path.substr(0, request.path.find('.')); }
-
 int element_of(const Physics& physics, mjtObj type, const DriverRequest& request, const std::string& name) {
-  const std::string agent = agent_of(request);
+  const std::string agent = request.agent();
   if (const auto id = find_element(physics.model(), type, agent, name)) return *id;
   throw DeviceError(unknown_name(word_for(type), name, names_for(physics.model(), type, agent)));
 }
@@ -66,7 +64,7 @@ const std::string& only_target(const DriverRequest& request) {
 }
 
 Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name) {
-  const std::string agent = agent_of(request);
+  const std::string agent = request.agent();
   for (const mjtObj type : {mjOBJ_BODY, mjOBJ_SITE})
     if (const auto id = find_element(physics.model(), type, agent, name)) return {type, *id};
   std::vector<std::string> names = names_for(physics.model(), mjOBJ_BODY, agent);

@@ -17,9 +17,6 @@
 
 namespace tessera::sim {
 
-/// The agent that a path begins with: "robot[3]".
-[[nodiscard]] std::string agent_of(const DriverRequest& request);
-
 /// The element that a target names. Throws DeviceError.
 [[nodiscard]] int element_of(const Physics& physics, mjtObj type, const DriverRequest& request,
                              const std::string& name);

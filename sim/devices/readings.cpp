@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/devices/pose_fields.hpp"
 #include "sim/devices/reading.hpp"
 
 namespace tessera::sim {
@@ -100,24 +101,16 @@ std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverReq
     frame = frame_of(physics, request, only_target(request));
     refuse_place_of_model(physics.model(), frame);
   });
-  if (buffer.is_real() && buffer.size() == 7)
+  if (takes_whole_pose(buffer))
     return reading(context.simulation, std::move(buffer),
                    [frame](const Physics& physics, std::span<double> numbers) {
                      std::ranges::copy(pose_now(physics, frame), numbers.begin());
                    });
-  const std::vector<std::string> planar{"x", "y", "heading"};
-  if (!buffer.is_real() || !std::ranges::is_permutation(buffer.fields(), planar))
-    throw DeviceError("a pose is 7 numbers (x y z, quaternion w x y z), and the buffer is " + buffer.type(),
-                      "make the buffer float64[7], or a structure with the fields x, y and heading");
-  std::vector<std::size_t> order;  // of the fields in the buffer
-  for (const std::string& field : buffer.fields())
-    order.push_back(static_cast<std::size_t>(std::ranges::find(planar, field) - planar.begin()));
+  const PlanarFields fields(buffer);
   return reading(context.simulation, std::move(buffer),
-                 [frame, order](const Physics& physics, std::span<double> numbers) {
+                 [frame, fields](const Physics& physics, std::span<double> numbers) {
                    const std::array<double, 7> all = pose_now(physics, frame);
-                   const std::array<double, 3> flat{all[0], all[1], heading_now(physics, frame)};
-                   for (std::size_t index = 0; index < order.size(); ++index)
-                     numbers[index] = flat[order[index]];
+                   fields.put({all[0], all[1], heading_now(physics, frame)}, numbers);
                  });
 }
 

@@ -10,11 +10,6 @@
 namespace tessera::sim {
 namespace {
 
-/// "robot[3]" of "robot[3].sensor.left".
-[[nodiscard]] std::string agent_of(const DriverRequest& device) {
-  return device.path.substr(0, device.path.find('.'));
-}
-
 [[nodiscard]] std::optional<int> body_of_actuator(const mjModel& model, int actuator) {
   const int target = model.actuator_trnid[2 * actuator];
   if (target < 0) return std::nullopt;
@@ -61,7 +56,7 @@ namespace {
                              mjOBJ_CAMERA, mjOBJ_BODY,     mjOBJ_GEOM};
   for (const std::string& target : device.targets)
     for (const mjtObj type : types)
-      if (const auto id = find_element(model, type, agent_of(device), target))
+      if (const auto id = find_element(model, type, device.agent(), target))
         if (const std::optional<int> body = body_of(model, type, *id); body && *body > 0) return body;
   return std::nullopt;
 }
@@ -77,11 +72,11 @@ std::vector<std::string> agents_of_bodies(const mjModel& model, std::span<const 
   std::set<std::string> agents;
   std::map<int, std::set<std::string>> at_body, at_root;
   for (const DriverRequest& device : devices) {
-    agents.insert(agent_of(device));
+    agents.insert(device.agent());
     const std::optional<int> body = body_of_device(model, device);
     if (!body) continue;
-    at_body[*body].insert(agent_of(device));
-    at_root[model.body_rootid[*body]].insert(agent_of(device));
+    at_body[*body].insert(device.agent());
+    at_root[model.body_rootid[*body]].insert(device.agent());
   }
   std::vector<std::string> owners;
   for (const int body : bodies) {

@@ -7,13 +7,13 @@
 namespace tessera::server_test {
 namespace {
 
-using server::ThinnedPath;
+using Path = replay::Thinned<server::PathPoint>;
 
-TEST(ThinnedPath, KeepsItsBoundTheFirstAndTheLastAndIsEven) {
+TEST(Path, KeepsItsBoundTheFirstAndTheLastAndIsEven) {
   for (const int count : {0, 1, 2, 9, 10, 11, 19, 20, 1000, 12345}) {
-    ThinnedPath path(10);
+    Path path(10);
     for (int point = 0; point < count; ++point) path.add({.time_ns = point});
-    const nlohmann::json rows = path.rows();
+    const nlohmann::json rows = server::rows_of(path);
     ASSERT_LE(rows.size(), 10U);
     ASSERT_GE(rows.size(), std::min<std::size_t>(count, 5));
     if (count == 0) continue;

@@ -127,6 +127,9 @@ struct DriverRequest {
   std::string type{};
   /// How values of that type are read and stored. nullptr: the device is only to be judged.
   const ValueEncoding* encoding = nullptr;
+
+  /// Whose device it is: "robot[3]" of "robot[3].sensor.left".
+  [[nodiscard]] std::string agent() const { return path.substr(0, path.find('.')); }
 };
 template <class T>
 [[nodiscard]] DriverRequest request_for(DriverRequest request) {

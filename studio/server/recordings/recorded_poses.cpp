@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 
 #include "server/http/json_text.hpp"
 #include "server/recordings/pose_track.hpp"
@@ -62,17 +61,8 @@ std::optional<std::string> Recordings::poses(const std::string& name, Span span)
   const auto all = files();
   const auto found = all.find(name);
   if (found == all.end()) return std::nullopt;
-  RecordingStream stream(RecordingStream::of_file(found->second, GrowingRecording::From::oldest));
   PosePart part(span);
-  bool goes_on = true;
-  while (goes_on && stream.next()) {
-    if (stream.begins()) part.begin(*stream.recording());
-    if (!stream.recording()) continue;
-    for (const Recording::Entry& entry : stream.recording()->entries)
-      if (!(goes_on = part.add(entry))) break;
-  }
-  if (!stream.recording()) throw std::runtime_error(name + " is no recording");
-  part.end(/*complete=*/goes_on);
+  read_part(found->second, part);
   return text_of(part.take());
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 
 #include "tessera/growing_recording.hpp"
 #include "tessera/recording.hpp"
@@ -43,5 +44,22 @@ class RecordingStream {
   bool begins_ = false, more_ = false, damaged_ = false;
   std::uint64_t bytes_ = 0;
 };
+
+/// Reads a recording from its oldest part on for as long as `part` wants more: part.begin(header) at each segment,
+/// part.add(entry) -> bool, and part.end(complete): whether the recording was read to its end.
+/// Throws std::runtime_error if the file is no recording.
+template <class Part>
+void read_part(const std::filesystem::path& file, Part& part) {
+  RecordingStream stream(RecordingStream::of_file(file, GrowingRecording::From::oldest));
+  bool goes_on = true;
+  while (goes_on && stream.next()) {
+    if (stream.begins()) part.begin(*stream.recording());
+    if (!stream.recording()) continue;
+    for (const Recording::Entry& entry : stream.recording()->entries)
+      if (!(goes_on = part.add(entry))) break;
+  }
+  if (!stream.recording()) throw std::runtime_error(file.filename().string() + " is no recording");
+  part.end(goes_on);
+}
 
 }  // namespace tessera::server

@@ -158,7 +158,7 @@ class Content {
     if (!is_ordered_) std::ranges::stable_sort(firings_, {}, &decltype(firings_)::value_type::first);
     content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
-    content_["path"] = path_.rows();
+    content_["path"] = rows_of(path_);
     content_["first"] = total_ > 0 ? json(first_ns_) : json();
     content_["last"] = total_ > 0 ? json(last_ns_) : json();
     content_["total"] = total_;
@@ -203,7 +203,7 @@ class Content {
   std::vector<net::TransitionId> transitions_;  // per transition of the recording: that of the net
   ValueSeries values_;
   PoseTrack poses_;
-  ThinnedPath path_{Recordings::most_points};
+  replay::Thinned<PathPoint> path_{Recordings::most_points};
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
   std::uint64_t dropped_ = 0, total_ = 0;
   std::int64_t first_ns_ = INT64_MAX, last_ns_ = INT64_MIN;

@@ -369,7 +369,7 @@ json Run::info(bool all) const {
   info["firings"] = firings_;
   info["values"] = values_;
   info["pose"] = pose_;
-  info["path"] = path_.rows();
+  info["path"] = rows_of(path_);
   info["scene"] = scene_;
   info["poses"] = poses_;
   info["verdicts"] = verdicts_;

@@ -103,7 +103,7 @@ class Run {
   State state_ = State::building;
   std::string why_;
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_, scene_, poses_;
-  ThinnedPath path_{5000};
+  replay::Thinned<PathPoint> path_{5000};
   std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not come yet
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;

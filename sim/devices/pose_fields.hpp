@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/devices/buffer.hpp"
+
+namespace tessera::sim {
+
+/// A pose in a plane: x and y in metres, heading in radians from the x axis.
+using PlanarPose = std::array<double, 3>;
+
+/// Where a structure with the fields x, y and heading holds each of them.
+class PlanarFields {
+ public:
+  /// Throws DeviceError if the buffer has other fields.
+  explicit PlanarFields(const Buffer& buffer);
+  void put(const PlanarPose& pose, std::span<double> numbers) const {
+    for (std::size_t field = 0; field < order_.size(); ++field) numbers[field] = pose.at(order_[field]);
+  }
+
+ private:
+  std::vector<std::size_t> order_;  // per field of the buffer: into PlanarPose
+};
+
+/// Whether the buffer takes a whole pose: x, y, z and a quaternion w, x, y, z.
+[[nodiscard]] inline bool takes_whole_pose(const Buffer& buffer) {
+  return buffer.is_real() && buffer.size() == 7;
+}
+
+}  // namespace tessera::sim

@@ -33,14 +33,15 @@ std::string shown(const std::string& text) {
 }  // namespace
 
 Announcement announcement_of(const Deployment& deployment) {
+  static const std::string host = host_name(), boot = boot_id();
   return {.incarnation = deployment.incarnation,
           .system = deployment.system,
           .process_name = deployment.processes[deployment.process],
           .wire_version = wire_version,
           .net_hash = deployment.net_hash,
           .processes_hash = deployment.processes_hash,
-          .host = host_name(),
-          .boot = boot_id()};
+          .host = host,
+          .boot = boot};
 }
 
 Announcements::Announcements(const Deployment& deployment)

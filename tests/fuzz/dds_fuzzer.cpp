@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -71,10 +72,8 @@ struct Reader final : network::Carrier::Listener {
 };
 
 struct Station {
-  explicit Station(network::ProcessNumber process)
-      : deployment(dds::deployment_of(Crossing().setup(process, 10))),
-        presence(deployment),
-        announcements(deployment) {}
+  explicit Station(const dds::Deployment& its_deployment)
+      : deployment(its_deployment), presence(its_deployment), announcements(its_deployment) {}
 
   void hear_data(Bytes& bytes) {
     dds::ReceivedData data;
@@ -132,7 +131,7 @@ struct Station {
     dropped.tell(now, reader);
   }
 
-  dds::Deployment deployment;
+  const dds::Deployment& deployment;
   dds::Presence presence;
   dds::Announcements announcements;
   dds::Dropped dropped{"dropped"};
@@ -144,7 +143,11 @@ struct Station {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  Station station(data[0] % 3);
+  static const Crossing crossing;
+  static const std::array<dds::Deployment, 3> deployments{dds::deployment_of(crossing.setup(0, 10)),
+                                                          dds::deployment_of(crossing.setup(1, 10)),
+                                                          dds::deployment_of(crossing.setup(2, 10))};
+  Station station(deployments.at(data[0] % 3));
   Bytes bytes(data + 1, size - 1);
   while (bytes.any()) {
     const auto kind = bytes.take<std::uint8_t>();

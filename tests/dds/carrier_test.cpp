@@ -112,7 +112,7 @@ TEST(Carrier, WakeEndsTheWaitOrTheNextOne) {
   DdsCarrier carrier(crossing.setup(Crossing::office, 10));
   Heard heard;
   carrier.wake();
-  carrier.receive(heard, std::chrono::hours(10000000));  // would not return
+  carrier.receive(heard, std::chrono::nanoseconds::max());  // would not return
   std::thread other([&] {
     std::this_thread::sleep_for(50ms);
     carrier.wake();

@@ -43,7 +43,7 @@ bool is_recording(const std::string& file) {
 }
 
 Nets nets_of(const Specification& specification) {
-  std::optional<Nets> nets = project::build_executed(specification, terminal());
+  std::optional<Nets> nets = project::build(specification, terminal());
   if (!nets) throw std::runtime_error(specification.file.string() + " gives no net");
   return std::move(*nets);
 }

@@ -51,4 +51,32 @@ class Carrier {
   virtual void wake() = 0;
 };
 
+/// A channel between two processes, as its carrier needs to know it.
+struct ChannelSetup {
+  ChannelNumber number = 0;
+  std::string_view name;                  ///< "base.plan.goal->cart.drive.goal"
+  ProcessNumber sender = 0;               ///< the process that sends values
+  ProcessNumber receiver = 0;             ///< the process that receives them
+  std::uint32_t longest_value_bytes = 0;  ///< of the encoded value
+};
+
+/// What a carrier has to know of the run that it is made for. Views are valid while the carrier is made.
+struct CarrierSetup {
+  std::string_view system, net_hash;            ///< messages of other systems and other nets are dropped
+  ProcessNumber process = 0;                    ///< this one
+  std::span<const std::string_view> processes;  ///< names, by number
+  std::uint64_t incarnation = 0;                ///< of this start of the process; greater than all before
+  int domain = 0;                               ///< of the middleware
+  std::string_view interface;                   ///< of the network: "lo"; empty: as the middleware chooses
+  std::span<const std::string_view>
+      peers;                               ///< hosts at which other processes are looked for; empty: anywhere
+  std::span<const ChannelSetup> channels;  ///< those that begin or end in this process
+};
+
+/// Makes a carrier. A library that offers one has this function under the name open_carrier_function.
+///
+/// Errors: nullptr, and `error` (of `size` bytes, 0 at its end) says why.
+using OpenCarrier = Carrier*(const CarrierSetup& setup, char* error, std::size_t size);
+inline constexpr const char* open_carrier_function = "tessera_open_carrier_1";
+
 }  // namespace tessera::network

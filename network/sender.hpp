@@ -46,8 +46,10 @@ class BasicSender {
   BasicSender(Sending mode, Incarnation me) : mode_(mode), me_(me) {}
 
   /// A new value, which overwrites the one before. Precondition: not waiting().
-  Effects write() {
-    ++number_.value;
+  Effects write() { return write({number_.value + 1}); }
+  /// The same with a number of the caller's, who may leave numbers out. Precondition: greater than number().
+  Effects write(Number number) {
+    number_ = number;
     pending_ = true;
     recall_ = false;
     waiting_ = mode_ == Sending::blocking;

@@ -10,6 +10,7 @@
 #include "project/build/controller.hpp"
 #include "project/files/lock_file.hpp"
 #include "project/files/state_folder.hpp"
+#include "project/service_units.hpp"
 
 namespace tessera::cli {
 
@@ -18,7 +19,7 @@ using namespace project;
 namespace {
 
 struct GenerateCommandOptions {
-  std::string spec = ".", output, json;
+  std::string spec = ".", output, json, systemd;
   bool stubs = false, build = false;
   VerificationGate gate;
 };
@@ -59,6 +60,9 @@ int generate_command(const GenerateCommandOptions& options) {
     fmt::print(stderr,
                "note: whether {} has a function '{}' is for the compiler to say; nothing is written for it\n",
                stub.subsystem, stub.function);
+  if (!options.systemd.empty())
+    for (const std::string& file : write_service_units(verified->specification.model, options.systemd))
+      fmt::print(stderr, "{}\n", file);
   if (!options.build) return ok;
   return make_controller(options.spec, {.gate = options.gate}, terminal()) ? ok : failed;
 }
@@ -76,6 +80,9 @@ void add_generate(CommandLine& app, int& exit_code) {
       .flag("--build", options->build,
             "Compile the controller too: then a copy that nobody can write to runs")
       .excludes(command.declared("--output"));
+  command.option(
+      "--systemd", options->systemd,
+      "Folder for a unit of systemd per process of `deploy`, or one for the system (docs/service.md)");
   declare_verification_gate(command, options->gate);
   command.option("--json", options->json, "Write what was done as JSON (- is standard output)");
   command.footer("Example: tessera generate --stubs");

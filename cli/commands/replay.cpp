@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/coverage.hpp"
 #include "cli/film.hpp"
+#include "cli/joint_check.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
@@ -22,7 +24,6 @@
 #include "replay/statistics.hpp"
 #include "tessera/nearest.hpp"
 #include "tessera/recording.hpp"
-#include "verify/hashes.hpp"
 
 namespace tessera::cli {
 
@@ -200,24 +201,6 @@ const char* name_of(Legal verdict) {
   return "";
 }
 
-/// nullopt after the reason has been printed that there is no net to check against.
-std::optional<replay::Legality> check(const Recording& recording, const ReplayOptions& options) {
-  const std::string file = specification_of(options);
-  std::optional<Specification> specification = read(file, terminal());
-  if (!specification) return std::nullopt;
-  const std::optional<Nets> nets = build_executed(*specification, terminal());
-  if (!nets) return std::nullopt;
-  const std::string hash = verify::hash_of(nets->flat);
-  if (hash != recording.net_hash) {
-    complain(
-        fmt::format("the recording is of the net {}, and {} now gives {}: check out the specification "
-                    "it was made with, or name it with --spec",
-                    recording.net_hash, specification->file.string(), hash));
-    return std::nullopt;
-  }
-  return replay::check_legal(recording, nets->flat);
-}
-
 int exit_code_of(Legal verdict) {
   return verdict == Legal::legal ? ok : verdict == Legal::illegal ? failed : unknown;
 }
@@ -245,8 +228,12 @@ bool known_values(const Recording& recording, const std::string& wanted) {
 
 /// The last run of this project, wherever its files are kept.
 std::string last_recording() {
-  const fs::path kept = state_folder(fs::canonical(".")) / "last" / file_names::recording;
-  return fs::exists(usual_recording) || !fs::exists(kept) ? usual_recording : kept.string();
+  const fs::path kept = state_folder(fs::canonical(".")) / "last";
+  for (const fs::path& last : {fs::path(usual_recording).parent_path(), kept}) {
+    if (fs::exists(last / file_names::recording)) return (last / file_names::recording).string();
+    if (fs::exists(last / file_names::deployment)) return last.string();
+  }
+  return usual_recording;
 }
 
 /// Of all recordings together, which must be of one net.
@@ -268,12 +255,55 @@ int film_command(const ReplayOptions& options) {
   return make_film(film);
 }
 
+/// "legal: 120 firings of the net 1b2c in 3 recordings"
+void print_verdict(const replay::Legality& legality, const std::string& net_hash, std::size_t recordings) {
+  const std::string in = recordings > 1 ? fmt::format(" in {} recordings", recordings) : "";
+  fmt::print("{}: {} firings of the net {}{}{}{}\n", name_of(legality.verdict), legality.firings, net_hash,
+             in, legality.why.empty() ? "" : "; then ", legality.why);
+}
+
+json to_json(const replay::Legality& legality) {
+  return {{"verdict", name_of(legality.verdict)}, {"firings", legality.firings}, {"why", legality.why}};
+}
+
+/// Of the processes of a deployed system.
+int joint_command(const ReplayOptions& options) {
+  std::vector<Recording> recordings;
+  for (const std::string& file : options.recordings) {
+    std::string error;
+    std::optional<Recording> one = read_recording(file, error);
+    if (!one) return complain(error);
+    recordings.push_back(std::move(*one));
+  }
+  const std::optional<replay::Legality> legality = check_against(specification_of(options), recordings);
+  if (!legality) return failed;
+  if (options.json != "-") print_verdict(*legality, recordings.front().net_hash, recordings.size());
+  if (!options.json.empty()) write_output(options.json, json{{"check", to_json(*legality)}}.dump(2) + "\n");
+  return exit_code_of(legality->verdict);
+}
+
+/// --check alone is for several recordings, too.
+bool only_checks(const ReplayOptions& options) {
+  return options.check && !options.print && options.values.empty() && options.csv.empty() &&
+         options.perfetto.empty();
+}
+
+std::vector<std::string> all_recordings(const std::vector<std::string>& given) {
+  std::vector<std::string> all;
+  for (const std::string& one : given) std::ranges::move(recordings_of(one), std::back_inserter(all));
+  return all;
+}
+
 int replay_command(ReplayOptions options) {
   if (options.recordings.empty()) options.recordings.push_back(last_recording());
+  options.recordings = all_recordings(options.recordings);
+  if (options.recordings.empty()) return complain("there is no recording in this folder"), failed;
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
+  if (options.recordings.size() > 1 && options.film.file.empty() && only_checks(options))
+    return joint_command(options);
   if (options.recordings.size() > 1)
-    return complain("several recordings are read together with --coverage only"), usage;
+    return complain("several recordings are read together with --check alone, or with --coverage"), usage;
   if (!options.film.file.empty()) return film_command(options);
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
@@ -297,14 +327,11 @@ int replay_command(ReplayOptions options) {
     if (!other && !to_output) print_summary(*recording, all);
   }
   if (options.check) {
-    const std::optional<replay::Legality> legality = check(*recording, options);
+    const std::optional<replay::Legality> legality = check_against(specification_of(options), {*recording});
     if (!legality) return failed;
     exit_code = exit_code_of(legality->verdict);
-    result["check"] = {
-        {"verdict", name_of(legality->verdict)}, {"firings", legality->firings}, {"why", legality->why}};
-    if (!to_output)
-      fmt::print("{}: {} firings of the net {}{}{}\n", name_of(legality->verdict), legality->firings,
-                 recording->net_hash, legality->why.empty() ? "" : "; then ", legality->why);
+    result["check"] = to_json(*legality);
+    if (!to_output) print_verdict(*legality, recording->net_hash, 1);
   }
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
   return exit_code;
@@ -316,9 +343,9 @@ void add_replay(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
   auto options = std::make_shared<ReplayOptions>();
-  command.option(
-      "recording", options->recordings,
-      std::string("Recording of a run (default: ") + usual_recording + "); several with --coverage");
+  command.option("recording", options->recordings,
+                 std::string("Recording of a run (default: ") + usual_recording +
+                     "); several with --coverage, or with --check those of a deployed system");
   command.flag("--check", options->check,
                "Play it on the net of its specification: is it a legal firing sequence?");
   command.option("--spec", options->spec, "That specification (default: beside the recording or above)");

@@ -8,6 +8,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/coverage.hpp"
+#include "cli/deploy.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
@@ -35,8 +36,9 @@ struct SimulateOptions : LaunchOptions {
 };
 
 struct RunCommandOptions : LaunchOptions {
-  std::string json, report;
+  std::string json, report, process;
   bool world = false;
+  DeployOptions deploy;
 };
 
 int print_debugger(const Command& command) {
@@ -85,6 +87,7 @@ std::string reproduction(const SimulateOptions& options) {
   if (options.accept_stuck) line.emplace_back("--accept-stuck");
   if (options.gate.accept_violations) line.emplace_back("--accept-violations");
   add("--parameters", options.parameters);
+  add("--network", options.network);
   add("--track", options.track);
   if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
   if (!options.start.empty()) line.push_back("--start=" + options.start);
@@ -172,7 +175,34 @@ int simulate_command(SimulateOptions options) {
   return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
 }
 
+/// nullopt: these options of a deployed system fit.
+std::optional<int> wrong_for_deployment(const RunCommandOptions& options, const Controller& controller) {
+  const auto& deployment = controller.specification.model.deployment;
+  const bool asked = options.deploy.asked || !options.process.empty();
+  if (asked && !deployment)
+    return complain(
+        "the specification has no `deploy`: --deploy and --process are for systems of several "
+        "processes");
+  if (!deployment || asked || deployment->processes.size() < 2) return std::nullopt;
+  return complain(
+      fmt::format("the system is deployed in {} processes: `--deploy` starts those of this machine, "
+                  "`--process NAME` one of them, and `tessera simulate` runs all in one",
+                  deployment->processes.size()));
+}
+
+/// One process of a deployed system, as any other run.
+int launch_process(const Controller& controller, const RunFolder& folder, const RunCommandOptions& options) {
+  const spec::Deployment& deployment = *controller.specification.model.deployment;
+  static_cast<void>(placement_of(deployment, {options.process}, machine_name()));  // is there such a process?
+  Command command = controller_command(controller, options, "run", /*simulated=*/false);
+  add_process(command, options.process, options.deploy.network);
+  return launch(controller, folder, options, command, options.json, options.report);
+}
+
 int run_command(RunCommandOptions options) {
+  if ((options.deploy.asked || !options.process.empty()) && options.world)
+    return complain("a simulated world is in one process: `tessera simulate` runs all processes in it"),
+           usage;
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
@@ -183,7 +213,11 @@ int run_command(RunCommandOptions options) {
   if (!controller) return exit_code_without_net();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
+  if (!options.world)
+    if (const std::optional<int> wrong = wrong_for_deployment(options, *controller)) return *wrong;
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
+  if (options.deploy.asked) return run_deployed(*controller, folder, options, options.deploy);
+  if (!options.process.empty()) return launch_process(*controller, folder, options);
   return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
                 options.json, options.report);
 }
@@ -228,6 +262,9 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.option("--report", options->report, "Folder for a page and a picture of the run")
       .excludes(schedules);
   command.declared("--record").excludes(schedules);
+  command.option("--network", options->network,
+                 "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
+                 "duplicate=0.01,reorder=0.05 (docs/fleets.md)");
   for (const char* other :
        {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
         "--scenario", "--schedules", "--coverage", "--interleave", "--realtime", "--report", "--hardware"})
@@ -246,6 +283,40 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 
+namespace {
+
+void declare_deployment_options(Subcommand& command, RunCommandOptions& options) {
+  Option deploy = command.flag("--deploy", options.deploy.asked,
+                               "Of a system with `deploy`: start all processes whose host is this machine");
+  Option process =
+      command.option("--process", options.process, "Of a system with `deploy`: run this process");
+  deploy.excludes(process);
+  command
+      .option("--only", options.deploy.only,
+              "Start these processes, whatever their host: office,cart[0],cart[*]")
+      .needs(deploy);
+  command
+      .option("--restart", options.deploy.restart,
+              "Start a process again that has failed: never, or on-failure (five times, ever later)")
+      .one_of({"never", "on-failure"})
+      .shows_default()
+      .needs(deploy);
+  command
+      .option("--on-failure", options.deploy.on_failure,
+              "If a process has failed and is not started again: stop the others, or let them go-on")
+      .one_of({"stop", "go-on"})
+      .shows_default()
+      .needs(deploy);
+  project::NetworkOptions& network = options.deploy.network;
+  command.option("--domain", network.domain, "DDS domain (default: that of `deploy`)");
+  command.option("--interface", network.interface, "Network interface (default: that of `deploy`)");
+  command.option("--peers", network.peers, "Hosts of the other processes: A,B (default: those of `deploy`)");
+  for (const char* other : {"--record", "--json", "--report", "--debug"})
+    deploy.excludes(command.declared(other));
+}
+
+}  // namespace
+
 void add_run(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("run", "Build the controller and run it on the steady clock with real drivers");
@@ -256,7 +327,10 @@ void add_run(CommandLine& app, int& exit_code) {
                "With the simulated drivers, in the simulated world if there is one, in real time");
   command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command.option("--report", options->report, "Folder for a page and a picture of the run");
-  command.footer("Examples:\n  tessera run\n  tessera run --world --for 10s");
+  declare_deployment_options(command, *options);
+  command.footer(
+      "Examples:\n  tessera run\n  tessera run --world --for 10s\n"
+      "  tessera run --deploy --restart on-failure       every process of this machine (docs/fleets.md)");
   command.callback([options, &exit_code] { exit_code = run_command(*options); });
 }
 

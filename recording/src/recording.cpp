@@ -43,6 +43,22 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
 }
 
+/// Of a deployed system. false: the incarnation is no number.
+[[nodiscard]] bool read_deployment(const nlohmann::json& header, Recording& recording) {
+  if (header.contains("processes")) header.at("processes").get_to(recording.processes);
+  if (header.contains("networked")) header.at("networked").get_to(recording.networked);
+  if (!header.contains("process")) return true;
+  const nlohmann::json& process = header.at("process");
+  Recording::OneProcess& read =
+      recording.process.emplace(Recording::OneProcess{.name = {}, .number = 0, .incarnation = 0});
+  process.at("name").get_to(read.name);
+  process.at("number").get_to(read.number);
+  const auto text = process.at("incarnation").get<std::string>();
+  const char* end = text.data() + text.size();
+  const auto [rest, problem] = std::from_chars(text.data(), end, read.incarnation);
+  return problem == std::errc{} && rest == end;
+}
+
 [[nodiscard]] bool read_scene(const nlohmann::json& scene, Recording& recording) {
   Recording::Scene& read = recording.scene.emplace();
   scene.at("hash").get_to(read.hash);
@@ -73,6 +89,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
       recording.transitions.push_back(
           {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
     read_run(header, recording);
+    if (!read_deployment(header, recording)) return false;
     if (header.contains("scene") && !read_scene(header.at("scene"), recording)) return false;
     if (header.contains("values")) return read_buffers(header.at("values"), recording);
   } catch (const nlohmann::json::exception&) {
@@ -111,6 +128,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::end:
     case Event::Kind::safe:
     case Event::Kind::parameter:
+    case Event::Kind::peer:
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&

@@ -20,7 +20,7 @@ namespace tessera::codegen {
 [[nodiscard]] File format_style();
 
 /// tessera::tables_version that the output is made for; the generated code states it.
-inline constexpr int tables_version_made = 2;
+inline constexpr int tables_version_made = 3;
 
 /// "robot.control.cpp": not "control.cpp", which is the user's, so that a breakpoint there means one line.
 [[nodiscard]] std::string source_name(const Unit& unit);

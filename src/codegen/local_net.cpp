@@ -101,7 +101,9 @@ class Extraction {
 
   [[nodiscard]] std::string transfer(std::string_view what, const net::Operation& operation,
                                      bool sends) const {
-    const std::string slot = operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
+    // Each side of a channel between processes has a memory of its own, which is all that it sees.
+    const bool crosses = model_.crosses_processes(model_.channels[operation.channel.value]);
+    const std::string slot = crosses || operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
     return fmt::format("tessera::{}({}{})", what, quoted(port(operation.channel, sends)), slot);
   }
 

@@ -77,6 +77,11 @@ std::string instance_rows(const Project& project) {
 
 std::string memory_of(const spec::Model& model, const spec::Channel& channel) {
   if (channel.model != spec::none) return "models::" + model.models[channel.model].name;
+  if (model.crosses_processes(channel)) {
+    if (channel.send == Mode::blocking && !channel.send_timeout) return "tessera::networked_single";
+    const bool exchanged = channel.send != Mode::blocking && channel.receive != Mode::blocking;
+    return exchanged ? "tessera::networked_exchange" : "tessera::networked";
+  }
   if (channel.send == Mode::blocking) return "tessera::acknowledged";
   return channel.receive == Mode::blocking ? "tessera::buffered" : "tessera::asynchronous";
 }
@@ -120,6 +125,25 @@ std::string verdict_rows(const verify::Report& report) {
     rows += fmt::format("    {{{}, \"{}\", {}}},\n", quoted(property.name),
                         verdicts[static_cast<std::size_t>(property.verdict)], quoted(property.method));
   return rows;
+}
+
+/// The tables of a deployment; empty: there is none.
+std::string process_tables(const spec::Model& model) {
+  if (!model.deployment) return {};
+  std::string rows, numbers;
+  for (const spec::Process& process : model.deployment->processes)
+    rows += fmt::format("    {{{}, {}, {}}},\n", quoted(process.name), quoted(process.host),
+                        quoted(process.interface));
+  for (const spec::Instance& instance : model.instances)
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", model.agents[instance.agent].process);
+  return table("Process", "processes", rows) +
+         fmt::format("constexpr std::uint32_t process_of[] = {{{}}};\n", numbers);
+}
+
+std::string process_members(const spec::Model& model) {
+  if (!model.deployment) return {};
+  return fmt::format(",\n    .processes = processes, .process_of = process_of, .domain = {}",
+                     model.deployment->domain);
 }
 
 /// What stands in the namespace of the system.
@@ -201,11 +225,11 @@ using namespace std::chrono_literals;
 {4}{5}
 {6}
 {7}{8}{9}
-constexpr tessera::System whole{{
+{15}constexpr tessera::System whole{{
     .tables_version = {2}, .name = "{3}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
-    .real_drivers = {13}, .simulated_drivers = {14}}};
+    .real_drivers = {13}, .simulated_drivers = {14}{16}}};
 // clang-format on
 
 }}  // namespace
@@ -221,7 +245,8 @@ const tessera::System& system() {{ return whole; }}
                           driver_table("simulated_drivers", drivers.simulated),
                       table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
                       report.verification_hash, drivers.classes, drivers.real.empty() ? "{}" : "real_drivers",
-                      drivers.simulated.empty() ? "{}" : "simulated_drivers")};
+                      drivers.simulated.empty() ? "{}" : "simulated_drivers", process_tables(model),
+                      process_members(model))};
 }
 
 File main_source(const Project& project) {

@@ -238,6 +238,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
   for (const std::string& value : parameter_values(specification, options)) append(command, {"--set", value});
   for (const std::string& fault : options.inject) append(command, {"--inject", fault});
   for (const std::string& path : options.hardware) append(command, {"--hardware", path});
+  if (!options.network.empty() && mode == "simulate") append(command, {"--network", options.network});
   if (simulated && mode == "run") command.push_back("--simulated");
   if (simulated && specification.model.simulation) add_world(command, specification, options);
   return command;

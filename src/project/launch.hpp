@@ -21,6 +21,7 @@ struct LaunchOptions {
   std::string folder;  ///< of the run's files (RunFolder)
   /// relative names are relative to this folder
   std::filesystem::path base = std::filesystem::current_path();
+  std::string network;        ///< conditions between simulated processes; empty: the usual ones
   bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is not a failure
   /// paths of the subsystems and buffers with real drivers in a simulated run
   std::vector<std::string> hardware;

@@ -40,6 +40,8 @@ const char* kind_of(const Event& event) {
       return "parameter";
     case Event::Kind::poses:
       return "poses";
+    case Event::Kind::peer:
+      return "peer";
   }
   return "";
 }
@@ -59,6 +61,11 @@ std::string text_of(const Recording& recording, const Entry& entry) {
     case Event::Kind::marking:
       return fmt::format("a segment of the recording begins; {} places hold a token",
                          std::ranges::count(entry.text, '\n') + (entry.text.empty() ? 0 : 1));
+    case Event::Kind::peer: {
+      const std::size_t line = std::min(entry.text.find('\n'), entry.text.size());
+      const std::string start = entry.text.substr(std::min(line + 1, entry.text.size()));
+      return fmt::format("{}: hears start {} of the other process", entry.text.substr(0, line), start);
+    }
     case Event::Kind::call:
       return fmt::format("{}, iteration {}", recording.behaviours[event.instance()][event.subject],
                          event.version);
@@ -77,6 +84,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::end:
     case Event::Kind::safe:
     case Event::Kind::poses:
+    case Event::Kind::peer:
       return "";
     case Event::Kind::stop:
       return "stop: ";

@@ -148,8 +148,17 @@ void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uin
       {*names_.back(), {from, out_port}, {to, in_port}, places, send_timeout, receive_timeout, slots});
 }
 
+void TestSystem::deploy(std::vector<std::uint32_t> process_of) {
+  process_of_ = std::move(process_of);
+  processes_.clear();
+  for (std::uint32_t process = 0; process <= *std::ranges::max_element(process_of_); ++process)
+    processes_.push_back(
+        {*names_.emplace_back(std::make_unique<std::string>("p" + std::to_string(process))), "", ""});
+}
+
 const System& TestSystem::system() {
-  system_ = {tables_version, "test", "", "verification", {}, instances_, channels_, drivers_, drivers_};
+  system_ = {tables_version, "test",   "",       "verification", {},         instances_,
+             channels_,      drivers_, drivers_, processes_,     process_of_};
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

@@ -58,6 +58,8 @@ class TestSystem {
   void connect(std::uint32_t from, std::string_view out_port, std::uint32_t to, std::string_view in_port,
                std::span<const FusedPlace> places, Duration send_timeout = Duration{0},
                Duration receive_timeout = Duration{0}, std::uint16_t slots = 1);
+  /// Puts the instances into processes "p0", "p1", ...: one number per instance.
+  void deploy(std::vector<std::uint32_t> process_of);
   /// Made up from what was added; valid until the next change.
   [[nodiscard]] const System& system();
 
@@ -68,6 +70,8 @@ class TestSystem {
   std::vector<Instance> instances_;
   std::vector<Channel> channels_;
   std::vector<CppDriver> drivers_;
+  std::vector<Process> processes_;
+  std::vector<std::uint32_t> process_of_;
   std::string hash_;
   System system_{};
 };

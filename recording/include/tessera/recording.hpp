@@ -53,9 +53,12 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
 ///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]},
+///      "process": {"name", "number", "incarnation": decimal}, "processes": [name...], "networked": [channel...],
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
-/// with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
+/// ("process": of a run of one process of a deployed system, whose recording has the firings of its own agents
+/// and none of the system's; "processes" and "networked", the channels between processes: of every run of a
+/// deployed system) with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
 ///
 /// A recording without `end` was cut off, because the controller was killed or the disk was full; only its
 /// tail is lost. If the run's clock is simulated, nothing in the file depends on the wall clock. A recording
@@ -63,7 +66,10 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 /// first event is `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
-    firing = 1,   ///< subject: transition; version: of the channel it touched (0: none)
+    /// subject: transition; version: of the channel it touched (0: none). Of a channel between processes, the
+    /// low 32 bits of the number of a value (docs/fleets.md): of a sender, the one that it has written last,
+    /// or writes; of a receiver, the one that it reads; 0: none.
+    firing = 1,
     log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level
     stop = 3,     ///< like log: why the run ended
     fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
@@ -78,6 +84,10 @@ struct Event {
     /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene", in
     /// files that begin with recording_magic_with_poses. Not counted in `sequence`.
     poses = 11,
+    /// Like log: "CHANNEL\nINCARNATION": the start of the process at the other end of a channel that the
+    /// instance deals with from here on. Of a receiver: before it reads a value of that start; of a sender:
+    /// before it learns that a value was taken by it.
+    peer = 12,
     /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15
@@ -146,6 +156,15 @@ struct Recording {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< given to the run
   std::vector<std::string> injected;                            ///< planted faults, as `--inject`
   std::optional<std::int64_t> duration_ns;                      ///< given to the run
+  /// One process of a deployed system.
+  struct OneProcess {
+    std::string name;
+    std::uint32_t number;  ///< into processes
+    std::uint64_t incarnation;
+  };
+  std::optional<OneProcess> process;   ///< nullopt: all that is recorded ran in one
+  std::vector<std::string> processes;  ///< of the deployment; empty: there is none
+  std::vector<std::string> networked;  ///< channels between processes
   /// The simulated world.
   struct Scene {
     struct Body {

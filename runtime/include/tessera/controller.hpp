@@ -58,6 +58,17 @@ struct RunOptions {
   /// everything runs freely, and `duration` begins. Simulated clock only.
   std::string scenario;
   std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
+  /// How processes of a deployed system talk to each other (docs/fleets.md).
+  struct Network {
+    std::string process;        ///< steady clock: the process to run; empty: the whole system
+    std::string library;        ///< that carries messages, steady clock; empty: the one that was installed
+    std::optional<int> domain;  ///< in place of that of the System
+    std::string interface;      ///< in place of that of the process
+    std::vector<std::string> peers;  ///< hosts of the others; empty: those of the System
+    std::optional<std::uint64_t>
+        incarnation;         ///< of this start, greater than all before; unset: the time in ns
+    std::string conditions;  ///< simulated clock: as `--network`; empty: the usual ones
+  } network;
   /// A subsystem that is stuck for good when the run ends is a warning and not a failure.
   bool accept_stuck = false;
   bool progress = false;  ///< shows the progress in one line on standard error, which is rewritten

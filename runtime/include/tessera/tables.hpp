@@ -15,7 +15,7 @@
 /// file and states which version of it was used.
 namespace tessera {
 
-inline constexpr int tables_version = 2;
+inline constexpr int tables_version = 3;
 
 /// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
 /// they evaluate conditions when the token arrives, and store which of the conditional transitions
@@ -128,6 +128,12 @@ struct FusedPlace {
 inline constexpr FusedPlace asynchronous[] = {{words::lock, 1}};
 inline constexpr FusedPlace buffered[] = {{words::empty, 1}, {words::full, 0}};
 inline constexpr FusedPlace acknowledged[] = {{words::empty, 1}, {words::full, 0}, {words::acknowledged, 0}};
+// Of channels between processes (docs/fleets.md). The last is that of a sender that waits without a timeout.
+inline constexpr FusedPlace networked_exchange[] = {{words::sent_memory, 1}, {words::received_memory, 1}};
+inline constexpr FusedPlace networked[] = {
+    {words::idle, 1}, {words::sent, 0}, {words::more, 0}, {words::empty, 1}, {words::full, 0}};
+inline constexpr FusedPlace networked_single[] = {
+    {words::idle, 1}, {words::sent, 0}, {words::empty, 1}, {words::full, 0}};
 
 struct End {
   std::uint32_t instance;  ///< into System::instances
@@ -153,6 +159,13 @@ struct CppDriver {
   bool guarded = false;  ///< the class derives from Guarded
 };
 
+/// A process of a deployed system.
+struct Process {
+  std::string_view name;       ///< "base", "cart[3]"
+  std::string_view host;       ///< its machine; empty: none given
+  std::string_view interface;  ///< network interface of its machine; empty: none given
+};
+
 struct VerifiedProperty {
   std::string_view name, verdict, method;
 };
@@ -168,6 +181,14 @@ struct System {
   std::span<const Channel> channels;
   std::span<const CppDriver> real_drivers;       ///< of the robot's devices
   std::span<const CppDriver> simulated_drivers;  ///< in place of them in a simulated run
+  std::span<const Process> processes{};          ///< empty: all agents are in one
+  std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
+  std::uint32_t domain = 0;                      ///< of DDS
+
+  /// Whether the two ends of a channel are in different processes.
+  [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {
+    return !processes.empty() && process_of[channel.from.instance] != process_of[channel.to.instance];
+  }
 };
 
 }  // namespace tessera

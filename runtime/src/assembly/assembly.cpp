@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "assembly/network_assembly.hpp"
 #include "assembly/planted_faults.hpp"
 #include "assembly/recording_setup.hpp"
 #include "subsystem/parameters.hpp"
@@ -20,12 +21,17 @@ class Assembler {
  public:
   /// waker: nullptr: nobody is woken.
   Assembler(Assembly& assembly, const Clock& clock, Waker* waker, std::string& error)
-      : assembly_(assembly), system_(assembly.system), clock_(clock), waker_(waker), error_(error) {}
+      : assembly_(assembly),
+        part_(assembly.part),
+        system_(assembly.system),
+        clock_(clock),
+        waker_(waker),
+        error_(error) {}
 
   bool run() {
     return check_version() && plan_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
-           read_script() && set_values() && make_devices() && make_channels() && open_recording() &&
-           make_executors();
+           read_script() && set_values() && make_devices() && make_channels() &&
+           open_network(assembly_, clock_, error_) && open_recording() && make_executors();
   }
 
   bool run(LooseParts& loose) {
@@ -36,11 +42,15 @@ class Assembler {
       for (std::uint32_t port = 0; port < parts_[index].ports.size(); ++port)
         if (!make_loose_channel(index, port, loose)) return false;
     for (std::uint32_t index = 0; index < parts_.size(); ++index)
-      loose.parts.push_back({std::move(parts_[index]), plans_[index], net_.first_of_instance[index]});
+      loose.parts.push_back({std::move(parts_[index]), plans_[index], first_transition(index)});
     return true;
   }
 
  private:
+  [[nodiscard]] static std::string path_of(const Instance& instance) {
+    return fmt::format("{}.{}", instance.agent, instance.name);
+  }
+
   bool fail(std::string text) {
     error_ = std::move(text);
     return false;
@@ -56,7 +66,7 @@ class Assembler {
   bool bind() {
     for (const Instance& instance : system_.instances) {
       SubsystemParts& parts = parts_.emplace_back();
-      parts.path = fmt::format("{}.{}", instance.agent, instance.name);
+      parts.path = path_of(instance);
       parts.instance = &instance;
       parts.index = static_cast<std::uint32_t>(parts_.size() - 1);
       parts.subsystem = instance.make();
@@ -71,7 +81,7 @@ class Assembler {
   }
 
   bool plan_faults() {
-    if (!read_faults(assembly_.options, system_, assembly_.faults, error_)) return false;
+    if (!read_faults(assembly_.options, part_, assembly_.faults, error_)) return false;
     assembly_.signals = InjectedSignals(assembly_.faults);
     return true;
   }
@@ -81,10 +91,13 @@ class Assembler {
     channel_of_.resize(parts_.size());
     for (std::size_t index = 0; index < parts_.size(); ++index)
       channel_of_[index].assign(parts_[index].ports.size(), nullptr);
-    for (const Channel& channel : system_.channels)
+    for (std::uint32_t index = 0; index < system_.channels.size(); ++index) {
+      const Channel& channel = system_.channels[index];
       if (!link(channel, channel.from, channel.to, Side::send) ||
           !link(channel, channel.to, channel.from, Side::receive))
         return false;
+      if (part_.is_networked(index)) link_remote(index);
+    }
     return true;
   }
 
@@ -101,6 +114,26 @@ class Assembler {
     link.timeout = side == Side::send ? channel.send_timeout : channel.receive_timeout;
     if (!other.port.empty()) link.peer = other.instance;
     return find_buffer(parts, parts.instance->net->ports[found->second], link);
+  }
+
+  /// The other end is in another process, of which nothing is known here but its name.
+  void link_remote(std::uint32_t index) {
+    const Channel& here = system_.channels[index];
+    const Channel& original = part_.original(index);
+    const auto name = [&](const End& end) {
+      return part_.whole->processes[part_.whole->process_of[end.instance]].name;
+    };
+    for (const auto& [end, other] :
+         {std::pair{&here.from, &original.to}, std::pair{&here.to, &original.from}}) {
+      if (end->port.empty()) continue;
+      PortLink& link = port_of(*end);
+      link.peer = UINT32_MAX;
+      link.remote = name(*other);
+    }
+  }
+
+  [[nodiscard]] PortLink& port_of(const End& end) {
+    return parts_[end.instance].ports[ports_[end.instance].at(end.port)];
   }
 
   bool find_buffer(const SubsystemParts& parts, const Port& port, PortLink& link) {
@@ -139,7 +172,7 @@ class Assembler {
   }
 
   bool check_hash() {
-    net_ = net_of(system_);
+    net_ = net_of(*part_.whole);
     const std::string hash = net_.hash();
     if (hash == system_.net_hash) return true;
     return fail(
@@ -154,13 +187,29 @@ class Assembler {
     return assembly_.scenario.has_value();
   }
 
+  [[nodiscard]] std::uint32_t first_transition(std::uint32_t instance) const {
+    return net_.first_of_instance[part_.instances[instance]];
+  }
+
   [[nodiscard]] std::vector<ParameterOwner> owners() const {
     std::vector<ParameterOwner> all;
     for (const SubsystemParts& parts : parts_) all.push_back({parts.path, parts.bindings.parameters});
     return all;
   }
 
-  bool set_values() { return set_parameters(owners(), assembly_.options.parameters, error_); }
+  /// All processes of a system may be given the same parameters: those of the others are checked, too.
+  bool set_values() {
+    std::vector<ParameterOwner> all = owners();
+    std::vector<std::pair<std::unique_ptr<Subsystem>, Bindings>> elsewhere;
+    if (!assembly_.options.parameters.empty())
+      for (std::uint32_t instance = 0; instance < part_.whole->instances.size(); ++instance)
+        if (!part_.has(instance)) {
+          elsewhere.emplace_back(part_.whole->instances[instance].make(), Bindings{});
+          elsewhere.back().first->bind(elsewhere.back().second);
+          all.push_back({path_of(part_.whole->instances[instance]), elsewhere.back().second.parameters});
+        }
+    return set_parameters(all, assembly_.options.parameters, error_);
+  }
 
   /// Only makes the drivers; they are opened when nothing else can fail any more.
   bool make_devices() {
@@ -192,8 +241,33 @@ class Assembler {
     return true;
   }
 
+  /// One word for each end that is here: the other side of it are the links.
+  bool make_networked(std::uint32_t index) {
+    const Channel& channel = system_.channels[index];
+    for (const Side side : {Side::send, Side::receive}) {
+      const End& end = side == Side::send ? channel.from : channel.to;
+      if (end.port.empty()) continue;
+      const CarriedValue value{value_size(end, side), encoding_of(end, side), value_type(channel)};
+      if (value.encoding == nullptr)
+        return fail(fmt::format("channel {} crosses processes, and values of its type have no fixed size",
+                                channel.name));
+      const MadeEnd made = make_end(assembly_, clock_, index, side, value);
+      port_of(end).end = made.end;
+      if (!connect(end, side, *made.word))
+        return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
+    }
+    return true;
+  }
+
   bool make_channels() {
-    for (const Channel& channel : system_.channels) {
+    make_links(assembly_, clock_);
+    assembly_.channels.resize(system_.channels.size());
+    for (std::uint32_t index = 0; index < system_.channels.size(); ++index) {
+      const Channel& channel = system_.channels[index];
+      if (part_.is_networked(index)) {
+        if (!make_networked(index)) return false;
+        continue;
+      }
       std::uint32_t marking = 0;
       for (std::size_t place = 0; place < channel.places.size() && place < most_shared_places; ++place)
         if (channel.places[place].tokens > 0) marking |= 1U << place;
@@ -201,12 +275,13 @@ class Assembler {
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
-      assembly_.channels.push_back(std::make_unique<SharedChannel>(
-          marking, std::max(sent, received), std::max<std::size_t>(channel.slots, 1), value_type(channel)));
-      if (!connect(channel.from, Side::send) || !connect(channel.to, Side::receive))
+      std::unique_ptr<SharedChannel>& word = assembly_.channels[index].of_sender;
+      word = std::make_unique<SharedChannel>(marking, std::max(sent, received),
+                                             std::max<std::size_t>(channel.slots, 1), value_type(channel));
+      if (!connect(channel.from, Side::send, *word) || !connect(channel.to, Side::receive, *word))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
       const bool to_itself = channel.from.instance == channel.to.instance;
-      if (clock_.simulated() || to_itself) assembly_.channels.back()->set_single_threaded();
+      if (clock_.simulated() || to_itself) word->set_single_threaded();
     }
     return true;
   }
@@ -230,6 +305,14 @@ class Assembler {
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
   }
 
+  /// nullptr: values of that type have no fixed size. Precondition: the end is used.
+  [[nodiscard]] const ValueEncoding* encoding_of(const End& end, Side side) const {
+    const SubsystemParts& parts = parts_[end.instance];
+    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    return side == Side::send ? parts.bindings.outputs[buffer].encoding
+                              : parts.bindings.inputs[buffer].encoding;
+  }
+
   /// nullptr: bytes, or no end is used.
   [[nodiscard]] const ValueType* value_type(const Channel& channel) const {
     for (const auto& [end, side] :
@@ -243,11 +326,11 @@ class Assembler {
   }
 
   /// false: an operation of that end is about a slot that the channel does not have.
-  bool connect(const End& end, Side side) {
+  bool connect(const End& end, Side side, SharedChannel& word) {
     if (end.port.empty()) return true;
     const std::uint32_t port = ports_[end.instance].at(end.port);
-    parts_[end.instance].ports[port].channel = assembly_.channels.back().get();
-    assembly_.channels.back()->connect(side, waker_, end.instance, plans_[end.instance]->ports[port].needs);
+    parts_[end.instance].ports[port].channel = &word;
+    word.connect(side, waker_, end.instance, plans_[end.instance]->ports[port].needs);
     return has_its_slots(end.instance, port);
   }
 
@@ -271,14 +354,15 @@ class Assembler {
     std::optional<WorldScene> scene;
     if (assembly_.world != nullptr) scene = assembly_.world->scene(options.drivers);
     const WorldScene* const shown = scene ? &*scene : nullptr;
-    assembly_.recorder =
-        Recorder::open(options.recording, recording_header(system_, options, net_, parts_, shown),
-                       static_cast<std::uint32_t>(parts_.size()),
-                       simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
-                       longest_recorded_value(options, parts_, shown), options.record_limit,
-                       options.record_limit.segment_bytes == 0
-                           ? nullptr
-                           : std::make_unique<MarkingTrack>(net_, channels_of_transitions()));
+    assembly_.recorder = Recorder::open(
+        options.recording, recording_header(part_, assembly_.incarnation, options, net_, parts_, shown),
+        static_cast<std::uint32_t>(parts_.size()),
+        simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
+        longest_recorded_value(options, parts_, shown), options.record_limit,
+        options.record_limit.segment_bytes == 0
+            ? nullptr
+            : std::make_unique<MarkingTrack>(net_, channels_of_transitions()),
+        part_.instances);
     if (assembly_.recorder == nullptr) return false;
     record_values(options, *assembly_.recorder, parts_);
     if (shown != nullptr) record_poses(*shown);
@@ -299,7 +383,7 @@ class Assembler {
     for (std::uint32_t index = 0; index < parts_.size(); ++index)
       for (const Plan::TransitionEntry& transition : plans_[index]->transitions)
         if (transition.port != Plan::none)
-          channels[net_.first_of_instance[index] + transition.index] =
+          channels[first_transition(index) + transition.index] =
               static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
     return channels;
   }
@@ -310,7 +394,7 @@ class Assembler {
       RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
       parts_[index].changes = assembly_.changes.get();
       assembly_.executors.push_back(std::make_unique<SubsystemExecutor>(
-          index, std::move(parts_[index]), plans_[index], net_.first_of_instance[index],
+          index, std::move(parts_[index]), plans_[index], first_transition(index),
           SubsystemExecutor::Shared{assembly_.control, clock_, *waker_, assembly_.options.monitor}, lane));
       if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
     }
@@ -318,7 +402,8 @@ class Assembler {
   }
 
   Assembly& assembly_;
-  const System& system_;
+  const ProcessPart& part_;
+  const System& system_;  // of the part
   const Clock& clock_;
   Waker* waker_;
   std::string& error_;
@@ -330,6 +415,13 @@ class Assembler {
 };
 
 }  // namespace
+
+std::uint16_t Assembly::Words::marking() const {
+  if (of_receiver == nullptr) return of_sender == nullptr ? std::uint16_t{0} : of_sender->marking();
+  const std::uint16_t there = of_receiver->marking();
+  return of_sender == nullptr ? there
+                              : static_cast<std::uint16_t>((of_sender->marking() & ~receivers) | there);
+}
 
 bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error) try {
   return Assembler(assembly, clock, &waker, error).run();

@@ -3,11 +3,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/devices.hpp"
 #include "drivers/run_control.hpp"
+#include "links/links.hpp"
+#include "links/simulated_network.hpp"
 #include "nets/flat_net.hpp"
+#include "nets/process_part.hpp"
 #include "nets/shared_channel.hpp"
 #include "recorder/pose_recorder.hpp"
 #include "recorder/recorder.hpp"
@@ -25,11 +29,17 @@ class Guardian;
 /// A controller ready to run: every subsystem with its plan, channels, devices and parameters.
 struct Assembly {
   Assembly(const System& its_system, const RunOptions& its_options)
-      : system(its_system),
+      : Assembly(all_of(its_system), its_options) {}
+  Assembly(ProcessPart its_part, const RunOptions& its_options)
+      : part(std::move(its_part)),
+        system(part.system),
         options(its_options),
-        control(static_cast<std::uint32_t>(its_system.instances.size())) {}
+        control(static_cast<std::uint32_t>(part.system.instances.size())) {}
+  Assembly(const Assembly&) = delete;
+  Assembly& operator=(const Assembly&) = delete;
 
-  const System& system;
+  const ProcessPart part;
+  const System& system;  ///< of the part
   const RunOptions& options;
   RunControl control;
   Guardian* guardian = nullptr;  ///< nullptr: none
@@ -45,14 +55,25 @@ struct Assembly {
   Injections faults;
   InjectedSignals signals;
   std::unique_ptr<ParameterChanges> changes;  ///< made with the executors, which take them
-  std::vector<std::unique_ptr<SharedChannel>> channels;
+  /// The words of a channel: one; of a channel between processes, one per end that is here.
+  struct Words {
+    std::unique_ptr<SharedChannel> of_sender, of_receiver;
+    [[nodiscard]] std::uint16_t marking() const;  ///< as far as it is known here. Threads: any
+    std::uint16_t receivers = 0;                  ///< fused places that only the receiver's word knows
+  };
+  std::vector<Words> channels;                ///< per channel; the word of a local one is the sender's
+  std::unique_ptr<network::Carrier> carrier;  ///< steady clock: of messages to other processes; nullptr: none
+  std::unique_ptr<SimulatedNetwork> network;  ///< simulated clock: the same
+  std::unique_ptr<Links> links;               ///< nullptr: there is no channel to another process
+  network::Incarnation incarnation{1};        ///< of this start of the process
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };
 
 /// Checks that the tables are the net that was verified, and puts everything together.
 ///
 /// Errors: other tables version, names that do not resolve, another hash, unknown or bad parameters, real
-///         buffers without a driver, a world, recording or scenario that cannot be opened: false and `error`.
+///         buffers without a driver, a network that cannot be opened, a value without a fixed size on a channel
+///         to another process, a world, recording or scenario that cannot be opened: false and `error`.
 [[nodiscard]] bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error);
 
 /// A subsystem by itself.

@@ -1,5 +1,6 @@
 #include "assembly/planted_faults.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,13 +33,32 @@ template <class Wanted>
 
 }  // namespace
 
-bool read_faults(const RunOptions& options, const System& system, Injections& faults, std::string& error) {
+bool read_faults(const RunOptions& options, const ProcessPart& part, Injections& faults, std::string& error) {
   for (const std::string& text : options.inject) {
-    std::optional<Injection> fault = read_injection(text, system, options.seed, options.duration, error);
+    std::optional<Injection> fault = read_injection(text, *part.whole, options.seed, options.duration, error);
     if (!fault) return false;
+    const bool of_link = fault->kind == Injection::Kind::link;
+    if (of_link && options.clock != RunOptions::Clock::simulated) {
+      error = "--inject " + text + ": links are cut under the simulated clock only";
+      return false;
+    }
+    if (!of_link && fault->kind != Injection::Kind::signal) {
+      const auto own = std::ranges::find(part.instances, fault->instance);
+      if (own == part.instances.end()) continue;
+      fault->instance = static_cast<std::uint32_t>(own - part.instances.begin());
+    }
     faults.push_back(std::make_shared<Injection>(std::move(*fault)));
   }
   return true;
+}
+
+std::vector<Cut> cuts_of(const Injections& faults) {
+  std::vector<Cut> cuts;
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->kind == Injection::Kind::link)
+      cuts.push_back(
+          {fault->processes.first, fault->processes.second, fault->from, fault->from + fault->delay});
+  return cuts;
 }
 
 void plant_subsystem_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock) {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "links/network_conditions.hpp"
+#include "nets/process_part.hpp"
 #include "subsystem/injection.hpp"
 #include "subsystem/subsystem_parts.hpp"
 #include "system/clock.hpp"
@@ -11,9 +14,14 @@ namespace tessera {
 
 /// Reads the faults of `--inject`.
 ///
-/// Errors: as read_injection: false and `error`.
-[[nodiscard]] bool read_faults(const RunOptions& options, const System& system, Injections& faults,
+/// Those of other processes are left out.
+///
+/// Errors: as read_injection; a link that is cut under the steady clock: false and `error`.
+[[nodiscard]] bool read_faults(const RunOptions& options, const ProcessPart& part, Injections& faults,
                                std::string& error);
+
+/// The links that are cut.
+[[nodiscard]] std::vector<Cut> cuts_of(const Injections& faults);
 
 /// Plants the faults of the transition functions. Precondition: the subsystem is made and not bound yet.
 void plant_subsystem_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock);

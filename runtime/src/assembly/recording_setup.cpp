@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 
 #include "recorder/pose_recorder.hpp"
@@ -22,18 +23,35 @@ using nlohmann::ordered_json;
   return options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
 }
 
-void describe_values(const RunOptions& options, std::span<const SubsystemParts> all, ordered_json& header) {
+void describe_deployment(const ProcessPart& part, network::Incarnation incarnation, ordered_json& header) {
+  const System& whole = *part.whole;
+  if (whole.processes.empty()) return;
+  if (part.process)
+    header["process"] = {{"name", whole.processes[*part.process].name},
+                         {"number", *part.process},
+                         {"incarnation", std::to_string(incarnation.value)}};
+  header["processes"] = ordered_json::array();
+  for (const Process& process : whole.processes) header["processes"].push_back(process.name);
+  header["networked"] = ordered_json::array();
+  for (const Channel& channel : whole.channels)
+    if (whole.is_networked(channel)) header["networked"].push_back(channel.name);
+}
+
+void describe_values(const RunOptions& options, const ProcessPart& part, std::span<const SubsystemParts> all,
+                     ordered_json& header) {
   header["parameters"] = options.parameters;
   if (options.duration) header["duration_ns"] = options.duration->count();
   header["behaviours"] = ordered_json::array();
   ordered_json buffers = ordered_json::array();
-  for (const SubsystemParts& parts : all) {
+  for (const Instance& instance : part.whole->instances) {
     ordered_json& behaviours = header["behaviours"].emplace_back(ordered_json::array());
-    for (const Behaviour& behaviour : parts.instance->net->behaviours) behaviours.push_back(behaviour.name);
+    for (const Behaviour& behaviour : instance.net->behaviours) behaviours.push_back(behaviour.name);
+  }
+  for (const SubsystemParts& parts : all) {
     for_buffers(parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
-      buffers.push_back(
-          ordered_json::array({fmt::format("{}.{}", parts.path, buffer.name), parts.index, name_of(direction),
-                               buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
+      buffers.push_back(ordered_json::array(
+          {fmt::format("{}.{}", parts.path, buffer.name), part.instances[parts.index], name_of(direction),
+           buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
     });
   }
   header["values"] = {{"limit", value_limit(options)}, {"buffers", std::move(buffers)}};
@@ -55,8 +73,10 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
 
 }  // namespace
 
-RecordingHeader recording_header(const System& system, const RunOptions& options, const FlatNet& net,
+RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
+                                 const RunOptions& options, const FlatNet& net,
                                  std::span<const SubsystemParts> all, const WorldScene* scene) {
+  const System& system = *part.whole;
   ordered_json header{{"system", system.name},
                       {"net_hash", system.net_hash},
                       {"verification_hash", system.verification_hash}};
@@ -68,11 +88,13 @@ RecordingHeader recording_header(const System& system, const RunOptions& options
   header["clock"] = options.clock == RunOptions::Clock::simulated ? "simulated" : "steady";
   if (!options.inject.empty()) header["injected"] = options.inject;
   header["instances"] = ordered_json::array();
-  for (const SubsystemParts& parts : all) header["instances"].push_back(parts.path);
+  for (const Instance& instance : system.instances)
+    header["instances"].push_back(fmt::format("{}.{}", instance.agent, instance.name));
   header["transitions"] = ordered_json::array();
   for (const FlatNet::FlatTransition& transition : net.transitions)
     header["transitions"].push_back(ordered_json::array({transition.name, transition.instance}));
-  if (options.values != RunOptions::Values::none) describe_values(options, all, header);
+  if (options.values != RunOptions::Values::none) describe_values(options, part, all, header);
+  describe_deployment(part, incarnation, header);
   if (scene != nullptr) describe_scene(*scene, header);
   return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr};
 }

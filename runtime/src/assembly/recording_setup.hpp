@@ -5,6 +5,8 @@
 #include <string>
 
 #include "nets/flat_net.hpp"
+#include "nets/process_part.hpp"
+#include "network/messages.hpp"
 #include "recorder/recorder.hpp"
 #include "subsystem/subsystem_parts.hpp"
 #include "tessera/controller.hpp"
@@ -14,8 +16,10 @@ namespace tessera {
 /// The JSON at the beginning of a recording (tessera/recording.hpp): the net, and with values also what
 /// `simulate --from` needs to know.
 /// scene: nullptr: no poses are recorded.
-[[nodiscard]] RecordingHeader recording_header(const System& system, const RunOptions& options,
-                                               const FlatNet& net, std::span<const SubsystemParts> parts,
+/// The subsystems and transitions are those of the whole system, whatever part of it runs.
+[[nodiscard]] RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
+                                               const RunOptions& options, const FlatNet& net,
+                                               std::span<const SubsystemParts> parts,
                                                const WorldScene* scene);
 
 /// The most bytes that a value, or a frame of poses, takes in the recording; 0: none is recorded.

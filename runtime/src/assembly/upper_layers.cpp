@@ -1,5 +1,7 @@
 #include "assembly/upper_layers.hpp"
 
+#include <utility>
+
 namespace tessera {
 
 // As FlatNet numbers them: t_in and t_out of the system, then a pair per agent.
@@ -9,8 +11,12 @@ constexpr std::uint32_t system_in = 0, system_out = 1;
 [[nodiscard]] constexpr std::uint32_t agent_out(std::uint32_t agent) { return 3 + 2 * agent; }
 }  // namespace
 
-UpperLayers::UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* lane)
-    : agents_left_(static_cast<std::uint32_t>(agents.size())), lane_(lane) {
+UpperLayers::UpperLayers(const std::vector<AgentSpan>& agents, std::vector<std::uint32_t> numbers,
+                         bool of_system, RecordingLane* lane)
+    : numbers_(std::move(numbers)),
+      of_system_(of_system),
+      agents_left_(static_cast<std::uint32_t>(agents.size())),
+      lane_(lane) {
   for (std::uint32_t agent = 0; agent < agents.size(); ++agent) {
     agent_of_.resize(agents[agent].end, agent);
     left_.push_back(agents[agent].end - agents[agent].first);
@@ -18,15 +24,15 @@ UpperLayers::UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* la
 }
 
 void UpperLayers::enter(Time now) {
-  fire(system_in, now);
-  for (std::uint32_t agent = 0; agent < left_.size(); ++agent) fire(agent_in(agent), now);
+  if (of_system_) fire(system_in, now);
+  for (std::uint32_t agent = 0; agent < left_.size(); ++agent) fire(agent_in(numbers_[agent]), now);
 }
 
 void UpperLayers::subsystem_ended(std::uint32_t instance, Time now) {
   const std::uint32_t agent = agent_of_[instance];
   if (--left_[agent] > 0) return;
-  fire(agent_out(agent), now);
-  if (--agents_left_ == 0) fire(system_out, now);
+  fire(agent_out(numbers_[agent]), now);
+  if (--agents_left_ == 0 && of_system_) fire(system_out, now);
 }
 
 void UpperLayers::fire(std::uint32_t transition, Time now) {

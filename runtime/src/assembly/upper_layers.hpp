@@ -14,7 +14,10 @@ namespace tessera {
 /// Threads: the driver's.
 class UpperLayers {
  public:
-  UpperLayers(const std::vector<AgentSpan>& agents, RecordingLane* lane);
+  /// agents: those that run here; numbers: theirs in the net. of_system: they are all, and the transitions of the
+  /// system fire.
+  UpperLayers(const std::vector<AgentSpan>& agents, std::vector<std::uint32_t> numbers, bool of_system,
+              RecordingLane* lane);
 
   /// Fires t_in of the system and of every agent. Then every subsystem may be entered.
   void enter(Time now);
@@ -28,6 +31,8 @@ class UpperLayers {
   void fire(std::uint32_t transition, Time now);
   std::vector<std::uint32_t> agent_of_;  // per instance
   std::vector<std::uint32_t> left_;      // per agent: subsystems that have not ended
+  std::vector<std::uint32_t> numbers_;   // per agent
+  bool of_system_;
   std::uint32_t agents_left_;
   RecordingLane* lane_;
   std::uint64_t firings_ = 0;

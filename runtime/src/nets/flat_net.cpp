@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+#include <optional>
 #include <unordered_map>
 
 #include "tessera/net_hash.hpp"
@@ -42,10 +44,47 @@ class Rebuilding {
         if (!end.port.empty()) ports_[end.instance].emplace(end.port, channel);
     for (std::uint32_t instance = 0; instance < system_.instances.size(); ++instance) add_instance(instance);
     close_upper_layers();
+    add_media();
     return std::move(net_);
   }
 
  private:
+  /// What carries the values of a channel between processes (src/layers/networked.cpp).
+  void add_media() {
+    struct Step {
+      std::string_view name;
+      std::array<std::string_view, 2> takes, gives;
+    };
+    constexpr Step deliver{words::deliver, {words::sent, words::empty}, {words::idle, words::full}};
+    constexpr std::array beyond_one{
+        Step{words::replace, {words::sent, words::full}, {words::idle, words::full}},
+        Step{words::deliver_older, {words::more, words::empty}, {words::more, words::full}},
+        Step{words::lose_older, {words::more, {}}, {words::sent, {}}}};
+    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel) {
+      const Channel& its = system_.channels[channel];
+      if (!system_.is_networked(its) || (its.from.port.empty() && its.to.port.empty())) continue;
+      if (!fused(channel, words::idle)) continue;  // both sides are non-blocking: nothing joins them
+      const auto add = [&](const Step& step) {
+        FlatNet::FlatTransition flat{fmt::format("{}.{}", its.name, step.name), system_instance, {}, {}, ""};
+        for (const std::string_view place : step.takes)
+          if (const auto found = fused(channel, place)) flat.inputs.push_back(*found);
+        for (const std::string_view place : step.gives)
+          if (const auto found = fused(channel, place)) flat.outputs.push_back(*found);
+        net_.transitions.push_back(std::move(flat));
+      };
+      add(deliver);
+      if (fused(channel, words::more))
+        for (const Step& step : beyond_one) add(step);
+    }
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> fused(std::uint32_t channel, std::string_view name) const {
+    const std::span<const FusedPlace> places = system_.channels[channel].places;
+    for (std::uint32_t place = 0; place < places.size(); ++place)
+      if (places[place].name == name) return fused_[channel] + place;
+    return std::nullopt;
+  }
+
   std::uint32_t add_place(std::string name, std::uint32_t tokens = 0) {
     net_.places.push_back({std::move(name), tokens});
     return static_cast<std::uint32_t>(net_.places.size() - 1);

@@ -18,12 +18,13 @@ struct FlatNet {
   };
   struct FlatTransition {
     std::string name;
-    std::uint32_t instance;                      ///< system_instance: of the upper layers
+    std::uint32_t instance;                      ///< system_instance: of the upper layers, or of the network
     std::vector<std::uint32_t> inputs, outputs;  ///< into places
     std::string guard;
   };
   std::vector<FlatPlace> places;
-  /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table.
+  /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table; then
+  /// what the network between processes does, per channel.
   std::vector<FlatTransition> transitions;
   std::vector<std::uint32_t> first_of_instance;  ///< into transitions
 

@@ -66,6 +66,12 @@ class alignas(64) SharedChannel {
   /// fire now. Otherwise: the version that this firing made; the registration of `side` is removed.
   [[nodiscard]] std::uint32_t fire(Side side, std::uint16_t taken, std::uint16_t produced);
 
+  /// As fire, but only if `still()` holds after the word was read that the firing replaces. What a firing of
+  /// the other side has made visible before that word is visible to `still`. Yields to nobody: it is for those
+  /// who do not fire for long.
+  template <class Still>
+  [[nodiscard]] std::uint32_t fire_if(Side side, std::uint16_t taken, std::uint16_t produced, Still still);
+
   /// Registers exactly `wants` (bit i: needs[i]; 0 withdraws). A side that is registered already insists on
   /// its turn. false: one of the needs may be taken now, and nothing was changed.
   [[nodiscard]] bool wait(Side side, std::uint16_t wants);
@@ -183,6 +189,20 @@ inline std::uint32_t SharedChannel::fire(Side side, std::uint16_t taken, std::ui
       if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
       return after.version();
     }
+  }
+}
+
+template <class Still>
+std::uint32_t SharedChannel::fire_if(Side side, std::uint16_t taken, std::uint16_t produced, Still still) {
+  Word before{word_.load(std::memory_order_acquire)};
+  for (;;) {
+    if ((before.marking() & taken) != taken || !still()) return 0;
+    const Word after = before.after_firing(side, taken, produced);
+    if (!word_.compare_exchange_weak(before.bits, after.bits, std::memory_order_acq_rel,
+                                     std::memory_order_acquire))
+      continue;
+    if (after.wants(other(side)) != 0) wake_if_ready(after, other(side));
+    return after.version();
   }
 }
 

@@ -152,7 +152,8 @@ RecordingLane::Backlog RecordingLane::backlog() const {
 std::unique_ptr<Recorder> Recorder::open(const std::string& path, const RecordingHeader& header,
                                          std::uint32_t instances, Mode mode, std::string& error,
                                          std::size_t longest, RunOptions::Limit limit,
-                                         std::unique_ptr<MarkingTrack> track) {
+                                         std::unique_ptr<MarkingTrack> track,
+                                         std::span<const std::uint32_t> numbers) {
   std::unique_ptr<Recorder> recorder(new Recorder);
   if (!recorder->file_.open(path, header, error, limit, std::move(track))) return nullptr;
   // About 24 MB of rings. Each can hold up to a quarter of a second at a million events per second.
@@ -162,7 +163,8 @@ std::unique_ptr<Recorder> Recorder::open(const std::string& path, const Recordin
           ? 0
           : std::max(least, std::min((std::size_t{1} << 20) / (instances + 1), std::size_t{1} << 18));
   for (std::uint32_t instance = 0; instance < instances; ++instance)
-    recorder->lanes_.push_back(std::make_unique<RecordingLane>(instance, recorder->file_, capacity));
+    recorder->lanes_.push_back(std::make_unique<RecordingLane>(numbers.empty() ? instance : numbers[instance],
+                                                               recorder->file_, capacity));
   const std::size_t of_world = header.has_scene ? capacity : 0;
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, of_world));
   recorder->lanes_.push_back(std::make_unique<RecordingLane>(system_instance, recorder->file_, capacity));

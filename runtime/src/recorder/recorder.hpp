@@ -138,11 +138,12 @@ class Recorder {
  public:
   enum class Mode : std::uint8_t { direct, threaded };
   /// nullptr and `error` if the file cannot be created. longest: length of the longest value in bytes.
-  /// limit, track: as in RecordingFile::open.
+  /// limit, track: as in RecordingFile::open. numbers: of the instances in the recording; empty: 0, 1, ...
   [[nodiscard]] static std::unique_ptr<Recorder> open(const std::string& path, const RecordingHeader& header,
                                                       std::uint32_t instances, Mode mode, std::string& error,
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
-                                                      std::unique_ptr<MarkingTrack> track = nullptr);
+                                                      std::unique_ptr<MarkingTrack> track = nullptr,
+                                                      std::span<const std::uint32_t> numbers = {});
   /// Writes nothing: everything is only counted. The tally must live longer.
   [[nodiscard]] static std::unique_ptr<Recorder> counting(std::uint32_t instances, RunTally& tally);
   ~Recorder();

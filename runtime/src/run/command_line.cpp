@@ -25,6 +25,8 @@ struct Words {
   std::string duration, parameter_file, record_limit, simulation;
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
+  int domain = -1;
+  std::uint64_t incarnation = 0;
   WorldOptions world;
   bool unwatched = false, controlled = false;
 };
@@ -75,7 +77,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       .add_option("--inject", options.inject,
                   "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
                   "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
-                  "signal:SIGINT@2s; WHEN may be `any`")
+                  "signal:SIGINT@2s, link:base-cart[0]:cut=2s@3s; WHEN may be `any`")
       ->allow_extra_args(false);
   command
       .add_option(
@@ -97,6 +99,26 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->check(CLI::PositiveNumber);
 }
 
+void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& network, Words& words) {
+  constexpr int largest_domain = 232;
+  run.add_option("--process", network.process, "The process of the deployment to run (docs/fleets.md)");
+  run.add_option("--carrier-library", network.library,
+                 "Library that carries messages to other processes (default: that of the installation)");
+  run.add_option("--domain", words.domain, "DDS domain, in place of that of the specification")
+      ->check(CLI::Range(0, largest_domain));
+  run.add_option("--interface", network.interface,
+                 "Network interface, in place of that of the specification");
+  run.add_option("--peers", network.peers,
+                 "A,B: hosts of the other processes, in place of those of the specification")
+      ->delimiter(',');
+  run.add_option("--incarnation", words.incarnation,
+                 "Number of this start of the process, greater than all before (default: the time in ns)")
+      ->check(CLI::PositiveNumber);
+  simulate.add_option("--network", network.conditions,
+                      "Network between processes: delay=2ms,jitter=1ms,loss=0.1,duplicate=0.01,reorder=0.05 "
+                      "(default: delay=1ms)");
+}
+
 /// Returns what is wrong with the words; empty: nothing, and the options are filled.
 [[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
   if (!words.duration.empty()) {
@@ -110,6 +132,8 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       return fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit);
     options.record_limit = *limit;
   }
+  if (words.domain >= 0) options.network.domain = words.domain;
+  if (words.incarnation > 0) options.network.incarnation = words.incarnation;
   for (const std::string& assignment : words.parameters) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -219,6 +243,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     command->configurable();
     describe_common(*command, line, words);
   }
+  describe_network(*run, *simulate, line.options.network, words);
   run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
   run->add_flag("!--no-guardian", line.options.guardian,
                 "No guardian process, for debuggers that stop the controller (docs/safety.md)");

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <ctime>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -109,7 +110,7 @@ template <class Run>
                                               std::string& error) {
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
   RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
-  UpperLayers upper(agents_of(assembly.system), lane);
+  UpperLayers upper(agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
   OpenDevices devices(assembly);
   if (!devices.open(error)) return std::nullopt;
   std::optional<LastChance> last_chance;
@@ -178,13 +179,59 @@ template <class Run>
 
 }  // namespace
 
+namespace {
+
+/// Greater than that of every earlier start, if the clock of the machine goes on.
+[[nodiscard]] network::Incarnation incarnation_of(const RunOptions& options) {
+  if (options.clock == RunOptions::Clock::simulated) return {1};
+  if (options.network.incarnation) return {*options.network.incarnation};
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return {static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec)};
+}
+
+[[nodiscard]] std::string names_of(std::span<const Process> processes) {
+  std::string names;
+  for (const Process& process : processes) names += (names.empty() ? "" : ", ") + std::string(process.name);
+  return names;
+}
+
+/// nullopt and `error`: it is not said what to run.
+[[nodiscard]] std::optional<ProcessPart> part_to_run(const System& system, const RunOptions& options,
+                                                     std::string& error) {
+  const std::string& process = options.network.process;
+  if (options.clock == RunOptions::Clock::simulated) {
+    if (process.empty()) return all_of(system);
+    error = "the simulated clock runs all processes at once; --process is for real time";
+    return std::nullopt;
+  }
+  if (process.empty() && system.processes.size() < 2) return all_of(system);
+  if (process.empty()) {
+    error = fmt::format("{} is deployed in {} processes; say which one runs here: --process NAME ({})",
+                        system.name, system.processes.size(), names_of(system.processes));
+    return std::nullopt;
+  }
+  std::optional<ProcessPart> part = part_of(system, process);
+  if (!part)
+    error = system.processes.empty()
+                ? fmt::format("{} is not deployed in processes, so there is no process '{}'", system.name,
+                              process)
+                : fmt::format("{} has no process '{}'; there are {}", system.name, process,
+                              names_of(system.processes));
+  return part;
+}
+
+}  // namespace
+
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
   return execute(system, options, nullptr, error);
 }
 
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, RunTally* tally,
                                   std::string& error) {
-  const auto instances = static_cast<std::uint32_t>(system.instances.size());
+  std::optional<ProcessPart> part = part_to_run(system, options, error);
+  if (!part) return std::nullopt;
+  const auto instances = static_cast<std::uint32_t>(part->system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
   // From before the first driver is made until the last is gone. Only the steady clock can be suspended.
@@ -193,14 +240,15 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
                             : simulated  ? Suspension::ends_run
                                          : Suspension::noted);
   // Must run before there are threads.
-  Companions companions(system, options);
+  Companions companions(part->system, options);
   if (!companions.start_guardian(error)) return std::nullopt;
   // Nothing real waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
   companions.watch();
-  Assembly assembly(system, options);
+  Assembly assembly(std::move(*part), options);
   assembly.guardian = companions.guardian();
+  assembly.incarnation = incarnation_of(options);
   assembly.tally = tally;
   if (simulated) {
     SimulatedRun run(instances, options.seed);

@@ -98,6 +98,7 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
       executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
   calls_->end();
   if (one && executor.firings() != before) remote_->fired(instance);
+  if (executor.firings() != before) last_firing_ = clock_.now();
   if (progress.state == SubsystemExecutor::State::ready) {
     if (!assembly.options.interleave) {
       unfinished_ = instance;
@@ -199,10 +200,13 @@ bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size
     const SubsystemExecutor::FollowProgress progress = executor.follow();
     calls_->end();
     if (progress.state == SubsystemExecutor::Followed::waiting) {
-      if (progress.deadline == Time::max()) return false;
-      move_to(assembly, std::max(progress.deadline, clock_.now()));
+      if (serve_links(assembly)) continue;
+      const Time next = std::min(progress.deadline, next_of_links(assembly));
+      if (next == Time::max()) return false;
+      move_to(assembly, std::max(next, clock_.now()));
       continue;
     }
+    last_firing_ = clock_.now();
     const std::string_view local = std::string_view(step.name).substr(executor.path().size() + 1);
     executor.note(progress.forced.empty()
                       ? fmt::format("scenario {}/{}: {}", index + 1, assembly.scenario->steps.size(), local)
@@ -230,6 +234,24 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
   return ending;
 }
 
+/// What has arrived, what ends of channels have to send. true: there was something.
+bool SimulatedRun::serve_links(Assembly& assembly) {
+  if (assembly.links == nullptr) return false;
+  const Time now = clock_.now();
+  if (!assembly.links->has_work(now) && assembly.network->next() > now) return false;
+  assembly.links->serve(now);
+  return true;
+}
+
+/// Time::max(): never, or no subsystem has fired or waits for a time for so long that nothing will come of it.
+Time SimulatedRun::next_of_links(const Assembly& assembly) const {
+  constexpr Duration hopeless = std::chrono::minutes(1);
+  if (assembly.links == nullptr) return Time::max();
+  const Time since = std::max(last_firing_, assembly.network->last_cut());
+  if (deadlines_.empty() && clock_.now() - since > hopeless) return Time::max();
+  return std::min(assembly.links->next(), assembly.network->next());
+}
+
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   const std::optional<Duration> duration = assembly.options.duration;
   Pace pace(assembly.options.realtime, !assembly.options.hardware.empty(), remote_.get(), signals);
@@ -254,8 +276,11 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(),
                     world_failure_);
     if (upper.ended()) return ending("net ended", false);
+    if (serve_links(assembly)) continue;
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
-    if (next != Time::max()) next = std::min(next, assembly.signals.next());
+    const Time linked = next_of_links(assembly);
+    if (next != Time::max() || linked != Time::max())
+      next = std::min({next, linked, assembly.signals.next()});
     if (next == Time::max())
       return ending("stopped: " + why_nothing_happens(assembly), true, Failure::deadlock);
     stuck_.look(assembly, clock_.now());

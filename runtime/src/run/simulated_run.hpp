@@ -52,6 +52,8 @@ class SimulatedRun final : public Waker {
   [[nodiscard]] std::uint32_t draw_ready();
   [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
+  [[nodiscard]] bool serve_links(Assembly& assembly);
+  [[nodiscard]] Time next_of_links(const Assembly& assembly) const;
   void move_to(Assembly& assembly, Time time);
   void follow_emergency(Assembly& assembly);
 
@@ -62,6 +64,7 @@ class SimulatedRun final : public Waker {
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn has not ended
   std::unique_ptr<RemoteControl> remote_;    // only for a run that is watched
   DeadlineQueue deadlines_, beats_;
+  Time last_firing_{};
   EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   RunSummary::Failure world_failure_ = RunSummary::Failure::none;

@@ -30,6 +30,9 @@ constexpr Duration world_step = std::chrono::milliseconds(1);
 constexpr Duration longest_world_step = std::chrono::milliseconds(10);
 // A slow world makes up for at most this delay.
 constexpr Duration most_behind = std::chrono::milliseconds(200);
+constexpr Duration longest_wait_for_network = std::chrono::milliseconds(100);
+// After the end, repeated values are still answered for so long; so long are values sent that nobody has taken.
+constexpr Duration farewell = std::chrono::milliseconds(250), longest_farewell = std::chrono::seconds(2);
 constexpr Duration progress_step = std::chrono::milliseconds(200);
 // After this delay, the devices of threads that have not ended get their safe command.
 constexpr Duration security_delay = std::chrono::milliseconds(20);
@@ -38,6 +41,15 @@ constexpr Duration first_patience = std::chrono::seconds(1);
 
 [[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
   return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
+}
+
+/// Whether some subsystem waits for another process, which nobody here can judge.
+[[nodiscard]] bool waits_for_network(const Assembly& assembly) {
+  return std::ranges::any_of(assembly.executors, [](const auto& executor) {
+    return std::ranges::any_of(executor->operations().parts().ports, [](const PortLink& port) {
+      return port.end != nullptr && port.channel->waiting(port.side) != SharedChannel::Waiting::no;
+    });
+  });
 }
 
 }  // namespace
@@ -153,6 +165,22 @@ void SteadyRun::run_world(Assembly& assembly) {
   if (!survived) tell_supervisor();
 }
 
+/// When the agents here have ended, others may still need what they have sent, and to know what was taken.
+void SteadyRun::run_links(Assembly& assembly) {
+  Links& links = *assembly.links;
+  RunControl& control = assembly.control;
+  const AlternateStack stack;
+  const bool survived = survives_in_thread(control, "the network", [&] {
+    while (!control.stopping()) links.serve(clock_.now() + longest_wait_for_network);
+    if (!net_ended_.load(std::memory_order_acquire)) return;
+    const Time stopped = clock_.now();
+    for (Time now = stopped; now < stopped + (links.pending() ? longest_farewell : farewell);
+         now = clock_.now())
+      links.serve(now + farewell);
+  });
+  if (!survived) tell_supervisor();
+}
+
 void SteadyRun::say_world_is_slow() {
   if (std::exchange(world_is_slow_, true)) return;
   console::print(LogLevel::warning, clock_.now(), "tessera",
@@ -163,6 +191,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   if (wants_realtime(assembly.system.instances))
     if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
   clock_.restart();
+  if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
   assembly.control.tell_of_emergencies(news_);
   if (const int signal = StopSignals::pending(); signal != 0)
     assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
@@ -176,7 +205,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
     survives_in_thread(assembly.control, "no thread for every subsystem",
                        [&] { start_threads(assembly, threads); });
     survives_in_thread(assembly.control, "the supervisor", [&] { supervise(assembly, upper, securing); });
-    wake_all(static_cast<std::uint32_t>(assembly.executors.size()));
+    wake_all(assembly);
     while (
         !survives_in_thread(assembly.control, "the supervisor", [&] { await_threads(assembly, securing); }))
       continue;
@@ -206,7 +235,8 @@ Ending SteadyRun::ending(const Assembly& assembly, const UpperLayers& upper) con
 }
 
 void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& threads) {
-  threads.reserve(assembly.executors.size() + 1);
+  threads.reserve(assembly.executors.size() + 2);
+  if (assembly.links != nullptr) threads.emplace_back([&] { run_links(assembly); });
   if (assembly.world != nullptr) threads.emplace_back([&] { run_world(assembly); });
   for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
     threads.emplace_back([this, &assembly, instance] {
@@ -237,6 +267,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     follow_emergency(emergencies, control, securing, lane);
     const Time now = clock_.now();
     if (upper.ended()) {
+      net_ended_.store(true, std::memory_order_release);
       control.request_stop("net ended", /*fault=*/false);
     } else if (const int signal = StopSignals::pending(); signal != 0) {
       control.request_stop(StopSignals::name(signal), /*fault=*/false);
@@ -247,7 +278,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     } else if (now >= end) {
       duration_over_ = true;
       control.request_stop("duration", /*fault=*/false);
-    } else if (stillness.look(now, wake_words_.get(), gone)) {
+    } else if (stillness.look(now, wake_words_.get(), gone) && !waits_for_network(assembly)) {
       control.request_stop(why_nothing_happens(assembly), /*fault=*/true);
     } else {
       if (stillness.changed()) look_for_stuck(assembly, stillness, securing, now);
@@ -291,6 +322,7 @@ void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
   if (const int signal = StopSignals::pending(); signal != 0)
     return control.request_stop(StopSignals::name(signal), /*fault=*/false);
   stop_process(since, lane);
+  if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
   StopSignals::resume();
   control.resume(clock_.now() + Duration(1));
 }
@@ -389,9 +421,11 @@ void SteadyRun::await_news(Time until) const {
   StopSignals::take_news();
 }
 
-void SteadyRun::wake_all(std::uint32_t instances) {
+void SteadyRun::wake_all(const Assembly& assembly) {
   world_wakes_.wake();
-  for (std::uint32_t instance = 0; instance < instances; ++instance) wake_words_[instance].wake();
+  if (assembly.links != nullptr) assembly.links->wake(0);
+  for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance)
+    wake_words_[instance].wake();
 }
 
 }  // namespace tessera

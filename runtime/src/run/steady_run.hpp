@@ -39,6 +39,7 @@ class SteadyRun final : public Waker {
              const SubsystemExecutor::Progress& progress) const;
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(Assembly& assembly);
+  void run_links(Assembly& assembly);
   void say_world_is_slow();
   void start_threads(Assembly& assembly, std::vector<std::thread>& threads);
   void tell_supervisor() const;
@@ -58,7 +59,7 @@ class SteadyRun final : public Waker {
   void await_threads(const Assembly& assembly, Securing& securing);
   void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
   void secure_devices(Securing& securing) const;
-  void wake_all(std::uint32_t instances);
+  void wake_all(const Assembly& assembly);
 
   SteadyClock clock_;
   std::unique_ptr<WakeWord[]> wake_words_;
@@ -69,6 +70,7 @@ class SteadyRun final : public Waker {
   int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
   std::uint32_t started_ = 0;  // number of instances whose threads have been started
   bool duration_over_ = false;
+  std::atomic<bool> net_ended_{false};
   Time world_time_{};                // used by the world's thread while it runs
   bool world_is_slow_ = false;       // used by the world's thread while it runs
   std::atomic<bool> denied_{false};  // it has been reported that real time was not permitted

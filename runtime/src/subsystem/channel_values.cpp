@@ -25,6 +25,7 @@ ChannelValues::ChannelValues(const SubsystemParts& parts, const RunControl& cont
   for (std::size_t index = 0; index < inputs_.size(); ++index)
     inputs_[index].arrival = parts_.bindings.inputs[index].arrival;
   for (const PortLink& port : parts_.ports) {
+    if (port.end != nullptr) remote_.push_back(&port);
     if (port.side != Side::receive) continue;
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
@@ -49,12 +50,13 @@ void ChannelValues::find_received_inputs() {
 void ChannelValues::write(std::uint32_t port, std::uint16_t slot, Time now, bool valid) {
   const PortLink& link = parts_.ports[port];
   const Bindings::Outgoing& output = parts_.bindings.outputs[link.buffer];
+  output.departure->stamp = now;
+  if (link.end != nullptr) return link.end->write(output.value, now, valid);
   SharedChannel::Memory& memory = link.channel->memory(slot);
   assign(memory.bytes.data(), output.value, output.size, output.type);
   memory.stamp = now;
   memory.valid = valid;
   memory.sequence = link.channel->next_sequence();
-  output.departure->stamp = now;
 }
 
 /// A slot may hold a value that was read before, or an older one: only a newer one is fresh.
@@ -101,6 +103,13 @@ void ChannelValues::await_inputs(std::uint16_t behaviour) {
 void ChannelValues::refresh_ages(Time now) {
   for (const Input& input : inputs_)
     if (input.sequence != 0) input.arrival->age = age(input.arrival->stamp, now);
+  for (const PortLink* const port : remote_) {
+    const bool disconnected = port->end->disconnected();
+    if (port->side == Side::receive)
+      parts_.bindings.inputs[port->buffer].arrival->disconnected = disconnected;
+    else
+      parts_.bindings.outputs[port->buffer].departure->disconnected = disconnected;
+  }
 }
 
 void ChannelValues::mark_seen() {

@@ -28,7 +28,7 @@ class ChannelValues {
 
   /// From now on, commands to devices need a valid value on every input that this behaviour receives.
   void await_inputs(std::uint16_t behaviour);
-  /// Sets the ages of the values to those at `now`.
+  /// Sets the ages of the values to those at `now`, and whether other processes are heard of.
   void refresh_ages(Time now);
   /// The transition function has seen every value.
   void mark_seen();
@@ -54,6 +54,7 @@ class ChannelValues {
 
   const SubsystemParts& parts_;
   const RunControl& control_;
+  std::vector<const PortLink*> remote_;               // to other processes
   std::vector<Input> inputs_;                         // as Bindings::inputs
   std::vector<std::vector<std::uint32_t>> received_;  // per behaviour: inputs; only with effectors
 };

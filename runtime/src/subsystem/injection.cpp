@@ -55,9 +55,13 @@ class InjectionReader {
       return fail("expected FAULT@WHEN, for example robot.control:throw@2.5s");
     const std::string front = text.substr(0, colon), back = text.substr(colon + 1, at - colon - 1);
     const bool known = front == "signal"                        ? signal(back)
+                       : front == "link"                        ? link(back)
                        : front == "device" || front == "silent" ? device(front, back)
                                                                 : function(front, back);
-    return known && when(text.substr(at + 1));
+    if (!known || !when(text.substr(at + 1))) return false;
+    if (fault_.kind == Injection::Kind::link && !fault_.once)
+      return fail("a cut begins at one time, for example link:base-cart:cut=2s@3s");
+    return true;
   }
 
   bool signal(const std::string& name) {
@@ -67,6 +71,31 @@ class InjectionReader {
     if (fault_.signal == 0)
       return fail("'" + name + "' is no signal that stops a run, such as SIGINT or SIGHUP");
     return true;
+  }
+
+  /// "base-cart[0]:cut=2s". Names of processes may contain a hyphen.
+  bool link(const std::string& text) {
+    fault_.kind = Injection::Kind::link;
+    const std::size_t cut = text.rfind(":cut=");
+    if (cut == std::string::npos) return fail("expected link:PROCESS-PROCESS:cut=TIME@WHEN");
+    if (!read_time(text.substr(cut + 5), fault_.delay)) return false;
+    const std::string pair = text.substr(0, cut);
+    for (std::size_t at = pair.find('-'); at != std::string::npos; at = pair.find('-', at + 1)) {
+      const auto one = process(pair.substr(0, at)), other = process(pair.substr(at + 1));
+      if (!one || !other || one == other) continue;
+      fault_.processes = {*one, *other};
+      return true;
+    }
+    std::string known;
+    for (const Process& process : system_.processes)
+      known += (known.empty() ? "" : ", ") + std::string(process.name);
+    return fail("'" + pair + "' names no two processes" + (known.empty() ? "" : "; there are " + known));
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> process(std::string_view name) const {
+    const auto found = std::ranges::find(system_.processes, name, &Process::name);
+    if (found == system_.processes.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - system_.processes.begin());
   }
 
   bool device(const std::string& kind, const std::string& path) {
@@ -89,7 +118,7 @@ class InjectionReader {
     if (std::find(known.begin(), known.end(), name) == known.end())
       return fail(with_hint("unknown fault '" + name +
                                 "'; there are throw, stall=TIME, nan, inf, and the prefixes "
-                                "device:, silent:, signal:",
+                                "device:, silent:, signal:, link:",
                             did_you_mean(name, known)));
     if ((name == "stall") != (equals != std::string::npos))
       return fail(name == "stall" ? "stall needs a time, for example stall=200ms"

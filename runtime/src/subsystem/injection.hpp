@@ -23,11 +23,13 @@ struct Injection {
     number,     ///< every floating-point number of the outputs becomes `number`
     device,     ///< the device throws (receptor) or refuses (effector)
     silence,    ///< the real receptor has no value
-    signal      ///< the process gets `signal`
+    signal,     ///< the process gets `signal`
+    link        ///< two processes do not hear each other for `delay`
   } kind = Kind::exception;
-  std::string text;            ///< as it was written
-  std::uint32_t instance = 0;  ///< into System::instances
-  std::string part;            ///< behaviour or real buffer; empty: all of the subsystem
+  std::string text;                                     ///< as it was written
+  std::uint32_t instance = 0;                           ///< into System::instances
+  std::pair<std::uint32_t, std::uint32_t> processes{};  ///< into System::processes
+  std::string part;  ///< behaviour or real buffer; empty: all of the subsystem
   Duration delay{0};
   double number = 0;
   int signal = 0;
@@ -54,6 +56,7 @@ using Injections = std::vector<std::shared_ptr<Injection>>;
 ///     SUBSYSTEM[.BEHAVIOUR]:throw@WHEN   :stall=TIME@WHEN   :nan@WHEN   :inf@WHEN
 ///     device:SUBSYSTEM[.BUFFER]@WHEN     silent:RECEPTOR[.BUFFER]@WHEN
 ///     signal:SIGINT@WHEN                 (or another signal that stops a run)
+///     link:PROCESS-PROCESS:cut=TIME@WHEN (WHEN is a time, or `any`)
 ///
 /// WHEN: `2s` the first chance from then on; `2s..` every chance from then on; `2s..3s` every chance in
 /// between; `any` the first chance from a time on that is drawn from the seed, within the run's duration.

@@ -158,6 +158,7 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
     }
     if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
       --registrations_;  // firing voids them
+    if (link.end != nullptr) version = tell_network(*link.end, transition);
   }
   ++firings_;
   if (lane_ != nullptr) {
@@ -167,6 +168,13 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
   }
   if (transition.tells_of_timeout) tell_of_timeout(transition);
   return true;
+}
+
+/// Returns what the event says in place of a version.
+std::uint32_t SubsystemExecutor::tell_network(NetworkEnd& end, const Plan::TransitionEntry& transition) {
+  if (lane_ != nullptr) renew_time();
+  const bool elapsed = transition.guard.kind == Guard::Kind::elapsed;
+  return end.fired({transition.taken, transition.produced, elapsed}, now_, lane_);
 }
 
 void SubsystemExecutor::tell_of_timeout(const Plan::TransitionEntry& transition) {

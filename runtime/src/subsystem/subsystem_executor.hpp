@@ -159,6 +159,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool locally_enabled(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] bool condition_holds(const Plan::TransitionEntry& transition) const;
   [[nodiscard]] Time elapses(const Plan::TransitionEntry& transition) const;
+  [[nodiscard]] std::uint32_t tell_network(NetworkEnd& end, const Plan::TransitionEntry& transition);
   void tell_of_timeout(const Plan::TransitionEntry& transition);
 
   void move_tokens(const Plan::TransitionEntry& transition);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/device_life.hpp"
+#include "links/network_end.hpp"
 #include "nets/shared_channel.hpp"
 #include "recorder/value_recorder.hpp"
 #include "subsystem/injection.hpp"
@@ -22,7 +23,9 @@ struct PortLink {
   Side side = Side::send;
   std::uint32_t buffer = 0;         ///< into Bindings::inputs or outputs
   Duration timeout{0};              ///< zero: waits for ever
-  std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none
+  std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none, or in another process
+  NetworkEnd* end = nullptr;        ///< of a channel to another process
+  std::string_view remote{};        ///< that process
 };
 
 /// The parts of a subsystem besides its net.

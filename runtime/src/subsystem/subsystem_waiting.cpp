@@ -118,7 +118,10 @@ std::string SubsystemExecutor::whereabouts(const System& system) const {
       if (transition.port == Plan::none) continue;
       const std::uint32_t peer = operations_.parts().ports[transition.port].peer;
       const std::string_view port = instance.net->ports[transition.port].name;
-      if (peer == UINT32_MAX)
+      if (operations_.parts().ports[transition.port].end != nullptr)
+        text += fmt::format(" waits for process {} over '{}'",
+                            operations_.parts().ports[transition.port].remote, port);
+      else if (peer == UINT32_MAX)
         text += fmt::format(" waits for the other end of '{}', which no behaviour uses", port);
       else
         text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer].agent,

@@ -188,7 +188,7 @@ bool RemoteControl::holds(const Breakpoint& breakpoint) const {
     return assembly_.executors[breakpoint.instance]->wants_to_fire(breakpoint.index);
   if (breakpoint.instance != UINT32_MAX)
     return assembly_.executors[breakpoint.instance]->holds(breakpoint.index);
-  return (assembly_.channels[breakpoint.channel]->marking() >> breakpoint.index & 1U) != 0;
+  return (assembly_.channels[breakpoint.channel].marking() >> breakpoint.index & 1U) != 0;
 }
 
 void RemoteControl::about_to_fire() {

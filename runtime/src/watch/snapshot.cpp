@@ -51,7 +51,7 @@ Snapshot take_snapshot(const Assembly& assembly, const Clock& clock) {
   for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance)
     snapshot.subsystems.push_back(show(assembly, instance));
   for (std::size_t index = 0; index < assembly.channels.size(); ++index)
-    snapshot.channels.push_back(show(assembly.system.channels[index], assembly.channels[index]->marking()));
+    snapshot.channels.push_back(show(assembly.system.channels[index], assembly.channels[index].marking()));
   snapshot.time_s = seconds_of(clock.now().time_since_epoch().count());
   if (assembly.control.emergency()) snapshot.emergency = assembly.control.emergency_reason();
   return snapshot;

@@ -52,6 +52,7 @@ class Search {
   [[nodiscard]] bool can_be_freed(std::uint32_t instance) {
     return std::ranges::any_of(*lacks_[instance], [&](const Lack& lack) {
       const PortLink& port = ports_of(assembly_, instance)[lack.port];
+      if (port.end != nullptr) return true;  // nobody here knows what another process may do
       return !silent(port.peer) && (lack.tokens & ~given_by(port.peer, port.channel)) == 0;
     });
   }
@@ -86,7 +87,7 @@ std::vector<std::uint32_t> stuck_among_resting(const Assembly& assembly, const s
       const SharedChannel::Waiting waiting = port.channel->waiting(port.side);
       if (waiting == SharedChannel::Waiting::no) continue;
       waits = true;
-      if (waiting == SharedChannel::Waiting::may_take) return true;
+      if (waiting == SharedChannel::Waiting::may_take || port.end != nullptr) return true;
       if (port.peer != UINT32_MAX && !stuck[port.peer] && !assembly.control.has_ended(port.peer)) return true;
     }
     return !waits;

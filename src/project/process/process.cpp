@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "project/process/spawn.hpp"
 #include "tessera/signals.hpp"
 
 namespace tessera::project {
@@ -81,27 +81,6 @@ class SignalsToChild {
   std::vector<Before> before_;
 };
 
-pid_t start(const Command& command, posix_spawn_file_actions_t* actions, bool own_group = false) {
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  // A process that waits for signals blocks them; the program that it starts must
-  // receive them all the same.
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(
-      &attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | (own_group ? POSIX_SPAWN_SETPGROUP : 0)));
-  pid_t child = 0;
-  const int problem = posix_spawnp(&child, arguments[0], actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  if (problem != 0)
-    throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(problem)));
-  return child;
-}
-
 /// The reading end of the child's output.
 class Output {
  public:
@@ -115,7 +94,7 @@ class Output {
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     try {
-      child_ = start(command, &actions, own_group);
+      child_ = spawn(command, &actions, own_group);
     } catch (...) {
       posix_spawn_file_actions_destroy(&actions);
       close(ends[0]);
@@ -181,7 +160,7 @@ int wait_for(pid_t child) {
 
 Exit run(const Command& command) {
   SignalsToChild signals;
-  const pid_t child = start(command, nullptr);
+  const pid_t child = spawn(command, nullptr, /*own_group=*/false);
   signals.are_for(child);
   return {wait_for(child), {}};
 }

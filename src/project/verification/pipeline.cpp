@@ -68,12 +68,6 @@ Draft draft_of(diagnostics::Diagnostics& text) {
   draft.is_model = draft.known && !text.has_errors();
   if (!draft.is_model) return draft;
   judge_models(*draft.known, text);
-  if (draft.known->deployment) {
-    text.note("N317", draft.known->deployment->span,
-              "processes are not executed yet: here all agents are shown, judged and run in one process",
-              "`tessera verify` judges the system as it is deployed");
-    draft.known = spec::in_one_process(std::move(*draft.known));
-  }
   draft.nets = build_what_is_possible(*draft.known, text);
   return draft;
 }
@@ -90,12 +84,6 @@ std::optional<Nets> build(const Specification& specification, Listener& listener
   std::optional<Nets> nets = build(specification.model, found);
   listener.say(found);
   return nets;
-}
-
-std::optional<Nets> build_executed(const Specification& specification, Listener& listener) {
-  Specification executed = specification;
-  executed.model = spec::in_one_process(std::move(executed.model));
-  return build(executed, listener);
 }
 
 bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
@@ -174,26 +162,12 @@ bool passes(const Nets& nets, const verify::Report& report, const VerificationGa
   return false;
 }
 
-/// Controllers are made of one process; nobody shall believe that theirs was made of several.
-void leave_out_deployment(Specification& specification, Listener& listener) {
-  if (!specification.model.deployment) return;
-  const std::size_t processes = specification.model.deployment->processes.size();
-  listener.warn(fmt::format(
-      "`deploy` names {} process{}, which are not executed yet: this controller runs all agents in "
-      "one process, and its verdicts are about that",
-      processes, processes == 1 ? "" : "es"));
-  listener.say(fmt::format("hint: `tessera verify {}` judges the system as it is deployed\n",
-                           specification.file.string()));
-  specification.model = spec::in_one_process(std::move(specification.model));
-}
-
 }  // namespace
 
 std::optional<Verified> run_pipeline(const fs::path& given, const VerificationGate& gate,
                                      Listener& listener) {
   std::optional<Specification> specification = read(given, listener);
   if (!specification || !models_are_sound(*specification, listener)) return std::nullopt;
-  leave_out_deployment(*specification, listener);
   std::optional<Nets> nets = build(*specification, listener);
   if (!nets) return std::nullopt;
   verify::Report report = verify_or_recall(*specification, *nets, gate, listener);

@@ -57,8 +57,7 @@ struct Draft {
   bool is_model = false;             ///< that is all of it: the text has no errors that reading finds
   PartialNets nets;                  ///< of a model; those of unsound communication models too
 };
-/// text: loaded, not read. Errors: those of spec::parse, judge_models and build_what_is_possible. A draft
-/// with a deployment has the nets of the system in one process, as it is executed; N317 says so.
+/// text: loaded, not read. Errors: those of spec::parse, judge_models and build_what_is_possible.
 ///
 /// Threads: pure.
 [[nodiscard]] Draft draft_of(diagnostics::Diagnostics& text);
@@ -74,9 +73,6 @@ struct Nets {
 /// The same, with the diagnostics reported to the listener.
 [[nodiscard]] std::optional<Nets> build(const Specification& specification, Listener& listener);
 
-/// The nets that controllers execute. They have no deployment: all agents run in one process.
-[[nodiscard]] std::optional<Nets> build_executed(const Specification& specification, Listener& listener);
-
 /// "holds", "violated", "unknown"
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
@@ -91,8 +87,7 @@ struct Verified {
   verify::VerifiedNet net;
 };
 /// The whole pipeline: read, models_are_sound, build, verdicts. Only a net without violations gets through,
-/// unless the gate is open. What is unknown is told of and gets through. A deployment is left out, with a
-/// warning: processes are not executed yet.
+/// unless the gate is open. What is unknown is told of and gets through.
 [[nodiscard]] std::optional<Verified> run_pipeline(const std::filesystem::path& given,
                                                    const VerificationGate& gate, Listener& listener);
 

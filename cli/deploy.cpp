@@ -1,0 +1,213 @@
+#include "cli/deploy.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "cli/terminal.hpp"
+#include "project/files/file_names.hpp"
+#include "project/process/death.hpp"
+#include "tessera/signals.hpp"
+
+namespace tessera::cli {
+
+using namespace project;
+
+namespace {
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from < list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size());
+    if (comma > from) names.push_back(list.substr(from, comma - from));
+    from = comma + 1;
+  }
+  return names;
+}
+
+/// Prints what the processes say, and keeps how each has ended.
+class DeployedRun final : public ProcessSetListener {
+ public:
+  DeployedRun(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
+              const DeployOptions& deploy, Placement placement)
+      : controller_(controller),
+        folder_(folder.path()),
+        options_(options),
+        deploy_(deploy),
+        placement_(std::move(placement)),
+        coloured_(isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr),
+        file_(folder_ / file_names::deployment, controller) {
+    options_.progress = false;  // several cannot share one line
+    for (const std::uint32_t number : placement_.here) width_ = std::max(width_, name_of(number).size());
+    ends_.resize(placement_.here.size());
+  }
+
+  int run() {
+    const FailurePolicy policy{.restarts = deploy_.restart == "on-failure",
+                               .stops_all = deploy_.on_failure == "stop"};
+    ProcessSet set(
+        placement_.here.size(),
+        [this](std::size_t which, unsigned start) { return command_of(which, start); }, policy, *this);
+    stopped_by_ = set.run();
+    print_table();
+    return exit_code();
+  }
+
+  void started(std::size_t which, unsigned start, pid_t pid) override {
+    file_.started(placement_.here[which], start, pid);
+  }
+  void said(std::size_t which, std::string_view line) override {
+    if (coloured_)
+      fmt::print("\033[{}m{:<{}} |\033[0m {}\n", colours[which % colours.size()],
+                 name_of(placement_.here[which]), width_, line);
+    else
+      fmt::print("{:<{}} | {}\n", name_of(placement_.here[which]), width_, line);
+    std::fflush(stdout);
+  }
+  void ended(const ProcessEnd& end, std::optional<std::chrono::milliseconds> again_in) override {
+    const std::uint32_t number = placement_.here[end.process];
+    End& kept = ends_[end.process];
+    kept = {
+        .how = how_it_ended(number, end), .starts = end.start, .end = end, .failed = has_failed(number, end)};
+    file_.ended(number, end, kept.how);
+    if (!kept.failed) return;
+    any_failed_ = any_failed_ || !again_in;
+    tell(fmt::format("'{}' {}", name_of(number), kept.how) +
+         (again_in                                   ? fmt::format("; start {} in {:.1f} s", end.start + 1,
+                                                                   std::chrono::duration<double>(*again_in).count())
+          : deploy_.restart != "never" && !end.asked ? "; it has failed too often and is not started again"
+                                                     : ""));
+  }
+  void stopping(int signal) override {
+    tell(signal == 0 ? "one process has failed: all are stopped (--on-failure go-on lets the others go on)"
+                     : fmt::format("{}: all processes are stopped", signal_name(signal)));
+  }
+  void waits_for(const std::vector<std::size_t>& processes) override {
+    std::string names;
+    for (const std::size_t which : processes)
+      names += (names.empty() ? "" : ", ") + name_of(placement_.here[which]);
+    tell("waits for " + names + "; Ctrl-C once more ends a process that hangs");
+  }
+
+ private:
+  struct End {
+    std::string how;
+    unsigned starts = 0;
+    ProcessEnd end;
+    bool failed = false;
+  };
+
+  [[nodiscard]] const std::string& name_of(std::uint32_t number) const {
+    return controller_.specification.model.deployment->processes[number].name;
+  }
+  [[nodiscard]] ProcessFiles files_of(std::uint32_t number, unsigned start) const {
+    return process_files(folder_, name_of(number), start);
+  }
+  [[nodiscard]] Command command_of(std::size_t which, unsigned start) const {
+    const std::uint32_t number = placement_.here[which];
+    return process_command(controller_, options_, deploy_.network, name_of(number), files_of(number, start));
+  }
+  static void tell(const std::string& text) {
+    std::fflush(stdout);
+    terminal().say("tessera: " + text + "\n");
+  }
+
+  [[nodiscard]] nlohmann::json summary_of(std::uint32_t number, unsigned start) const {
+    std::ifstream stream(files_of(number, start).summary);
+    nlohmann::json summary = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+    return summary.is_object() ? summary : nlohmann::json::object();
+  }
+  /// One that was asked to stop has failed if it died, or says so itself.
+  [[nodiscard]] bool has_failed(std::uint32_t number, const ProcessEnd& end) const {
+    if (!end.asked) return end.exit.code != 0;
+    const nlohmann::json summary = summary_of(number, end.start);
+    return summary.empty() || summary.value("failed", false);
+  }
+  [[nodiscard]] std::string how_it_ended(std::uint32_t number, const ProcessEnd& end) const {
+    const nlohmann::json summary = summary_of(number, end.start);
+    if (!summary.empty()) return "ended: " + summary.value("ended", std::string("no reason given"));
+    const std::string death = describe_death(end.exit, files_of(number, end.start).note);
+    if (!death.empty()) return death;
+    return fmt::format("could not start (exit code {})", end.exit.code);
+  }
+
+  void print_table() const {
+    fmt::print("\n{:<{}}  {:>6}  {:>9}  {:>10}  {}\n", "process", std::max<std::size_t>(width_, 7), "starts",
+               "ran", "firings", "end");
+    for (std::size_t which = 0; which < ends_.size(); ++which) {
+      const End& end = ends_[which];
+      const std::uint32_t number = placement_.here[which];
+      if (end.starts == 0) {
+        fmt::print("{:<{}}  not started\n", name_of(number), std::max<std::size_t>(width_, 7));
+        continue;
+      }
+      const nlohmann::json summary = summary_of(number, end.starts);
+      const std::string firings =
+          summary.contains("firings") ? summary.at("firings").dump() : std::string("-");
+      fmt::print("{:<{}}  {:>6}  {:>7.1f} s  {:>10}  {}\n", name_of(number), std::max<std::size_t>(width_, 7),
+                 end.starts, std::chrono::duration<double>(end.end.ran).count(), firings, end.how);
+    }
+    fmt::print("recordings in {}; `tessera replay --check {}` checks them together\n", folder_.string(),
+               shell_line({folder_.string()}));
+    std::fflush(stdout);
+  }
+
+  [[nodiscard]] int exit_code() const {
+    if (any_failed_) return failed;
+    return stopped_by_ == 0 ? ok : 128 + stopped_by_;
+  }
+
+  static constexpr std::array colours{36, 33, 32, 35, 34, 96, 93, 92, 95, 94};
+  const Controller& controller_;
+  std::filesystem::path folder_;
+  LaunchOptions options_;
+  const DeployOptions& deploy_;
+  Placement placement_;
+  bool coloured_, any_failed_ = false;
+  DeploymentFile file_;
+  std::size_t width_ = 0;
+  std::vector<End> ends_;
+  int stopped_by_ = 0;
+};
+
+/// What a person has to start on other machines.
+void tell_of_others(const spec::Deployment& deployment, const Placement& placement,
+                    const LaunchOptions& options, bool chosen) {
+  std::map<std::string, std::string> by_host;
+  for (const std::uint32_t number : placement.elsewhere) {
+    const spec::Process& process = deployment.processes[number];
+    std::string& names = by_host[process.host];
+    names += (names.empty() ? "" : ", ") + process.name;
+  }
+  for (const auto& [host, names] : by_host) {
+    const bool local = chosen && is_this_machine(host, machine_name());
+    terminal().say(fmt::format("tessera: not started here: {}{}\n", names,
+                               local ? " (--only)" : "; on " + command_elsewhere(options, host)));
+  }
+}
+
+}  // namespace
+
+int run_deployed(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
+                 const DeployOptions& deploy) {
+  const spec::Deployment& deployment = *controller.specification.model.deployment;
+  const std::vector<std::string> only = names_in(deploy.only);
+  const Placement placement = placement_of(deployment, only, machine_name());
+  tell_of_others(deployment, placement, options, !only.empty());
+  if (placement.here.empty()) {
+    folder.withdraw();
+    return complain("no process of the deployment is for this machine ('" + machine_name() +
+                    "'); --only NAME starts one here all the same");
+  }
+  return DeployedRun(controller, folder, options, deploy, placement).run();
+}
+
+}  // namespace tessera::cli

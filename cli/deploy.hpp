@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "project/deployed_run.hpp"
+#include "project/files/run_folder.hpp"
+
+namespace tessera::cli {
+
+/// The options of `tessera run --deploy`.
+struct DeployOptions {
+  bool asked = false;
+  std::string only;  ///< "office,cart[0]"
+  std::string restart = "never", on_failure = "stop";
+  project::NetworkOptions network;
+};
+
+/// Starts the processes of this machine and waits until all have ended. Prints their lines, each after its
+/// name, and at the end a table. Returns the exit code: `ok`; `failed` if one has failed; 128 + the signal
+/// that stopped them.
+int run_deployed(const project::Controller& controller, const project::RunFolder& folder,
+                 const project::LaunchOptions& options, const DeployOptions& deploy);
+
+}  // namespace tessera::cli

@@ -1,0 +1,241 @@
+#include "network/dds/carrier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "network/dds/received.hpp"
+
+namespace tessera::dds {
+namespace {
+
+/// So that a flood of messages does not keep receive() for ever.
+constexpr int most_at_once = 1000;
+
+network::Incarnation incarnation(std::uint64_t value) { return {value}; }
+network::Number number(std::uint64_t value) { return {value}; }
+
+ReceivedData fields(const tessera_wire_Data& sample) {
+  return {.channel = sample.channel,
+          .process = sample.process,
+          .from = sample.from_incarnation,
+          .to = sample.to_incarnation,
+          .number = sample.number,
+          .stamp_ns = sample.stamp_ns,
+          .recall = sample.recall,
+          .valid = sample.valid,
+          .bytes = std::as_bytes(std::span(sample.bytes._buffer, sample.bytes._length))};
+}
+
+ReceivedState fields(const tessera_wire_State& sample) {
+  return {.channel = sample.channel,
+          .process = sample.process,
+          .from = sample.from_incarnation,
+          .peer = sample.peer_incarnation,
+          .taken = sample.taken};
+}
+
+Announcement fields(const tessera_wire_Announcement& sample) {
+  return {.incarnation = sample.incarnation,
+          .system = sample.system,
+          .process_name = sample.process_name,
+          .wire_version = sample.wire_version,
+          .net_hash = sample.net_hash,
+          .processes_hash = sample.processes_hash,
+          .host = sample.host,
+          .boot = sample.boot};
+}
+
+/// Notices whether a listener was told something.
+class Attentive final : public network::Carrier::Listener {
+ public:
+  explicit Attentive(network::Carrier::Listener& listener) : listener_(listener) {}
+  void heard(ChannelNumber channel, const network::Data& data, const network::Value& value) override {
+    told_ = true;
+    listener_.heard(channel, data, value);
+  }
+  void heard(ChannelNumber channel, const network::State& state) override {
+    told_ = true;
+    listener_.heard(channel, state);
+  }
+  void reachable(ProcessNumber process, bool is_there) override {
+    told_ = true;
+    listener_.reachable(process, is_there);
+  }
+  void complaint(std::string_view text) override {
+    told_ = true;
+    listener_.complaint(text);
+  }
+  [[nodiscard]] bool told() const { return told_; }
+
+ private:
+  network::Carrier::Listener& listener_;
+  bool told_ = false;
+};
+
+/// A sum that does not overflow.
+Clock::time_point after(Clock::time_point now, std::chrono::nanoseconds time) {
+  return time > Clock::time_point::max() - now ? Clock::time_point::max() : now + time;
+}
+
+}  // namespace
+
+DdsCarrier::DdsCarrier(const network::CarrierSetup& setup)
+    : deployment_(deployment_of(setup)),
+      presence_(deployment_),
+      announcements_(deployment_),
+      endpoints_(deployment_, setup.domain, locate(setup.interface, setup.peers)) {
+  // One byte more than the longest, so that a longer one is noticed. The middleware cuts it off there: the room is
+  // not its own to grow.
+  room_.bytes._maximum = deployment_.longest_received_bytes() + 1;
+  room_.bytes._buffer = static_cast<std::uint8_t*>(dds_alloc(room_.bytes._maximum));
+  room_.bytes._release = false;
+}
+
+DdsCarrier::~DdsCarrier() { dds_free(room_.bytes._buffer); }
+
+void DdsCarrier::send(ChannelNumber number, const network::Data& data, const network::Value& value) {
+  const Channel* channel = deployment_.channel(number);
+  assert(channel != nullptr && channel->sender == deployment_.process);
+  if (!data.recall && value.bytes.size() > channel->longest_value_bytes)
+    return unsent_.add([&] { return "on channel " + channel->name + ": a value longer than the channel's"; });
+  tessera_wire_Data sample{};
+  sample.channel = number;
+  sample.process = deployment_.process;
+  sample.from_incarnation = data.from.value;
+  sample.to_incarnation = data.to.value;
+  sample.number = data.number.value;
+  sample.recall = data.recall;
+  if (!data.recall) {
+    sample.stamp_ns = value.stamp.count();
+    sample.valid = value.valid;
+    // The middleware reads them only. Its type knows no constant bytes.
+    sample.bytes._buffer =
+        const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(value.bytes.data()));
+    sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(value.bytes.size());
+  }
+  count_unsent(dds_write(endpoints_.to(channel->receiver).data, &sample), *channel);
+}
+
+void DdsCarrier::send(ChannelNumber number, const network::State& state) {
+  const Channel* channel = deployment_.channel(number);
+  assert(channel != nullptr && channel->receiver == deployment_.process);
+  const tessera_wire_State sample{.channel = number,
+                                  .process = deployment_.process,
+                                  .from_incarnation = state.from.value,
+                                  .peer_incarnation = state.peer.value,
+                                  .taken = state.taken.value};
+  count_unsent(dds_write(endpoints_.to(channel->sender).state, &sample), *channel);
+}
+
+void DdsCarrier::count_unsent(dds_return_t result, const Channel& channel) {
+  // A timeout is what a full network looks like: the protocol sends again.
+  if (result == DDS_RETCODE_OK || result == DDS_RETCODE_TIMEOUT) return;
+  unsent_.add([&] { return "on channel " + channel.name + ": " + dds_strretcode(result); });
+}
+
+void DdsCarrier::receive(Listener& told, std::chrono::nanoseconds longest) {
+  const Clock::time_point end = after(Clock::now(), longest);
+  Attentive listener(told);
+  for (;;) {
+    const bool woken = endpoints_.was_woken();
+    take_all(listener);
+    // After what has arrived: it may have waited for long, if nobody received.
+    const Clock::time_point now = Clock::now();
+    presence_.look(now, listener);
+    dropped_.tell(now, listener);
+    unsent_.tell(now, listener);
+    give_sign_of_life(now);
+    if (listener.told() || woken || now >= end) return;
+    endpoints_.wait((std::min(end, next_event()) - now).count());
+  }
+}
+
+Clock::time_point DdsCarrier::next_event() const {
+  return std::min(next_sign_of_life_, presence_.next_look().value_or(Clock::time_point::max()));
+}
+
+void DdsCarrier::give_sign_of_life(Clock::time_point now) {
+  if (now < next_sign_of_life_) return;
+  next_sign_of_life_ = now + sign_of_life_period;
+  if (endpoints_.alive_writer() == 0) return;
+  const tessera_wire_Alive sample{.process = deployment_.process, .incarnation = deployment_.incarnation};
+  dds_write(endpoints_.alive_writer(), &sample);
+}
+
+void DdsCarrier::take_all(Listener& listener) {
+  const Clock::time_point now = Clock::now();
+  take_announcements(listener);
+  take_alive(listener, now);
+  take_states(listener, now);
+  take_data(listener, now);
+}
+
+void DdsCarrier::take_data(Listener& listener, Clock::time_point now) {
+  void* sample = &room_;
+  dds_sample_info_t info{};
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.data(), &sample, &info, 1, 1) == 1; ++taken)
+    if (info.valid_data) hear(room_, listener, now);
+}
+
+void DdsCarrier::hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now) {
+  const ReceivedData data = fields(sample);
+  const Refusal refusal = check(data, deployment_);
+  if (refusal != Refusal::none) return dropped_.add([&] { return description(refusal, data, deployment_); });
+  presence_.heard(data.process, data.from, now, listener);
+  listener.heard(
+      data.channel,
+      network::Data{incarnation(data.from), incarnation(data.to), number(data.number), data.recall},
+      network::Value{std::chrono::nanoseconds(data.stamp_ns), data.valid, data.bytes});
+}
+
+void DdsCarrier::take_states(Listener& listener, Clock::time_point now) {
+  tessera_wire_State sample{};
+  void* pointer = &sample;
+  dds_sample_info_t info{};
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.state(), &pointer, &info, 1, 1) == 1;
+       ++taken)
+    if (info.valid_data) hear(sample, listener, now);
+}
+
+void DdsCarrier::hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now) {
+  const ReceivedState state = fields(sample);
+  const Refusal refusal = check(state, deployment_);
+  if (refusal != Refusal::none) return dropped_.add([&] { return description(refusal, state, deployment_); });
+  presence_.heard(state.process, state.from, now, listener);
+  listener.heard(state.channel,
+                 network::State{incarnation(state.from), incarnation(state.peer), number(state.taken)});
+}
+
+void DdsCarrier::take_alive(Listener& listener, Clock::time_point now) {
+  tessera_wire_Alive sample{};
+  void* pointer = &sample;
+  dds_sample_info_t info{};
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.alive(), &pointer, &info, 1, 1) == 1;
+       ++taken) {
+    const ReceivedAlive alive{.process = sample.process, .incarnation = sample.incarnation};
+    const Refusal refusal = check(alive, deployment_);
+    if (refusal != Refusal::none)
+      dropped_.add([&] { return description(refusal, alive, deployment_); });
+    else if (info.instance_state == DDS_IST_ALIVE)
+      presence_.heard(alive.process, alive.incarnation, now, listener);
+    else
+      presence_.left(alive.process, alive.incarnation, listener);
+  }
+}
+
+void DdsCarrier::take_announcements(Listener& listener) {
+  void* sample = nullptr;
+  dds_sample_info_t info{};
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.announcements(), &sample, &info, 1, 1) == 1;
+       ++taken) {
+    if (info.valid_data)
+      if (const auto problem =
+              announcements_.hear(fields(*static_cast<const tessera_wire_Announcement*>(sample))))
+        listener.complaint(*problem);
+    dds_return_loan(endpoints_.announcements(), &sample, 1);
+    sample = nullptr;
+  }
+}
+
+}  // namespace tessera::dds

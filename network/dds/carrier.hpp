@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+
+#include "network/carrier.hpp"
+#include "network/dds/announcements.hpp"
+#include "network/dds/deployment.hpp"
+#include "network/dds/dropped.hpp"
+#include "network/dds/endpoints.hpp"
+#include "network/dds/presence.hpp"
+#include "wire.h"
+
+namespace tessera::dds {
+
+/// Carries the messages of channels over Cyclone DDS (docs/fleets.md, "On the wire").
+///
+/// A process that shares a channel with this one is reachable when its signs of life arrive. They are sent while
+/// receive() runs: a process that does not call it is not reachable for the others. An incarnation that replaces
+/// another is told of as not reachable, then reachable.
+///
+/// After it was made it allocates nothing for a message. (The middleware does.)
+class DdsCarrier final : public network::Carrier {
+ public:
+  /// Errors: SetupError. It waits for the name service if a peer is named by its name.
+  explicit DdsCarrier(const network::CarrierSetup& setup);
+  ~DdsCarrier() override;
+  DdsCarrier(const DdsCarrier&) = delete;
+  DdsCarrier& operator=(const DdsCarrier&) = delete;
+
+  void send(ChannelNumber channel, const network::Data& data, const network::Value& value) override;
+  void send(ChannelNumber channel, const network::State& state) override;
+  void receive(Listener& listener, std::chrono::nanoseconds longest) override;
+  void wake() override { endpoints_.wake(); }
+
+ private:
+  void take_all(Listener& listener);
+  void take_data(Listener& listener, Clock::time_point now);
+  void take_states(Listener& listener, Clock::time_point now);
+  void take_alive(Listener& listener, Clock::time_point now);
+  void take_announcements(Listener& listener);
+  void hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now);
+  void hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now);
+  void give_sign_of_life(Clock::time_point now);
+  [[nodiscard]] Clock::time_point next_event() const;
+  void count_unsent(dds_return_t result, const Channel& channel);
+
+  Deployment deployment_;
+  Presence presence_;
+  Announcements announcements_;
+  Dropped dropped_{"dropped"}, unsent_{"could not send"};
+  Endpoints endpoints_;
+  Clock::time_point next_sign_of_life_ = Clock::time_point::min();
+  tessera_wire_Data room_{};  ///< for the value that is read next
+};
+
+}  // namespace tessera::dds

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "network/carrier.hpp"
+
+namespace tessera::dds {
+
+using network::ChannelNumber;
+using network::ProcessNumber;
+
+struct Channel {
+  std::string name;
+  ProcessNumber sender = 0, receiver = 0;
+  std::uint32_t longest_value_bytes = 0;
+};
+
+/// What a process knows of the system that it is a part of: a setup, kept and checked.
+struct Deployment {
+  std::string system, net_hash;
+  std::string processes_hash;  ///< 16 hexadecimal digits
+  ProcessNumber process = 0;   ///< this one
+  std::uint64_t incarnation = 0;
+  std::vector<std::string> processes;  ///< names, by number
+  std::unordered_map<ChannelNumber, Channel> channels;
+  std::vector<ProcessNumber> peers;  ///< the processes that share a channel with this one, in ascending order
+
+  [[nodiscard]] const Channel* channel(ChannelNumber number) const;
+  /// A channel on which this process sends values to `peer`, or receives them from it, exists.
+  [[nodiscard]] bool sends_to(ProcessNumber peer) const;
+  [[nodiscard]] bool receives_from(ProcessNumber peer) const;
+  /// Of the values that this process receives.
+  [[nodiscard]] std::uint32_t longest_received_bytes() const;
+};
+
+/// Errors: SetupError if the setup contradicts itself.
+[[nodiscard]] Deployment deployment_of(const network::CarrierSetup& setup);
+
+}  // namespace tessera::dds

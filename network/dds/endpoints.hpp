@@ -1,0 +1,67 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <map>
+
+#include "network/dds/deployment.hpp"
+#include "network/dds/location.hpp"
+
+namespace tessera::dds {
+
+/// The domain of a carrier with all that is in it. It is one of its own, even if others in this process
+/// use the same number of a domain, so that its configuration is its own.
+class Domain {
+ public:
+  /// Errors: SetupError.
+  Domain(int number, const Location& location);
+  ~Domain();
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+  [[nodiscard]] dds_entity_t participant() const { return participant_; }
+
+ private:
+  dds_entity_t domain_ = 0, participant_ = 0;
+};
+
+/// What a process writes and reads.
+///
+/// Each process reads from a partition that has its number, and writes to the partitions of those for whom it has
+/// something. So no message of a channel goes to a process that does not have the channel.
+class Endpoints {
+ public:
+  /// Errors: SetupError.
+  Endpoints(const Deployment& deployment, int domain, const Location& location);
+
+  struct Writers {
+    dds_entity_t data = 0, state = 0;  ///< 0: no channel in this direction
+  };
+  [[nodiscard]] Writers to(ProcessNumber peer) const;
+  [[nodiscard]] dds_entity_t alive_writer() const { return alive_writer_; }
+  [[nodiscard]] dds_entity_t data() const { return data_; }
+  [[nodiscard]] dds_entity_t state() const { return state_; }
+  [[nodiscard]] dds_entity_t alive() const { return alive_; }
+  [[nodiscard]] dds_entity_t announcements() const { return announcements_; }
+  /// Waits for any reader, for wake(), or until the time is over.
+  void wait(dds_duration_t longest) const;
+  /// Threads: any.
+  void wake() const { dds_set_guardcondition(guard_, true); }
+  /// Whether wake() was called since.
+  [[nodiscard]] bool was_woken() const;
+
+ private:
+  void make_readers(const Deployment& deployment);
+  void make_writers(const Deployment& deployment, ProcessNumber peer);
+  void make_alive_writer(const Deployment& deployment);
+  void announce(const Deployment& deployment) const;
+  void wait_for(dds_entity_t reader) const;
+
+  Domain domain_;
+  dds_entity_t data_topic_ = 0, state_topic_ = 0, alive_topic_ = 0, announcement_topic_ = 0;
+  dds_entity_t waitset_ = 0, guard_ = 0;
+  dds_entity_t data_ = 0, state_ = 0, alive_ = 0, announcements_ = 0;
+  dds_entity_t alive_writer_ = 0;
+  std::map<ProcessNumber, Writers> writers_;
+};
+
+}  // namespace tessera::dds

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "network/dds/deployment.hpp"
+
+namespace tessera::dds {
+
+/// The fields of a message as the middleware gives them. Anybody on the network can have written them.
+struct ReceivedData {
+  std::uint32_t channel = 0, process = 0;
+  std::uint64_t from = 0, to = 0, number = 0;
+  std::int64_t stamp_ns = 0;
+  bool recall = false, valid = false;
+  std::span<const std::byte> bytes;
+};
+struct ReceivedState {
+  std::uint32_t channel = 0, process = 0;
+  std::uint64_t from = 0, peer = 0, taken = 0;
+};
+struct ReceivedAlive {
+  std::uint32_t process = 0;
+  std::uint64_t incarnation = 0;
+};
+
+/// Why a message is dropped. No process of the deployment sends one like it.
+enum class Refusal : std::uint8_t {
+  none,
+  unknown_channel,   ///< or one that does not begin or end in this process
+  wrong_process,     ///< the channel does not begin (end) in the process that it names
+  wrong_direction,   ///< this process sends on that channel (receives from it)
+  no_incarnation,    ///< of its sender
+  no_number,         ///< of the value
+  state_of_nothing,  ///< a value was taken from nobody
+  recall_with_value,
+  too_large,
+  time_before_zero,
+  no_peer  ///< no channel joins that process and this one
+};
+
+[[nodiscard]] Refusal check(const ReceivedData& data, const Deployment& deployment);
+[[nodiscard]] Refusal check(const ReceivedState& state, const Deployment& deployment);
+[[nodiscard]] Refusal check(const ReceivedAlive& alive, const Deployment& deployment);
+
+/// "data of channel a.x->b.y from process 7: the channel does not begin or end there"
+[[nodiscard]] std::string description(Refusal refusal, const ReceivedData& data,
+                                      const Deployment& deployment);
+[[nodiscard]] std::string description(Refusal refusal, const ReceivedState& state,
+                                      const Deployment& deployment);
+[[nodiscard]] std::string description(Refusal refusal, const ReceivedAlive& alive,
+                                      const Deployment& deployment);
+
+}  // namespace tessera::dds

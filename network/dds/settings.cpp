@@ -1,0 +1,58 @@
+#include "network/dds/settings.hpp"
+
+#include "network/dds/setup_error.hpp"
+
+namespace tessera::dds {
+namespace {
+
+std::string element(const std::string& name, const std::string& content) {
+  return "<" + name + ">" + content + "</" + name + ">";
+}
+
+/// On loopback a datagram holds as much as it can. Elsewhere it fits into one frame, since a datagram of ten
+/// frames is lost with any of them.
+std::string sizes(bool is_loopback) {
+  return element("MaxMessageSize", is_loopback ? "65000 B" : "1456 B") +
+         element("FragmentSize", is_loopback ? "32000 B" : "1344 B");
+}
+
+std::string peers_of(const Location& location) {
+  std::string peers;
+  for (const std::string& peer : location.peers) peers += "<Peer Address=\"" + peer + "\"/>";
+  return element("Peers", peers);
+}
+
+/// A cut of the network that is shorter than the lease heals at once. After a longer one the processes find each
+/// other again within the interval of discovery (SPDP). Both cost traffic (docs/scale.md).
+std::string discovery(int domain, const Location& location) {
+  return element("Discovery",
+                 element("ExternalDomainId", std::to_string(domain)) + element("ParticipantIndex", "auto") +
+                     element("MaxAutoParticipantIndex", std::to_string(most_processes_on_a_host)) +
+                     peers_of(location) + element("SPDPInterval", "4 s") + element("LeaseDuration", "20 s"));
+}
+
+/// A writer is never held back: it keeps one value of each channel, so that what it keeps is bounded.
+std::string watermarks() {
+  return element("Internal", element("Watermarks", element("WhcLow", "1 kB") + element("WhcHigh", "1 GiB") +
+                                                       element("WhcHighInit", "1 GiB") +
+                                                       element("WhcAdaptive", "false")));
+}
+
+}  // namespace
+
+int first_port(int domain) { return 7400 + 250 * domain + 10; }
+
+std::string settings(int domain, const Location& location) {
+  if (domain < 0 || domain > last_domain)
+    throw SetupError("there is no domain " + std::to_string(domain) + ": use one of 0 to " +
+                     std::to_string(last_domain));
+  const std::string interface =
+      "<Interfaces><NetworkInterface address=\"" + location.address + "\" multicast=\"false\"/></Interfaces>";
+  return element("CycloneDDS", "<Domain Id=\"any\">" +
+                                   element("General", interface + element("AllowMulticast", "false") +
+                                                          sizes(location.is_loopback)) +
+                                   discovery(domain, location) + watermarks() +
+                                   element("Tracing", element("Verbosity", "none")) + "</Domain>");
+}
+
+}  // namespace tessera::dds

@@ -1,0 +1,137 @@
+#include "links/links.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace tessera {
+
+Links::Links(const Clock& clock, std::uint32_t channels, Complain complain)
+    : clock_(clock), complain_(std::move(complain)), sender_of_(channels), receiver_of_(channels) {}
+
+Links::~Links() = default;
+
+SendingEnd& Links::add_sender(const LinkedChannel& channel, SharedChannel& word,
+                              const ValueEncoding& encoding, network::Incarnation incarnation) {
+  senders_.push_back(std::make_unique<SendingEnd>(channel, word, encoding, incarnation, *this));
+  return *(sender_of_[channel.number] = senders_.back().get());
+}
+
+ReceivingEnd& Links::add_receiver(const LinkedChannel& channel, SharedChannel& word,
+                                  const ValueEncoding& encoding, std::size_t value_bytes,
+                                  const ValueType* type, network::Incarnation incarnation) {
+  receivers_.push_back(
+      std::make_unique<ReceivingEnd>(channel, word, encoding, value_bytes, type, incarnation, *this));
+  return *(receiver_of_[channel.number] = receivers_.back().get());
+}
+
+std::vector<network::ChannelSetup> Links::carried() const {
+  std::vector<network::ChannelSetup> all;
+  const auto add = [&](const auto& end) {
+    const LinkedChannel& channel = end->channel();
+    if (std::ranges::find(all, channel.number, &network::ChannelSetup::number) != all.end()) return;
+    all.push_back({.number = channel.number,
+                   .name = channel.name,
+                   .sender = channel.sender,
+                   .receiver = channel.receiver,
+                   .longest_value_bytes = static_cast<std::uint32_t>(end->longest())});
+  };
+  std::ranges::for_each(senders_, add);
+  std::ranges::for_each(receivers_, add);
+  return all;
+}
+
+void Links::serve(Time until) {
+  const Duration longest = std::max(std::min(until, next()) - clock_.now(), Duration::zero());
+  carrier_->receive(*this, longest);
+  const Time now = clock_.now();
+  for (const auto& end : senders_)
+    if (end->has_news() || end->next() <= now) end->serve(now, *this);
+  for (const auto& end : receivers_)
+    if (end->has_news() || end->next() <= now) end->serve(now, *this);
+}
+
+bool Links::has_work(Time now) const {
+  const auto has = [&](const auto& end) { return end->has_news() || end->next() <= now; };
+  return std::ranges::any_of(senders_, has) || std::ranges::any_of(receivers_, has);
+}
+
+Time Links::next() const {
+  Time next = Time::max();
+  for (const auto& end : senders_) next = std::min(next, end->next());
+  for (const auto& end : receivers_) next = std::min(next, end->next());
+  return next;
+}
+
+bool Links::pending() const {
+  return std::ranges::any_of(senders_, [](const auto& end) { return end->pending() || end->has_news(); }) ||
+         std::ranges::any_of(receivers_, [](const auto& end) { return end->has_news(); });
+}
+
+void Links::wake(std::uint32_t /*channel*/) { carrier_->wake(); }
+
+void Links::joined(network::ProcessNumber one, network::ProcessNumber other, bool are) {
+  const auto tell = [&](auto& end) {
+    const std::pair pair(end->own(), end->peer());
+    if (pair == std::pair(one, other) || pair == std::pair(other, one)) end->set_disconnected(!are);
+  };
+  std::ranges::for_each(senders_, tell);
+  std::ranges::for_each(receivers_, tell);
+}
+
+// -------------------------------------------------------------------------------------------- heard
+
+void Links::heard(network::ChannelNumber channel, const network::Data& data, const network::Value& value) {
+  if (channel >= receiver_of_.size() || receiver_of_[channel] == nullptr) return;
+  ReceivingEnd& end = *receiver_of_[channel];
+  end.hear(data, value, stamp_of(end.channel(), value.stamp), clock_.now(), *this);
+}
+
+void Links::heard(network::ChannelNumber channel, const network::State& state) {
+  if (channel >= sender_of_.size() || sender_of_[channel] == nullptr) return;
+  sender_of_[channel]->hear(state, clock_.now(), *this);
+}
+
+void Links::reachable(network::ProcessNumber process, bool is_there) {
+  const auto tell = [&](auto& end) {
+    if (end->peer() == process) end->set_disconnected(!is_there);
+  };
+  std::ranges::for_each(senders_, tell);
+  std::ranges::for_each(receivers_, tell);
+}
+
+void Links::complaint(std::string_view text) { complain_(text, /*fatal=*/false); }
+
+// -------------------------------------------------------------------------------------------- sends
+
+void Links::send(const LinkedChannel& channel, const network::Data& data, const network::Value& value) {
+  network::Value stamped = value;
+  stamped.stamp = stamp_to_send(channel, value.stamp);
+  carrier_->send(channel.number, data, stamped);
+}
+
+void Links::send(const LinkedChannel& channel, const network::State& state) {
+  carrier_->send(channel.number, state);
+}
+
+void Links::complain(const LinkedChannel& channel, std::string_view text, bool fatal) {
+  complain_(fmt::format("channel {}: {}", channel.name, text), fatal);
+}
+
+// The processes of one host read one clock. Between hosts goes the age of the value instead: it counts from
+// then on at the receiver, and lacks only the time on the way.
+
+std::chrono::nanoseconds Links::stamp_to_send(const LinkedChannel& channel,
+                                              std::chrono::nanoseconds stamp) const {
+  return channel.same_host ? stamp + origin_.load(std::memory_order_relaxed)
+                           : clock_.now().time_since_epoch() - stamp;
+}
+
+Time Links::stamp_of(const LinkedChannel& channel, std::chrono::nanoseconds sent) const {
+  const Time now = clock_.now();
+  if (!channel.same_host) return now - std::max(sent, Duration::zero());
+  return std::min(Time(sent - origin_.load(std::memory_order_relaxed)), now);
+}
+
+}  // namespace tessera

@@ -1,0 +1,65 @@
+#include "links/network_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tessera/net_words.hpp"
+
+namespace tessera {
+namespace {
+
+[[nodiscard]] std::uint16_t bit_of(std::span<const FusedPlace> places, std::string_view name) {
+  for (std::size_t place = 0; place < places.size(); ++place)
+    if (places[place].name == name) return static_cast<std::uint16_t>(1U << place);
+  return 0;
+}
+
+/// A blocking sender's block has a place in which it waits.
+[[nodiscard]] bool blocks(const System& whole, const End& end) {
+  if (end.port.empty()) return false;
+  for (const Transition& transition : whole.instances[end.instance].net->transitions)
+    for (const std::string_view place : transition.inputs)
+      if (place.starts_with(end.port) && place.substr(end.port.size()) == "/empty") return true;
+  return false;
+}
+
+/// Two processes of which no host is told are taken to be on one, as in a first try.
+[[nodiscard]] bool on_one_host(const System& whole, const Channel& channel) {
+  return whole.processes[whole.process_of[channel.from.instance]].host ==
+         whole.processes[whole.process_of[channel.to.instance]].host;
+}
+
+}  // namespace
+
+LinkedChannel linked_channel(const System& whole, std::uint32_t number, bool is_sender) {
+  const Channel& channel = whole.channels[number];
+  const auto bit = [&](std::string_view name) { return bit_of(channel.places, name); };
+  LinkedChannel made;
+  made.number = number;
+  made.name = channel.name;
+  made.sender = whole.process_of[channel.from.instance];
+  made.receiver = whole.process_of[channel.to.instance];
+  made.same_host = on_one_host(whole, channel);
+  made.idle = bit(words::idle);
+  made.sent = bit(words::sent);
+  made.more = bit(words::more);
+  made.empty = bit(words::empty);
+  made.full = bit(words::full);
+  made.exchanged = made.idle == 0;
+  made.sender_blocks = !made.exchanged && blocks(whole, channel.from);
+  made.own_memory = bit(is_sender ? words::sent_memory : words::received_memory);
+  return made;
+}
+
+void NetworkEnd::record_peer(network::Incarnation peer, Time now, RecordingLane* lane) {
+  if (!peer.known() || peer == recorded_) return;
+  recorded_ = peer;
+  if (lane == nullptr) return;
+  std::array<char, 512> text;
+  const auto end = fmt::format_to_n(text.data(), text.size(), "{}\n{}", channel_.name, peer.value);
+  lane->text(Event::Kind::peer, now, 0, {text.data(), std::min(end.size, text.size())});
+}
+
+}  // namespace tessera

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "links/network_conditions.hpp"
+#include "network/carrier.hpp"
+#include "system/clock.hpp"
+
+namespace tessera {
+
+/// A network in memory, as bad as its conditions say. All processes are in one: a value goes to the receiving
+/// end of its channel, a state to the sending end. What it does depends only on the seed and on what is sent.
+///
+/// Threads: one.
+class SimulatedNetwork final : public network::Carrier {
+ public:
+  struct Channel {
+    network::ProcessNumber sender = 0, receiver = 0;
+  };
+  /// joined: two processes hear each other from now on, or have not for `lease`.
+  using Joined = std::function<void(network::ProcessNumber, network::ProcessNumber, bool)>;
+  /// channels: by number; those within a process are left out by nobody sending on them.
+  SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts, std::uint64_t seed,
+                   const Clock& clock, std::vector<Channel> channels, Joined joined);
+
+  void send(network::ChannelNumber channel, const network::Data& data, const network::Value& value) override;
+  void send(network::ChannelNumber channel, const network::State& state) override;
+  /// Hands over what has arrived by now. Never waits.
+  void receive(Listener& listener, std::chrono::nanoseconds longest) override;
+  void wake() override {}
+
+  /// When the next message arrives, or a cut is noticed or over; Time::max(): never.
+  [[nodiscard]] Time next() const;
+  /// When the last cut is over.
+  [[nodiscard]] Time last_cut() const;
+
+  /// A process that was not heard of for so long is not connected.
+  static constexpr Duration lease = std::chrono::seconds(1);
+
+ private:
+  struct Message {
+    network::ChannelNumber channel = 0;
+    bool is_state = false;
+    network::Data data{};
+    network::State state{};
+    std::chrono::nanoseconds stamp{0};
+    bool valid = false;
+    std::vector<std::byte> bytes{};
+  };
+  struct News {
+    network::ProcessNumber one, other;
+    bool joined;
+  };
+  void send(Message message);
+  [[nodiscard]] Time arrival(std::size_t lane);
+  [[nodiscard]] bool happens(double probability);
+  [[nodiscard]] bool is_cut(network::ProcessNumber one, network::ProcessNumber other, Time at) const;
+  [[nodiscard]] Duration up_to(Duration most);
+
+  NetworkConditions conditions_;
+  std::vector<Cut> cuts_;
+  std::mt19937_64 random_;
+  const Clock& clock_;
+  std::vector<Channel> channels_;
+  Joined joined_;
+  std::vector<Time> last_;  // per channel and direction: the arrival of what was sent last
+  std::multimap<Time, Message> on_the_way_;
+  std::multimap<Time, News> news_;
+};
+
+}  // namespace tessera

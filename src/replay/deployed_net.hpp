@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "net/net.hpp"
+
+namespace tessera::replay {
+
+/// Which agents of a deployed system run in which process.
+struct ProcessMap {
+  std::vector<std::string> names;        ///< of the processes
+  std::vector<std::uint32_t> of_agents;  ///< per agent of the net, into names
+};
+
+/// The effect of a firing on the sender or on the receiver of a channel between processes.
+enum class ChannelStep : std::uint8_t {
+  none,
+  begins_write,     ///< both sides are non-blocking: the sender uses its memory
+  writes,           ///< the value is on the way
+  is_acknowledged,  ///< the sender knows that its value was taken
+  gives_up,         ///< the sender's time is up
+  begins_read,
+  ends_read,
+  skips  ///< there was nothing to read
+};
+
+/// A deployed net, as the check of its recordings needs it.
+///
+/// Threads: const members from any thread. The net lives longer.
+class DeployedNet {
+ public:
+  DeployedNet(const net::Net& net, const ProcessMap& processes);
+
+  static constexpr std::uint32_t none = UINT32_MAX;
+
+  /// What a firing takes from the shared places of a channel and gives to them: one bit per place.
+  struct Move {
+    std::uint32_t takes = 0, gives = 0;
+    bool operator==(const Move&) const = default;
+  };
+  struct Channel {
+    bool networked = false;
+    net::SubsystemId sender{}, receiver{};
+    std::uint32_t sending = none, receiving = none;  ///< processes
+    std::vector<net::PlaceId> places;                ///< networked: its shared places, a bit each
+    std::vector<Move> medium;                        ///< what nobody records
+    bool exchange = false;                           ///< both sides are non-blocking
+  };
+  struct Transition {
+    net::ChannelId channel{};  ///< whose memory it uses
+    ChannelStep step = ChannelStep::none;
+    bool carries_number = false;   ///< its firing carries the number of a value, not the version of a word
+    std::uint32_t process = none;  ///< none: of the whole system, or of a medium
+    /// Of a channel between processes: its own move, and those of the transitions with the same effect on its
+    /// subsystem, which cannot know what of them happened.
+    std::vector<Move> moves;
+  };
+
+  [[nodiscard]] const net::Net& net() const { return net_; }
+  [[nodiscard]] const Channel& operator[](net::ChannelId id) const { return channels_[id.value]; }
+  [[nodiscard]] const Transition& operator[](net::TransitionId id) const { return transitions_[id.value]; }
+  [[nodiscard]] std::size_t process_count() const { return process_count_; }
+  [[nodiscard]] std::size_t channel_count() const { return channels_.size(); }
+  /// The process that owns the tokens of a place; none: the system, or a channel between processes.
+  [[nodiscard]] std::uint32_t process_of(net::PlaceId place) const { return process_of_places_[place.value]; }
+  /// Is it a shared place of a channel between processes?
+  [[nodiscard]] bool is_hidden(net::PlaceId place) const {
+    return net_[place].fused() && (*this)[net_[place].channel].networked;
+  }
+  /// Do only firings of this subsystem fill the place?
+  [[nodiscard]] bool is_made_by(net::PlaceId place, net::SubsystemId subsystem) const {
+    return makers_[place.value] == subsystem.value;
+  }
+  /// The transition that starts all agents.
+  [[nodiscard]] net::TransitionId start() const { return start_; }
+
+ private:
+  void find_channels(const ProcessMap& processes);
+  void find_transitions(const ProcessMap& processes);
+  void join_groups();
+  void find_owners(const ProcessMap& processes);
+  [[nodiscard]] Move move_of(net::TransitionId id) const;
+  [[nodiscard]] ChannelStep step_of(net::TransitionId id) const;
+
+  const net::Net& net_;
+  std::size_t process_count_;
+  std::vector<Channel> channels_;
+  std::vector<Transition> transitions_;
+  std::vector<std::uint32_t> bits_;  // per place: its bit in its channel
+  std::vector<std::uint32_t> process_of_places_;
+  std::vector<std::uint32_t> makers_;  // per place: the subsystem that alone fills it
+  net::TransitionId start_{};
+};
+
+}  // namespace tessera::replay

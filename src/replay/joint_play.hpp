@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "net/net.hpp"
+#include "net/token_game.hpp"
+#include "replay/deployed_net.hpp"
+
+namespace tessera::replay {
+
+/// The token game of a deployed net, played with the firings of several processes.
+///
+/// The places of one process hold tokens as usual. Nobody records what the medium of a channel between
+/// processes does, so the play keeps the set of markings that its shared places may have. The numbers of the
+/// values say what comes before what: a value is written before it is read, and its read ends before its
+/// sender knows of it.
+///
+/// Threads: one at a time.
+class JointPlay {
+ public:
+  /// One start of a process whose recording is given.
+  struct Start {
+    std::uint32_t process = 0;
+    std::uint64_t incarnation = 1;
+  };
+  static constexpr std::uint32_t none = DeployedNet::none;
+
+  /// starts: of each process in the order of their incarnations. one_run: they are of one simulated run, in
+  /// which each process starts once and its peers are known.
+  JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one_run);
+
+  struct Firing {
+    net::TransitionId transition{};
+    std::uint32_t start = none;  ///< of the process that fired; none: the whole system
+    std::uint32_t version = 0;   ///< as recorded: of a word, or the number of a value
+  };
+  /// Why a firing cannot be the next.
+  struct Obstacle {
+    enum class Kind : std::uint8_t {
+      no,     ///< nothing: it can
+      never,  ///< whatever others do
+      waits   ///< for another firing
+    } kind = Kind::no;
+    enum class Reason : std::uint8_t {
+      token,          ///< `place` holds none
+      version,        ///< `due` of its channel comes first
+      number,         ///< it carries another number than `due`
+      no_number,      ///< it carries one, or none, and should not
+      read_already,   ///< the value `due`, or a newer one, was read before
+      taken_already,  ///< the value was acknowledged to its sender by an earlier start of the reader
+      no_peer,        ///< the recording does not say whom it hears
+      unwritten,      ///< the value has not been written
+      untaken         ///< the value has not been taken
+    } reason = Reason::token;
+    net::PlaceId place{};
+    std::uint32_t due = 0;
+    std::uint32_t awaited = none;  ///< the start that has to go on
+  };
+  [[nodiscard]] Obstacle obstacle(const Firing& firing) const;
+  /// "'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
+  [[nodiscard]] std::string complaint(const Firing& firing, const Obstacle& obstacle) const;
+  /// Fires. Returns what is wrong afterwards; empty: nothing. Precondition: no obstacle.
+  [[nodiscard]] std::string fire(const Firing& firing);
+
+  /// From here on a side of a channel hears this incarnation of the other process. Returns what is wrong.
+  [[nodiscard]] std::string hear(net::ChannelId channel, std::uint32_t start, std::uint64_t incarnation);
+  /// The transition of the system that starts all agents; no process records it.
+  void start_system();
+  /// The rest of what this start did is not known: whatever others need of it, it has done.
+  void assume_rest(std::uint32_t start) { assumed_[start] = true; }
+  /// A process begins again: what it held is gone. Its start before has been played.
+  void restart(std::uint32_t start);
+
+  [[nodiscard]] const net::Marking& marking() const { return marking_; }
+  [[nodiscard]] std::uint64_t firings() const { return firings_; }
+  /// Of a start that was heard and whose recording is not given; empty: none.
+  [[nodiscard]] const std::string& unknown_peer() const { return unknown_peer_; }
+
+ private:
+  static constexpr std::uint32_t unknown = none - 1;  ///< a start whose recording is not given
+  /// What one start of the receiver has read of one start of the sender: numbers.
+  struct Read {
+    std::uint32_t start = none, first = 0, ended = 0;
+  };
+  /// One side of a channel between processes, in one start of its process.
+  struct Sending {
+    std::uint32_t written = 0, acknowledged = 0;  ///< the last numbers; 0: none
+    std::uint32_t peer = none;                    ///< the start that acknowledges
+    std::uint64_t peer_incarnation = 0;
+    std::vector<Read> reads{};  ///< of the starts of the receiver, in their order
+  };
+  struct Receiving {
+    std::uint32_t last = 0;  ///< the number that was last read of this peer; 0: none
+    std::uint32_t peer = none;
+    std::uint64_t peer_incarnation = 0;
+  };
+  struct Link {
+    std::uint64_t markings = 0;  ///< a set: one bit per marking
+    bool tracked = false;
+    std::vector<Sending> sending;      ///< per start of the sending process, in their order
+    std::vector<Receiving> receiving;  ///< per start of the receiving process
+  };
+
+  [[nodiscard]] Sending& sending(net::ChannelId channel, std::uint32_t start);
+  [[nodiscard]] const Sending& sending(net::ChannelId channel, std::uint32_t start) const;
+  [[nodiscard]] Receiving& receiving(net::ChannelId channel, std::uint32_t start);
+  [[nodiscard]] const Receiving& receiving(net::ChannelId channel, std::uint32_t start) const;
+  [[nodiscard]] Obstacle token_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle version_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle number_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle read_obstacle(const Firing& firing, bool exchange) const;
+  [[nodiscard]] Obstacle acknowledgement_obstacle(const Firing& firing) const;
+  [[nodiscard]] bool was_left_behind(net::ChannelId channel, const Firing& firing,
+                                     const Receiving& side) const;
+  [[nodiscard]] bool is_read_later(const Firing& firing, const Sending& side) const;
+  [[nodiscard]] Read* read_by(const Firing& firing);
+  void stop_tracking(const Firing& firing);
+  void count(const Firing& firing);
+  [[nodiscard]] bool move_markings(const Firing& firing);
+  [[nodiscard]] std::uint64_t with_medium(net::ChannelId channel, std::uint64_t markings) const;
+  [[nodiscard]] std::uint32_t find_start(std::uint32_t process, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(Sending& side, std::uint32_t peer, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(net::ChannelId channel, std::uint32_t start, std::uint32_t peer,
+                          std::uint64_t incarnation);
+  void link_up(net::ChannelId id, bool one_run);
+
+  const DeployedNet& net_;
+  std::vector<Start> starts_;
+  std::vector<bool> assumed_;                           // per start: what is not recorded of it is assumed
+  std::vector<std::uint32_t> ordinals_;                 // per start: which of its process
+  std::vector<std::vector<std::uint32_t>> of_process_;  // starts
+  net::Marking marking_, after_start_;
+  std::vector<std::uint32_t> versions_;  // per local channel: the last
+  std::vector<Link> links_;              // per channel
+  std::uint64_t firings_ = 0;
+  std::string unknown_peer_;
+};
+
+}  // namespace tessera::replay

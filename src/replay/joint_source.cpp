@@ -1,0 +1,76 @@
+#include "replay/joint_source.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "replay/joint_legality.hpp"
+#include "replay/net_play.hpp"
+
+namespace tessera::replay {
+
+std::string JointSource::match(const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
+  for (const Recording::TransitionName& named : recording_.transitions) {
+    const auto found = transitions.find(named.name);
+    if (found == transitions.end()) return fmt::format("the net has no transition '{}'", named.name);
+    transitions_.push_back({found->second});
+  }
+  return {};
+}
+
+std::string JointSource::path_of(const Event& event) const {
+  return event.instance() == system_instance ? "the upper layers" : recording_.instances[event.instance()];
+}
+
+std::string JointSource::place_of(const Event& event) const {
+  const std::string process = recording_.process ? recording_.process->name + ": " : "";
+  return process + seconds_text(event.time_ns) + ": ";
+}
+
+std::string JointSource::twice(const Event& event) const {
+  return fmt::format("{}an event of {} is there twice, or not in its place", place_of(event), path_of(event));
+}
+
+std::string JointSource::missing(const Event& event) const {
+  return fmt::format("{}events of {} are missing", place_of(event), path_of(event));
+}
+
+std::vector<const Recording*> in_order(std::span<const Recording> recordings) {
+  std::vector<const Recording*> sorted;
+  for (const Recording& recording : recordings) sorted.push_back(&recording);
+  const auto key = [](const Recording* recording) {
+    return recording->process ? std::pair(recording->process->number, recording->process->incarnation)
+                              : std::pair(std::uint32_t{0}, std::uint64_t{0});
+  };
+  std::ranges::stable_sort(sorted, std::less{}, key);
+  return sorted;
+}
+
+bool is_of_deployed(const Recording& recording) {
+  return recording.process.has_value() || !recording.processes.empty();
+}
+
+std::optional<std::string> cannot_be_joined(std::span<const Recording> recordings,
+                                            const ProcessMap& processes) {
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> seen;
+  for (const Recording& recording : recordings) {
+    if (!recording.process && recordings.size() > 1)
+      return "one of them is of a whole system, which is judged alone; give recordings of processes only";
+    if (recording.processes != processes.names)
+      return "the recording is of other processes than those that the specification deploys";
+    if (!recording.process) continue;
+    const Recording::OneProcess& own = *recording.process;
+    if (own.number >= processes.names.size() || processes.names[own.number] != own.name)
+      return fmt::format("the specification deploys no process '{}' with number {}", own.name, own.number);
+    if (++seen[{own.number, own.incarnation}] > 1)
+      return fmt::format("two of them are of '{}' in the same start (incarnation {}); give one", own.name,
+                         own.incarnation);
+  }
+  return std::nullopt;
+}
+
+}  // namespace tessera::replay

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "net/net.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::replay {
+
+/// What one recording says, in numbers of the net.
+class JointSource {
+ public:
+  explicit JointSource(const Recording& recording) : recording_(recording) {}
+
+  /// Why the recording does not belong to this net; empty: it does.
+  [[nodiscard]] std::string match(const std::unordered_map<std::string_view, std::uint32_t>& transitions);
+  [[nodiscard]] net::TransitionId transition(const Event& event) const { return transitions_[event.subject]; }
+  /// Of the subsystem.
+  [[nodiscard]] std::string path_of(const Event& event) const;
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+
+  /// "office: 2.500000 s: "
+  [[nodiscard]] std::string place_of(const Event& event) const;
+  /// What is wrong with the sequence of its events: one is there again, or some are not there.
+  [[nodiscard]] std::string twice(const Event& event) const;
+  [[nodiscard]] std::string missing(const Event& event) const;
+
+ private:
+  const Recording& recording_;
+  std::vector<net::TransitionId> transitions_;  // per transition of the recording
+};
+
+/// Does it have a number in the sequence of its subsystem?
+[[nodiscard]] inline bool is_counted(const Event& event) {
+  return event.kind() != Event::Kind::marking && event.kind() != Event::Kind::poses;
+}
+/// Does a check of legality look at it?
+[[nodiscard]] inline bool is_played(const Event& event) {
+  return event.kind() == Event::Kind::firing || event.kind() == Event::Kind::peer;
+}
+
+/// By their processes, and those of one process by their incarnations.
+[[nodiscard]] std::vector<const Recording*> in_order(std::span<const Recording> recordings);
+
+}  // namespace tessera::replay

@@ -1,0 +1,152 @@
+#include "replay/joint_legality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <random>
+
+#include "deployed_run.hpp"
+#include "layers/models.hpp"
+#include "naive_joint.hpp"
+
+namespace tessera::replay {
+namespace {
+
+using JointVerdict = Legality::Verdict;
+using test::B;
+using test::N;
+
+/// Two to three agents and a few channels of all modes between them and within them.
+spec::Model small_model(std::mt19937& engine) {
+  const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
+  test::ModelBuilder builder;
+  const std::uint32_t agents = 2 + random() % 2;
+  std::vector<spec::ChannelEnd> outputs, inputs;
+  for (std::uint32_t agent = 0; agent < agents; ++agent) {
+    std::vector<spec::Subsystem> parts;
+    const std::uint32_t count = 1 + random() % 5 / 4;
+    for (std::uint32_t part = 0; part < count; ++part) {
+      spec::Behaviour first = test::behaviour("first", 0);
+      if (random() % 3 == 0) first.transfer = spec::Transfer::parallel;
+      first.next.front().behaviour = random() % 4 == 0 ? spec::none : 0;
+      parts.push_back(test::subsystem(spec::SubsystemKind::receptor, "s" + std::to_string(part), {"p", "q"},
+                                      {"p", "q"}, {first}));
+    }
+    const spec::Index instance = builder.agent("a" + std::to_string(agent), std::move(parts));
+    for (std::uint32_t part = 0; part < count; ++part)
+      for (spec::Index buffer = 0; buffer < 2; ++buffer) {
+        outputs.push_back({instance + part, buffer});
+        inputs.push_back({instance + part, buffer});
+      }
+  }
+  std::ranges::shuffle(inputs, engine);
+  const std::size_t count = 1 + random() % 3;
+  for (std::size_t number = 0; number < std::min(count, inputs.size()); ++number) {
+    const spec::ChannelEnd& to = inputs[number];
+    const spec::ChannelEnd& from = outputs[random() % outputs.size()];
+    if (from.instance == to.instance) continue;
+    spec::Channel& channel = builder.channel(from, to);
+    channel.send = random() % 2 == 0 ? N : B;
+    channel.receive = random() % 2 == 0 ? N : B;
+    if (channel.send == B && random() % 2 == 0) channel.send_timeout = std::chrono::milliseconds(10);
+    if (channel.receive == B && random() % 2 == 0) channel.receive_timeout = std::chrono::milliseconds(10);
+  }
+  return builder.result();
+}
+
+TEST(JointLegality, RandomRunsOfDeployedSystemsAreLegal) {
+  std::mt19937 random(3);
+  std::size_t networked = 0;
+  for (std::uint32_t seed = 0; seed < 150; ++seed) {
+    const Deployed system = each_apart(seed % 2 == 0 ? test::random_model(seed) : small_model(random));
+    const std::vector<Recording> run = deployed_run(system, 600, random);
+    EXPECT_EQ(cannot_be_joined(run, system.processes), std::nullopt);
+    const Legality joint = check_joint(run, system.net, system.processes);
+    EXPECT_EQ(joint.verdict, JointVerdict::legal) << seed << ": " << joint.why;
+    std::size_t firings = 0;
+    for (const Recording& one : run)
+      for (const Recording::Entry& entry : one.entries) {
+        firings += entry.event.kind() == Event::Kind::firing ? 1 : 0;
+        networked += entry.event.kind() == Event::Kind::peer ? 1 : 0;
+      }
+    EXPECT_EQ(joint.firings, firings) << seed;
+    const Recording simulated = simulated_run(system, 600, random);
+    const Legality in_order = check_joint({&simulated, 1}, system.net, system.processes);
+    EXPECT_EQ(in_order.verdict, JointVerdict::legal) << seed << ": " << in_order.why;
+    EXPECT_EQ(in_order.firings, simulated.entries.size()) << seed;
+  }
+  EXPECT_GT(networked, 100U) << "channels between processes were used";
+}
+
+void renumber(Recording& recording) {
+  std::map<std::uint32_t, std::uint32_t> sequences;
+  for (Recording::Entry& entry : recording.entries)
+    entry.event.sequence = sequences[entry.event.instance()]++;
+}
+
+/// Each makes something of the event with that number that is seldom a run.
+const std::map<std::string, std::function<void(Recording&, std::size_t, std::mt19937&)>> joint_mutations = {
+    {"left out",
+     [](Recording& run, std::size_t at, std::mt19937&) {
+       run.entries.erase(run.entries.begin() + static_cast<std::ptrdiff_t>(at));
+     }},
+    {"exchanged with the next",
+     [](Recording& run, std::size_t at, std::mt19937&) {
+       if (at + 1 < run.entries.size()) std::swap(run.entries[at], run.entries[at + 1]);
+     }},
+    {"another number",
+     [](Recording& run, std::size_t at, std::mt19937& random) {
+       if (run.entries[at].event.kind() == Event::Kind::firing)
+         run.entries[at].event.version += random() % 2 == 0 ? 1U : UINT32_MAX;
+     }},
+    {"another transition",
+     [](Recording& run, std::size_t at, std::mt19937& random) {
+       const Event other = run.entries[random() % run.entries.size()].event;
+       Event& event = run.entries[at].event;
+       if (event.kind() == Event::Kind::firing && other.kind() == Event::Kind::firing &&
+           other.instance() == event.instance())
+         event.subject = other.subject;
+     }},
+    {"moved",
+     [](Recording& run, std::size_t at, std::mt19937& random) {
+       const std::size_t to = random() % run.entries.size();
+       const auto from = run.entries.begin() + static_cast<std::ptrdiff_t>(at);
+       const auto target = run.entries.begin() + static_cast<std::ptrdiff_t>(to);
+       from < target ? std::rotate(from, from + 1, target) : std::rotate(target, from, from + 1);
+     }},
+    {"repeated", [](Recording& run, std::size_t at, std::mt19937&) {
+       run.entries.insert(run.entries.begin() + static_cast<std::ptrdiff_t>(at), run.entries[at]);
+     }}};
+
+/// TESSERA_JOINT_RUNS=2000 asks for more. The naive search tries all orders of all firings and all firings of the media.
+TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
+  std::mt19937 random(7);
+  std::map<bool, std::size_t> verdicts;
+  const char* more = std::getenv("TESSERA_JOINT_RUNS");
+  const std::uint32_t runs = more == nullptr ? 60 : static_cast<std::uint32_t>(std::stoul(more));
+  for (std::uint32_t seed = 0; seed < runs; ++seed) {
+    const Deployed system = each_apart(small_model(random));
+    const std::vector<Recording> run = deployed_run(system, 40, random);
+    EXPECT_TRUE(naive_joint(run, system.net)) << seed;
+    for (const auto& [name, mutate] : joint_mutations) {
+      std::vector<Recording> wrong = run;
+      Recording& changed = wrong[random() % wrong.size()];
+      if (changed.entries.empty()) continue;
+      mutate(changed, random() % changed.entries.size(), random);
+      renumber(changed);
+      const bool possible = naive_joint(wrong, system.net);
+      const Legality joint = check_joint(wrong, system.net, system.processes);
+      EXPECT_EQ(joint.verdict, possible ? JointVerdict::legal : JointVerdict::illegal)
+          << seed << ", " << name << ": " << joint.why;
+      ++verdicts[possible];
+    }
+  }
+  EXPECT_GT(verdicts[true], 20U);
+  EXPECT_GT(verdicts[false], 100U);
+}
+
+}  // namespace
+}  // namespace tessera::replay

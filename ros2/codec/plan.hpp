@@ -83,7 +83,7 @@ class Plan {
     Fill fill = Fill::nothing;
     bool by_name = false;         ///< its elements are in the order of Mapping::names
     bool per_element = false;     ///< `members` has one step for each element of an array of messages
-    std::vector<Step> members{};  ///< of a message
+    std::vector<Step> members;  ///< of a message
     std::vector<Literal> defaults{};
   };
 

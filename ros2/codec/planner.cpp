@@ -78,7 +78,9 @@ class Planner {
   static std::vector<Plan::Step> steps_of(const Structure& structure) {
     std::vector<Plan::Step> steps;
     for (const Field& field : structure.fields) {
-      Plan::Step step{.type = field.type, .defaults = field.defaults};
+      Plan::Step step;
+      step.type = field.type;
+      step.defaults = field.defaults;
       if (field.type.structure != nullptr) step.members = steps_of(*field.type.structure);
       steps.push_back(std::move(step));
     }
@@ -263,7 +265,9 @@ class Planner {
     const Structure& structure = *step.type.structure;
     if (value.count == 0) return match_members(value, value_path, step.members, structure, message_path);
     step.per_element = true;
-    Plan::Step one{.type = step.type, .members = std::move(step.members)};
+    Plan::Step one;
+    one.type = step.type;
+    one.members = std::move(step.members);
     one.type.repeat = Type::Repeat::once;
     step.members.assign(value.count, one);
     const std::size_t before = problems_.size();

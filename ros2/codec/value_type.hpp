@@ -17,7 +17,7 @@ struct ValueType {
   std::uint32_t capacity = 0;  ///< of a string, in bytes
   std::uint32_t count = 0;     ///< elements of an array; 0: no array
   struct Member;
-  std::vector<Member> members{};
+  std::vector<Member> members;
 
   /// "float64[8]", "a structure"
   [[nodiscard]] std::string text() const;

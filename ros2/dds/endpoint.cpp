@@ -44,11 +44,11 @@ dds_qos_t* new_qos(const Qos& qos) {
 }  // namespace
 
 void Endpoint::tell_of_qos(const Told& told, std::uint32_t policy) {
-  std::fprintf(stderr,
-               "warning: %s: a %s of %s asks for another %s than ours, so that nothing passes; see `qos` in "
-               "docs/ros2.md\n",
-               told.path.c_str(), told.writes ? "subscriber" : "publisher", told.topic.c_str(),
-               name_of_policy(policy));
+  std::fprintf(
+      stderr,
+      "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/ros2.md\n",
+      told.path.c_str(), told.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
+      told.topic.c_str());
 }
 
 Endpoint::Endpoint(const EndpointSetup& setup, bool writes)

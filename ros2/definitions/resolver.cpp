@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "ros2/naming/names.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::ros2 {
@@ -119,21 +120,6 @@ std::vector<std::string> DefinitionBundle::names() const {
   std::vector<std::string> names;
   for (const auto& message : messages_) names.push_back(message.first);
   return names;
-}
-
-std::optional<std::string> full_message_name(std::string_view written) {
-  const auto is_name = [](std::string_view part) {
-    return !part.empty() && std::ranges::all_of(part, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    });
-  };
-  const std::size_t slash = written.find('/');
-  if (slash == std::string_view::npos) return std::nullopt;
-  const std::string_view package = written.substr(0, slash);
-  std::string_view message = written.substr(slash + 1);
-  if (message.starts_with("msg/")) message.remove_prefix(4);
-  if (!is_name(package) || !is_name(message)) return std::nullopt;
-  return std::string(package) + "/msg/" + std::string(message);
 }
 
 std::shared_ptr<const Structure> resolve(const std::string& name, const Definitions& definitions,

@@ -48,9 +48,6 @@ class DefinitionBundle : public Definitions {
   std::vector<std::pair<std::string, std::string>> messages_;
 };
 
-/// "geometry_msgs/Twist" and "geometry_msgs/msg/Twist" are "geometry_msgs/msg/Twist"; nullopt: no such form.
-[[nodiscard]] std::optional<std::string> full_message_name(std::string_view written);
-
 /// Reads a message and all that it uses. nullptr after mistakes: unknown messages, wrong definitions,
 /// a message that contains itself.
 [[nodiscard]] std::shared_ptr<const Structure> resolve(const std::string& name,

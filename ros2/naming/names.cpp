@@ -79,6 +79,21 @@ std::string dds_type_name(std::string_view message) {
   return name;
 }
 
+std::optional<std::string> full_message_name(std::string_view written) {
+  const auto is_name = [](std::string_view part) {
+    return !part.empty() && std::ranges::all_of(part, [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    });
+  };
+  const std::size_t slash = written.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const std::string_view package = written.substr(0, slash);
+  std::string_view message = written.substr(slash + 1);
+  if (message.starts_with("msg/")) message.remove_prefix(4);
+  if (!is_name(package) || !is_name(message)) return std::nullopt;
+  return std::string(package) + "/msg/" + std::string(message);
+}
+
 bool is_node_name(std::string_view name) { return is_token(name) && name.size() <= 255; }
 
 std::string node_name_of(std::string_view system) {

@@ -13,6 +13,8 @@ namespace tessera::ros2 {
 [[nodiscard]] std::string dds_topic_name(std::string_view topic);
 /// "geometry_msgs::msg::dds_::Twist_" of "geometry_msgs/msg/Twist".
 [[nodiscard]] std::string dds_type_name(std::string_view message);
+/// "geometry_msgs/Twist" and "geometry_msgs/msg/Twist" are "geometry_msgs/msg/Twist"; nullopt: no such form.
+[[nodiscard]] std::optional<std::string> full_message_name(std::string_view written);
 /// Whether a node can have the name: letters, digits and underscores.
 [[nodiscard]] bool is_node_name(std::string_view name);
 /// A name for a node, made of a name or path: "robot_3_base" of "robot[3].base".

@@ -7,6 +7,7 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/assets.hpp"
+#include "project/files/ros2_messages.hpp"
 #include "project/files/world_check.hpp"
 #include "project/verification/pipeline.hpp"
 #include "spec/parser.hpp"
@@ -30,8 +31,9 @@ std::string count_of(const Things& things, const char* name) {
 int check_json(const CheckOptions& options) {
   diagnostics::Diagnostics found = diagnostics::load(spec_file(options.spec));
   if (!found.has_errors())
-    if (const std::optional<spec::Model> model = spec::parse(found)) {
+    if (std::optional<spec::Model> model = spec::parse(found)) {
       const auto project = std::filesystem::absolute(spec_file(options.spec)).parent_path();
+      find_messages(*model, project, found);
       if (check_simulation_files(*model, project, found)) check_world(*model, project, "", found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
     }

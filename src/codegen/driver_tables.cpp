@@ -15,6 +15,8 @@ const std::vector<spec::Driver>& simulated_drivers(const spec::Model& model) {
   return model.simulation ? model.simulation->drivers : none;
 }
 
+constexpr std::string_view topic_kind = "ros2";
+
 std::string option_text(const std::string& name, const spec::DriverOption& option) {
   struct Text {
     std::string operator()(bool value) const { return value ? "true" : "false"; }
@@ -36,7 +38,8 @@ class Writer {
   std::string rows(const std::vector<spec::Driver>& drivers) {
     std::vector<std::pair<std::string, const spec::Driver*>> sorted;
     for (const spec::Driver& driver : drivers)
-      if (driver.kind == "cpp") sorted.emplace_back(model_.driver_path(driver), &driver);
+      if (driver.kind == "cpp" || driver.kind == topic_kind)
+        sorted.emplace_back(model_.driver_path(driver), &driver);
     std::ranges::stable_sort(sorted, {}, [](const auto& one) { return one.first; });
     std::string rows;
     for (const auto& [path, driver] : sorted) rows += row(path, *driver);
@@ -44,7 +47,6 @@ class Writer {
   }
 
   DriverTables finish(std::string real, std::string simulated) {
-    if (!real.empty() || !simulated.empty()) headers_.insert(quoted("drivers.hpp"));
     return {definitions_.empty() ? "" : definitions_ + '\n', std::move(real), std::move(simulated), classes(),
             headers_};
   }
@@ -52,6 +54,8 @@ class Writer {
  private:
   std::string row(const std::string& path, const spec::Driver& driver) {
     const bool reads = model_.subsystem(driver.instance).kind == spec::SubsystemKind::receptor;
+    if (driver.kind == topic_kind) return topic_row(path, driver, reads);
+    headers_.insert(quoted("drivers.hpp"));
     const std::string device = alias(driver.target());
     const std::string make = fmt::format("tessera::make_driver<tessera::{}, {}, {}>",
                                          reads ? "RealReceptor" : "RealEffector", value(driver), device);
@@ -59,6 +63,18 @@ class Writer {
         "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(), quoted(project_.at(driver.span)),
         options(driver),
         reads ? make + ", nullptr" : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, device));
+  }
+
+  /// Those that write can be given to the guardian process.
+  std::string topic_row(const std::string& path, const spec::Driver& driver, bool reads) {
+    headers_.insert(quoted("tessera/ros2.hpp"));
+    spec::Driver with_topic = driver;
+    with_topic.options["topic"] = spec::DriverOption{driver.target(), ""};
+    const std::string make =
+        fmt::format("tessera::ros2_{}<{}>", reads ? "receptor" : "effector", value(driver));
+    return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2",
+                       quoted(project_.at(driver.span)), options(with_topic),
+                       reads ? make + ", nullptr" : "nullptr, " + make + ", true");
   }
 
   /// The type that the driver reads or writes.

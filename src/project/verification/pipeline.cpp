@@ -11,6 +11,7 @@
 #include "net/flatten.hpp"
 #include "project/files/assets.hpp"
 #include "project/files/file_names.hpp"
+#include "project/files/ros2_messages.hpp"
 #include "project/files/world_check.hpp"
 #include "project/process/listener.hpp"
 #include "project/verification/verdicts.hpp"
@@ -32,9 +33,10 @@ std::optional<Specification> read(const fs::path& given, Listener& listener) {
   diagnostics::Diagnostics diagnostics = diagnostics::load(file);
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
-  listener.say(diagnostics);
-  if (!model) return std::nullopt;
   const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+  const bool found = model && find_messages(*model, absolute.parent_path(), diagnostics);
+  listener.say(diagnostics);
+  if (!found) return std::nullopt;
   return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
 }
 

@@ -26,6 +26,9 @@ struct DriverKind {
   bool lists;           ///< may have a list of targets
   std::string_view target;
   Values values;
+
+  /// A device of the real robot that needs no C++ class: a topic of ROS 2.
+  [[nodiscard]] bool is_topic() const { return name == "ros2"; }
 };
 
 /// nullptr: there is none of that name.

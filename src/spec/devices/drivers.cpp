@@ -8,6 +8,7 @@
 #include "spec/agents/subsystems.hpp"
 #include "spec/devices/driver_kinds.hpp"
 #include "spec/devices/driver_options.hpp"
+#include "spec/devices/topics.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
@@ -83,6 +84,10 @@ class DriverReader {
       return nullptr;
     }
     const DriverKind* const kind = find_kind(chosen->key);
+    if (kind->is_topic()) {
+      read_topic(entry, driver, out_);
+      return kind;
+    }
     read_target(*chosen, *kind, driver);
     for (const Entry& key : entry.value->entries) {
       if (&key == chosen || (kind->simulated_only && find_kind(key.key) != nullptr)) continue;
@@ -157,7 +162,9 @@ class DriverReader {
     } else if (!right_side) {
       problem = "driver " + quoted(kind.name) + " does not fit " +
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
-    } else if (kind.simulated_only && driver.real == none) {
+    } else if (devices_ == Devices::simulated && kind.is_topic()) {
+      problem = "driver " + quoted(kind.name) + " belongs to the real robot";
+    } else if ((kind.simulated_only || kind.is_topic()) && driver.real == none) {
       problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
     } else if (driver.real != none &&
                !has_values_of(kind, subsystem.real[driver.real].type, lookup_.model())) {
@@ -165,11 +172,17 @@ class DriverReader {
     } else {
       return true;
     }
-    out_.error("E210", driver.span, problem,
-               devices_ == Devices::real && kind.simulated_only
-                   ? "move it to simulation: drivers:, or write { cpp: CLASS }"
-                   : "");
+    out_.error("E210", driver.span, problem, hint_for(kind, driver));
     return false;
+  }
+
+  [[nodiscard]] const char* hint_for(const DriverKind& kind, const Driver& driver) const {
+    if (devices_ == Devices::real && kind.simulated_only)
+      return "move it to simulation: drivers:, or write { cpp: CLASS }";
+    if (!kind.is_topic()) return "";
+    if (devices_ == Devices::simulated)
+      return "move it to drivers: beside agents:; `tessera simulate --hardware` opens it in a simulated run";
+    return driver.real == none ? "name a real buffer, and give it a structure" : "";
   }
 
   void add(const BufferPath& path, const PathTarget& target, const Driver& driver) {

@@ -1,0 +1,303 @@
+#include "ros2/codec/plan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ros2/codec/cdr.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+/// Messages without fields have one byte.
+constexpr std::uint8_t empty_message = 0;
+
+/// Notes where the parts of a message are that the buffer takes.
+class Finder {
+ public:
+  struct Found {
+    std::size_t at = 0, count = 0;
+    const Plan::Step* step = nullptr;
+  };
+
+  Finder(CdrReader& reader, std::size_t blocks) : reader_(reader), blocks_(blocks) {}
+
+  void walk(const std::vector<Plan::Step>& steps) {
+    if (steps.empty()) reader_.numbers(1, 1);
+    for (const Plan::Step& step : steps) {
+      if (!reader_.ok()) return;
+      walk(step);
+    }
+  }
+
+  [[nodiscard]] const std::vector<Found>& blocks() const { return blocks_; }
+  [[nodiscard]] const Found& names() const { return names_; }
+  [[nodiscard]] bool other_length() const { return other_length_; }
+
+ private:
+  void walk(const Plan::Step& step) {
+    using Repeat = Type::Repeat;
+    std::size_t count = step.type.repeat == Repeat::once ? 1 : step.type.count;
+    if (step.type.repeat == Repeat::sequence) {
+      count = reader_.length();
+      if (step.type.count > 0 && count > step.type.count) reader_.fail();
+    }
+    if (!reader_.ok()) return;
+    if (step.type.primitive != Primitive::structure) {
+      const Found found{reader_.at(), count, &step};
+      if (step.block) blocks_[*step.block] = found;
+      if (step.fill == Plan::Fill::names) names_ = found;
+      reader_.skip(step.type, count);
+    } else if (step.per_element && count != step.members.size()) {
+      other_length_ = true;
+      for (std::size_t index = 0; index < count && reader_.ok(); ++index) walk(step.members.front().members);
+    } else {
+      for (std::size_t index = 0; index < count && reader_.ok(); ++index)
+        walk(step.per_element ? step.members[index].members : step.members);
+    }
+  }
+
+  CdrReader& reader_;
+  std::vector<Found> blocks_;
+  Found names_;
+  bool other_length_ = false;
+};
+
+/// The place of each name in the message.
+std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder::Found& found,
+                                                 const std::vector<std::string>& names) {
+  constexpr std::size_t nowhere = ~std::size_t{0};
+  std::vector<std::size_t> order(names.size(), nowhere);
+  reader.go_to(found.at);
+  for (std::size_t index = 0; index < found.count; ++index) {
+    const auto name = std::ranges::find(names, reader.text());
+    if (name == names.end()) continue;
+    std::size_t& place = order[static_cast<std::size_t>(name - names.begin())];
+    if (place != nowhere) return std::nullopt;
+    place = index;
+  }
+  if (std::ranges::find(order, nowhere) != order.end()) return std::nullopt;
+  return order;
+}
+
+/// Writes the bytes of the buffer's value, block after block.
+class ValueWriter {
+ public:
+  using Outcome = Plan::Outcome;
+  explicit ValueWriter(CdrReader& reader) : reader_(reader) {}
+
+  Outcome add(const Finder::Found& found, const Plan::Block& block, const std::vector<std::size_t>& order,
+              std::size_t names) {
+    const bool by_name = found.step->by_name;
+    if (found.count != (by_name ? names : block.count)) return Outcome::other_length;
+    reader_.go_to(found.at);
+    if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
+    return add_numbers(found, block, by_name ? &order : nullptr);
+  }
+  std::vector<std::byte>& value() { return value_; }
+
+ private:
+  Outcome add_numbers(const Finder::Found& found, const Plan::Block& block,
+                      const std::vector<std::size_t>* order) {
+    const Primitive source = found.step->type.primitive;
+    const auto bytes = reader_.numbers(size_of(source), found.count);
+    const std::size_t first = value_.size(), size = size_of(block.primitive);
+    value_.resize(first + size * block.count);
+    bool good = true;
+    if (order == nullptr)
+      good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first,
+                     block.count);
+    for (std::size_t index = 0; order != nullptr && index < block.count; ++index)
+      good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
+                     block.primitive, value_.data() + first + index * size, 1) &&
+             good;
+    return good ? Outcome::good : Outcome::malformed;
+  }
+
+  Outcome add_texts(const Finder::Found& found, const Plan::Block& block,
+                    const std::vector<std::size_t>* order) {
+    std::vector<std::string_view> texts(found.count);
+    for (std::string_view& text : texts) text = reader_.text();
+    for (std::size_t index = 0; index < block.count; ++index) {
+      const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
+      if (text.size() > block.capacity) return Outcome::other_length;
+      const auto length = static_cast<std::uint32_t>(text.size());
+      put(&length, sizeof length);
+      put(text.data(), text.size());
+    }
+    return Outcome::good;
+  }
+
+  void put(const void* bytes, std::size_t count) {
+    const auto* const first = static_cast<const std::byte*>(bytes);
+    value_.insert(value_.end(), first, first + count);
+  }
+
+  CdrReader& reader_;
+  std::vector<std::byte> value_;
+};
+
+/// Where the blocks of a value are; nullopt: these are not the bytes of such a value.
+std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
+    std::span<const std::byte> value, const std::vector<Plan::Block>& blocks) {
+  std::vector<std::span<const std::byte>> parts;
+  parts.reserve(blocks.size());
+  for (const Plan::Block& block : blocks) {
+    std::size_t size = 0;
+    if (block.primitive != Primitive::string) size = size_of(block.primitive) * block.count;
+    for (std::uint32_t index = 0; block.primitive == Primitive::string && index < block.count; ++index) {
+      std::uint32_t length = 0;
+      if (value.size() < size + sizeof length) return std::nullopt;
+      std::memcpy(&length, value.data() + size, sizeof length);
+      size += sizeof length + length;
+    }
+    if (size > value.size()) return std::nullopt;
+    parts.push_back(value.first(size));
+    value = value.subspan(size);
+  }
+  return value.empty() ? std::optional(std::move(parts)) : std::nullopt;
+}
+
+class MessageWriter {
+ public:
+  MessageWriter(CdrWriter writer, std::vector<std::span<const std::byte>> parts,
+                const std::vector<Plan::Block>& blocks, const std::vector<std::string>& names,
+                const std::string& frame_id, const Stamp& stamp)
+      : writer_(writer),
+        parts_(std::move(parts)),
+        blocks_(blocks),
+        names_(names),
+        frame_id_(frame_id),
+        stamp_(stamp) {}
+
+  void write(const std::vector<Plan::Step>& steps) {
+    if (steps.empty()) writer_.number(&empty_message, 1);
+    for (const Plan::Step& step : steps) write(step);
+  }
+  void finish() { writer_.finish(); }
+
+ private:
+  void write(const Plan::Step& step) {
+    const bool sequence = step.type.repeat == Type::Repeat::sequence;
+    const std::size_t count = count_of(step);
+    if (sequence) writer_.length(static_cast<std::uint32_t>(count));
+    if (step.type.primitive == Primitive::structure) {
+      for (std::size_t index = 0; index < count; ++index)
+        write(step.per_element ? step.members[index].members : step.members);
+    } else if (step.block) {
+      write_block(step.type, *step.block);
+    } else {
+      write_rest(step, count);
+    }
+  }
+
+  [[nodiscard]] std::size_t count_of(const Plan::Step& step) const {
+    if (step.type.repeat == Type::Repeat::once) return 1;
+    if (step.type.repeat == Type::Repeat::array) return step.type.count;
+    if (step.block) return blocks_[*step.block].count;
+    if (step.per_element) return step.members.size();
+    return step.fill == Plan::Fill::names ? names_.size() : step.defaults.size();
+  }
+
+  void write_block(const Type& type, std::size_t number) {
+    const Plan::Block& block = blocks_[number];
+    const std::span<const std::byte> part = parts_[number];
+    if (type.primitive != Primitive::string) {
+      std::byte* const to = writer_.numbers(size_of(type.primitive), block.count);
+      // A bool of a buffer may be any byte that is true to the compiler; it is 0 or 1.
+      static_cast<void>(convert(block.primitive, part.data(), false, type.primitive, to, block.count));
+      return;
+    }
+    std::size_t at = 0;
+    for (std::uint32_t index = 0; index < block.count; ++index) {
+      std::uint32_t length = 0;
+      std::memcpy(&length, part.data() + at, sizeof length);
+      at += sizeof length;
+      writer_.text({reinterpret_cast<const char*>(part.data()) + at, length});
+      at += length;
+    }
+  }
+
+  void write_rest(const Plan::Step& step, std::size_t count) {
+    switch (step.fill) {
+      case Plan::Fill::stamp_sec:
+        return writer_.number(&stamp_.sec, sizeof stamp_.sec);
+      case Plan::Fill::stamp_nanosec:
+        return writer_.number(&stamp_.nanosec, sizeof stamp_.nanosec);
+      case Plan::Fill::frame_id:
+        return writer_.text(frame_id_);
+      case Plan::Fill::names:
+        for (const std::string& name : names_) writer_.text(name);
+        return;
+      case Plan::Fill::nothing:
+        for (std::size_t index = 0; index < count; ++index)
+          write_default(step.type.primitive, step.defaults.empty() ? nullptr : &step.defaults[index]);
+    }
+  }
+
+  void write_default(Primitive primitive, const Literal* literal) {
+    if (primitive == Primitive::string)
+      return writer_.text(literal == nullptr ? std::string() : std::get<std::string>(*literal));
+    std::byte* const to = writer_.numbers(size_of(primitive), 1);
+    if (literal == nullptr) return;
+    if (const auto* const flag = std::get_if<bool>(literal)) *to = static_cast<std::byte>(*flag);
+    // The lowest bytes of a whole number are the number in a smaller type.
+    if (const auto* const whole = std::get_if<std::int64_t>(literal))
+      std::memcpy(to, whole, size_of(primitive));
+    if (const auto* const natural = std::get_if<std::uint64_t>(literal))
+      std::memcpy(to, natural, size_of(primitive));
+    if (const auto* const real = std::get_if<double>(literal)) write_real(primitive, *real, to);
+  }
+
+  static void write_real(Primitive primitive, double real, std::byte* to) {
+    const auto single = static_cast<float>(real);
+    if (primitive == Primitive::float32)
+      std::memcpy(to, &single, sizeof single);
+    else
+      std::memcpy(to, &real, sizeof real);
+  }
+
+  CdrWriter writer_;
+  std::vector<std::span<const std::byte>> parts_;
+  const std::vector<Plan::Block>& blocks_;
+  const std::vector<std::string>& names_;
+  const std::string& frame_id_;
+  const Stamp& stamp_;
+};
+
+}  // namespace
+
+Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value) const {
+  // The data may be padded to four bytes. More than that belongs to another definition of the message.
+  constexpr std::size_t most_padding = 3;
+  auto reader = CdrReader::open(message);
+  if (!reader) return Outcome::malformed;
+  Finder finder(*reader, blocks_.size());
+  finder.walk(steps_);
+  if (!reader->ok() || reader->left() > most_padding) return Outcome::malformed;
+  if (finder.other_length()) return Outcome::other_length;
+  std::vector<std::size_t> order;
+  if (!names_.empty()) {
+    auto found = order_of(*reader, finder.names(), names_);
+    if (!found) return Outcome::other_names;
+    order = std::move(*found);
+  }
+  ValueWriter writer(*reader);
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    const Outcome outcome = writer.add(finder.blocks()[block], blocks_[block], order, finder.names().count);
+    if (outcome != Outcome::good) return outcome;
+  }
+  value = std::move(writer.value());
+  return Outcome::good;
+}
+
+bool Plan::encode(std::span<const std::byte> value, const Stamp& stamp,
+                  std::vector<std::byte>& message) const {
+  auto parts = parts_of_value(value, blocks_);
+  if (!parts) return false;
+  MessageWriter writer(CdrWriter(message), std::move(*parts), blocks_, names_, frame_id_, stamp);
+  writer.write(steps_);
+  writer.finish();
+  return true;
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ros2/codec/value_type.hpp"
+#include "ros2/definitions/type.hpp"
+
+namespace tessera::ros2 {
+
+enum class Direction : std::uint8_t { receive, send };
+
+/// How a message and a real buffer correspond.
+struct Mapping {
+  /// Field of the message -> field of the buffer: {"linear.x", "v"}. An empty field of the buffer is all of
+  /// it. Without any, fields of equal names correspond; a buffer that is no structure corresponds to the
+  /// only field of the message, or to its field `data`.
+  std::vector<std::pair<std::string, std::string>> fields{};
+  /// With names, the message has a field `name` (sensor_msgs/JointState). Its sequences are received in the
+  /// order of these names, whatever order the sender has; they are sent with these names.
+  std::vector<std::string> names{};
+  /// What is sent as `header.frame_id`.
+  std::string frame_id{};
+};
+
+/// What is wrong with a mapping.
+struct MappingProblem {
+  std::string subject;  ///< the field of the message as the mapping names it; "names"; empty: all of it
+  std::string text, hint{};
+};
+
+/// Time of a message that is sent.
+struct Stamp {
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+};
+
+/// Translates messages into values of a real buffer, or the other way round. Values are in the form of
+/// tessera/value_encoding.hpp. Made once, since it compares the types.
+///
+/// Sending fills what the buffer does not: defaults of the definition, otherwise zeros; the field `header`
+/// gets the time and the `frame_id`.
+///
+/// Threads: const functions at any time.
+class Plan {
+ public:
+  /// Errors: all problems are reported, then nullopt. A number must convert exactly, so that int64 does not
+  ///         become float64. Every field of the buffer corresponds to one of the message.
+  [[nodiscard]] static std::optional<Plan> make(std::shared_ptr<const Structure> message,
+                                                const ValueType& value, const Mapping& mapping,
+                                                Direction direction, std::vector<MappingProblem>& problems);
+
+  enum class Outcome : std::uint8_t {
+    good,
+    malformed,     ///< no such message: too short, too long, a bool of 2 ...
+    other_length,  ///< a sequence or string has another length than the buffer
+    other_names    ///< one of Mapping::names is missing, or is there twice
+  };
+  /// The value is unchanged unless the outcome is good. Reads any bytes safely.
+  [[nodiscard]] Outcome decode(std::span<const std::byte> message, std::vector<std::byte>& value) const;
+
+  /// false: the value has not the bytes of its type. The message replaces what is in `message`.
+  [[nodiscard]] bool encode(std::span<const std::byte> value, const Stamp& stamp,
+                            std::vector<std::byte>& message) const;
+
+  /// Numbers and texts of the buffer, in its order; those of an array of numbers are one.
+  struct Block {
+    Primitive primitive = Primitive::boolean;
+    std::uint32_t count = 1, capacity = 0;
+  };
+  enum class Fill : std::uint8_t { nothing, stamp_sec, stamp_nanosec, frame_id, names };
+  /// A field of the message, or an element of it.
+  struct Step {
+    Type type;
+    std::optional<std::size_t> block{};  ///< the part of the buffer that corresponds
+    Fill fill = Fill::nothing;
+    bool by_name = false;         ///< its elements are in the order of Mapping::names
+    bool per_element = false;     ///< `members` has one step for each element of an array of messages
+    std::vector<Step> members;  ///< of a message
+    std::vector<Literal> defaults{};
+  };
+
+ private:
+  friend class Planner;
+  Plan() = default;
+  std::shared_ptr<const Structure> message_;
+  std::vector<Step> steps_;
+  std::vector<Block> blocks_;
+  std::vector<std::string> names_;
+  std::string frame_id_;
+};
+
+}  // namespace tessera::ros2

@@ -1,0 +1,360 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "ros2/codec/cdr.hpp"
+#include "ros2/codec/plan.hpp"
+#include "tessera/nearest.hpp"
+
+namespace tessera::ros2 {
+
+namespace {
+
+constexpr std::size_t most_blocks = 1U << 14;
+
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> parts;
+  while (!path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    parts.emplace_back(path.substr(0, dot));
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return parts;
+}
+
+std::vector<std::string> field_names(const Structure& structure) {
+  std::vector<std::string> names;
+  for (const Field& field : structure.fields) names.push_back(field.name);
+  return names;
+}
+
+std::vector<std::string> member_names(const ValueType& type) {
+  std::vector<std::string> names;
+  for (const ValueType::Member& member : type.members) names.push_back(member.name);
+  return names;
+}
+
+/// "did you mean 'x'?", or all of them if nothing is near.
+std::string hint_of(std::string_view word, const std::vector<std::string>& names, std::string_view owner) {
+  if (std::string guess = did_you_mean(word, names); !guess.empty()) return guess;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return std::string(owner) + " has " + (list.empty() ? "no fields" : list);
+}
+
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+}  // namespace
+
+class Planner {
+ public:
+  Planner(const ValueType& value, const Mapping& mapping, Direction direction,
+          std::vector<MappingProblem>& problems)
+      : value_(value), mapping_(mapping), receives_(direction == Direction::receive), problems_(problems) {}
+
+  std::optional<Plan> make(std::shared_ptr<const Structure> message) {
+    const std::size_t before = problems_.size();
+    plan_.message_ = std::move(message);
+    plan_.names_ = mapping_.names;
+    plan_.frame_id_ = mapping_.frame_id;
+    plan_.steps_ = steps_of(*plan_.message_);
+    number_blocks(value_, "");
+    if (plan_.blocks_.size() >= most_blocks) {
+      wrong("the buffer has too many structures", "use arrays of numbers");
+      return std::nullopt;
+    }
+    if (!refuse_wide_strings(*plan_.message_) || !check_fills()) return std::nullopt;
+    mapping_.fields.empty() ? map_by_names() : map_as_told();
+    if (problems_.size() == before) complain_of_rest();
+    if (problems_.size() != before) return std::nullopt;
+    return std::move(plan_);
+  }
+
+ private:
+  void wrong(std::string text, std::string hint = {}) {
+    problems_.push_back({subject_, std::move(text), std::move(hint)});
+  }
+
+  static std::vector<Plan::Step> steps_of(const Structure& structure) {
+    std::vector<Plan::Step> steps;
+    for (const Field& field : structure.fields) {
+      Plan::Step step;
+      step.type = field.type;
+      step.defaults = field.defaults;
+      if (field.type.structure != nullptr) step.members = steps_of(*field.type.structure);
+      steps.push_back(std::move(step));
+    }
+    return steps;
+  }
+
+  bool refuse_wide_strings(const Structure& structure) {
+    for (const Field& field : structure.fields) {
+      if (field.type.primitive == Primitive::wstring) {
+        wrong(in_quotes(structure.name) + " has the wstring " + in_quotes(field.name),
+              "implementations of DDS disagree on wide strings, so that Tessera sends and receives none");
+        return false;
+      }
+      if (field.type.structure != nullptr && !refuse_wide_strings(*field.type.structure)) return false;
+    }
+    return true;
+  }
+
+  /// The blocks of the buffer, and their number by path: "v", "poses[2].x".
+  void number_blocks(const ValueType& type, const std::string& path) {
+    if (plan_.blocks_.size() >= most_blocks) return;
+    if (type.primitive != Primitive::structure) {
+      block_of_.emplace(path, plan_.blocks_.size());
+      paths_.push_back(path);
+      plan_.blocks_.push_back({type.primitive, std::max(type.count, 1U), type.capacity});
+      return;
+    }
+    for (std::uint32_t index = 0; index < std::max(type.count, 1U); ++index)
+      for (const ValueType::Member& member : type.members)
+        number_blocks(member.type, member_path(element_path(path, type, index), member.name));
+  }
+  static std::string element_path(const std::string& path, const ValueType& type, std::uint32_t index) {
+    return type.count == 0 ? path : path + "[" + std::to_string(index) + "]";
+  }
+  static std::string member_path(const std::string& path, const std::string& name) {
+    return path.empty() ? name : path + "." + name;
+  }
+
+  /// The time, the frame and the names, which are sent without a part of the buffer.
+  bool check_fills() {
+    const Field* const header = plan_.message_->find("header");
+    const bool stamped = header != nullptr && header->type.refers == "std_msgs/msg/Header" &&
+                         header->type.repeat == Type::Repeat::once;
+    if (stamped && !receives_) fill_header(*find_step(plan_.steps_, *plan_.message_, "header"));
+    subject_ = "frame_id";
+    if (!mapping_.frame_id.empty() && (receives_ || !stamped)) {
+      wrong(receives_ ? "a receptor sends no frame_id" : in_quotes(plan_.message_->name) + " has no header",
+            "remove it");
+      return false;
+    }
+    subject_ = "names";
+    if (!mapping_.names.empty() && !use_names()) return false;
+    subject_.clear();
+    return true;
+  }
+
+  static Plan::Step* find_step(std::vector<Plan::Step>& steps, const Structure& structure,
+                               const std::string& name) {
+    const Field* const field = structure.find(name);
+    return field == nullptr ? nullptr : &steps[static_cast<std::size_t>(field - structure.fields.data())];
+  }
+
+  static void fill_header(Plan::Step& header) {
+    const Structure& structure = *header.type.structure;
+    if (Plan::Step* const frame = find_step(header.members, structure, "frame_id"))
+      if (frame->type.primitive == Primitive::string) frame->fill = Plan::Fill::frame_id;
+    Plan::Step* const stamp = find_step(header.members, structure, "stamp");
+    if (stamp == nullptr || stamp->type.structure == nullptr) return;
+    if (Plan::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))
+      if (sec->type.primitive == Primitive::int32) sec->fill = Plan::Fill::stamp_sec;
+    if (Plan::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
+      if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
+  }
+
+  bool use_names() {
+    Plan::Step* const names = find_step(plan_.steps_, *plan_.message_, "name");
+    if (names == nullptr || names->type.primitive != Primitive::string ||
+        names->type.repeat != Type::Repeat::sequence) {
+      wrong(in_quotes(plan_.message_->name) + " has no field 'name' of type string[]",
+            "names are for messages such as sensor_msgs/JointState");
+      return false;
+    }
+    const std::set<std::string> different(mapping_.names.begin(), mapping_.names.end());
+    if (different.size() != mapping_.names.size() || different.contains("")) {
+      wrong("a name is empty, or there twice");
+      return false;
+    }
+    names->fill = Plan::Fill::names;
+    return true;
+  }
+
+  void map_by_names() {
+    if (value_.primitive == Primitive::structure && value_.count == 0) {
+      match_members(value_, "", plan_.steps_, *plan_.message_, "");
+      return;
+    }
+    const Structure& message = *plan_.message_;
+    const Field* field = message.fields.size() == 1 ? &message.fields.front() : message.find("data");
+    if (field == nullptr)
+      return wrong("which field of " + in_quotes(message.name) + " is meant?",
+                   "for example fields: " + (message.fields.empty() ? "data" : message.fields.back().name));
+    match(value_, "", *find_step(plan_.steps_, message, field->name), field->name);
+  }
+
+  void map_as_told() {
+    for (const auto& [of_message, of_value] : mapping_.fields) {
+      subject_ = of_message;
+      Plan::Step* const step = step_at(of_message);
+      const ValueType* const value = step == nullptr ? nullptr : value_at(of_value);
+      if (value != nullptr) match(*value, of_value, *step, of_message);
+    }
+    subject_.clear();
+  }
+
+  Plan::Step* step_at(const std::string& path) {
+    std::vector<Plan::Step>* steps = &plan_.steps_;
+    const Structure* structure = plan_.message_.get();
+    Plan::Step* step = nullptr;
+    for (const std::string& part : split_path(path)) {
+      if (structure == nullptr) {
+        wrong("the field " + in_quotes(path) + " lies in an array, or in a number",
+              "name the array as a whole, and give the buffer an array of structures");
+        return nullptr;
+      }
+      step = find_step(*steps, *structure, part);
+      if (step == nullptr) {
+        wrong(in_quotes(structure->name) + " has no field " + in_quotes(part),
+              hint_of(part, field_names(*structure), structure->name));
+        return nullptr;
+      }
+      steps = &step->members;
+      structure = step->type.repeat == Type::Repeat::once ? step->type.structure.get() : nullptr;
+    }
+    if (step == nullptr) wrong("a field of the message needs a name");
+    return step;
+  }
+
+  const ValueType* value_at(const std::string& path) {
+    const ValueType* value = &value_;
+    for (const std::string& part : split_path(path)) {
+      const ValueType::Member* const member = value->count == 0 ? value->find(part) : nullptr;
+      if (member == nullptr) {
+        wrong("the buffer has no field " + in_quotes(path),
+              value->members.empty() ? "its type is " + value->text()
+                                     : hint_of(part, member_names(*value), "the buffer"));
+        return nullptr;
+      }
+      value = &member->type;
+    }
+    return value;
+  }
+
+  /// value_path, message_path: for people and for numbers of blocks.
+  void match(const ValueType& value, const std::string& value_path, Plan::Step& step,
+             const std::string& message_path) {
+    if (step.type.primitive == Primitive::structure || value.primitive == Primitive::structure)
+      match_structures(value, value_path, step, message_path);
+    else
+      match_numbers(value, value_path, step, message_path);
+  }
+
+  void match_members(const ValueType& value, const std::string& value_path, std::vector<Plan::Step>& steps,
+                     const Structure& structure, const std::string& message_path) {
+    for (const ValueType::Member& member : value.members) {
+      if (Plan::Step* const step = find_step(steps, structure, member.name))
+        match(member.type, member_path(value_path, member.name), *step,
+              member_path(message_path, member.name));
+      else
+        wrong(in_quotes(structure.name) + " has no field " + in_quotes(member.name),
+              did_you_mean(member.name, field_names(structure)).empty()
+                  ? "say which fields correspond: fields: { " +
+                        (structure.fields.empty() ? "x" : structure.fields.front().name) + ": " +
+                        member.name + " }"
+                  : did_you_mean(member.name, field_names(structure)));
+    }
+  }
+
+  void match_structures(const ValueType& value, const std::string& value_path, Plan::Step& step,
+                        const std::string& message_path) {
+    if (value.primitive != step.type.primitive) return differ(value, value_path, step, message_path);
+    if (!same_shape(value, value_path, step, message_path)) return;
+    const Structure& structure = *step.type.structure;
+    if (value.count == 0) return match_members(value, value_path, step.members, structure, message_path);
+    step.per_element = true;
+    Plan::Step one;
+    one.type = step.type;
+    one.members = std::move(step.members);
+    one.type.repeat = Type::Repeat::once;
+    step.members.assign(value.count, one);
+    const std::size_t before = problems_.size();
+    for (std::uint32_t index = 0; index < value.count && problems_.size() == before; ++index)
+      match_members(value, element_path(value_path, value, index), step.members[index].members, structure,
+                    message_path);
+  }
+
+  void match_numbers(const ValueType& value, const std::string& value_path, Plan::Step& step,
+                     const std::string& message_path) {
+    const Primitive from = receives_ ? step.type.primitive : value.primitive;
+    const Primitive to = receives_ ? value.primitive : step.type.primitive;
+    if (!converts_exactly(from, to)) return differ(value, value_path, step, message_path);
+    if (!same_shape(value, value_path, step, message_path)) return;
+    if (from == Primitive::string && !receives_ && step.type.string_bound > 0 &&
+        step.type.string_bound < value.capacity)
+      return differ(value, value_path, step, message_path);
+    if (step.fill == Plan::Fill::names)
+      return wrong("'name' is compared with the names and has no place in the buffer");
+    const std::size_t block = block_of_.at(value_path);
+    if (!used_.insert(block).second && receives_)
+      return wrong("two fields of the message for " + shown(value_path));
+    step.block = block;
+    step.by_name = !mapping_.names.empty() && step.type.repeat == Type::Repeat::sequence &&
+                   message_path.find('.') == std::string::npos;
+    if (step.by_name && value.count != mapping_.names.size())
+      wrong("there are " + std::to_string(mapping_.names.size()) + " names, and " + shown(value_path) +
+            " is " + value.text());
+  }
+
+  static std::string shown(const std::string& value_path) {
+    return value_path.empty() ? "the buffer" : "the buffer's " + in_quotes(value_path);
+  }
+
+  bool same_shape(const ValueType& value, const std::string& value_path, const Plan::Step& step,
+                  const std::string& message_path) {
+    using Repeat = Type::Repeat;
+    const bool fits = step.type.repeat == Repeat::once ? value.count == 0
+                      : step.type.repeat == Repeat::array
+                          ? value.count == step.type.count
+                          : value.count > 0 && (step.type.count == 0 || value.count <= step.type.count);
+    if (!fits) differ(value, value_path, step, message_path);
+    return fits;
+  }
+
+  void differ(const ValueType& value, const std::string& value_path, const Plan::Step& step,
+              const std::string& message_path) {
+    const std::string of_message = in_quotes(message_path) + " of type " + step.type.text();
+    const std::string of_value = shown(value_path) + " of type " + value.text();
+    wrong(receives_ ? of_message + " does not fit " + of_value : of_value + " does not fit " + of_message,
+          fitting_type(step));
+  }
+
+  [[nodiscard]] std::string fitting_type(const Plan::Step& step) const {
+    if (step.type.primitive == Primitive::structure)
+      return "map its fields one by one, or give the buffer a structure";
+    std::string type = name_of(step.type.primitive);
+    if (step.type.string_bound > 0) type += "<=" + std::to_string(step.type.string_bound);
+    if (step.type.repeat == Type::Repeat::array) type += "[" + std::to_string(step.type.count) + "]";
+    if (step.type.repeat == Type::Repeat::sequence)
+      type += step.type.count > 0 ? "[" + std::to_string(step.type.count) + "]" : "[N], with a number for N";
+    return "a buffer of type " + type + " does";
+  }
+
+  /// Silence about a part of the buffer would be worse than an error.
+  void complain_of_rest() {
+    for (std::size_t block = 0; block < plan_.blocks_.size(); ++block)
+      if (!used_.contains(block))
+        return wrong("no field of the message corresponds to " + shown(paths_[block]), "name it in `fields`");
+    if (plan_.blocks_.empty()) wrong("the buffer has no fields");
+  }
+
+  const ValueType& value_;
+  const Mapping& mapping_;
+  bool receives_;
+  std::vector<MappingProblem>& problems_;
+  Plan plan_;
+  std::string subject_;
+  std::map<std::string, std::size_t> block_of_;
+  std::vector<std::string> paths_;
+  std::set<std::size_t> used_;
+};
+
+std::optional<Plan> Plan::make(std::shared_ptr<const Structure> message, const ValueType& value,
+                               const Mapping& mapping, Direction direction,
+                               std::vector<MappingProblem>& problems) {
+  return Planner(value, mapping, direction, problems).make(std::move(message));
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,183 @@
+#include "ros2/dds/domain.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "ros2/codec/cdr.hpp"
+#include "ros2/dds/blob.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+constexpr std::uint32_t highest_domain = 232;
+/// Domains have a number of their own inside a process, so that parts of it that use the same domain with
+/// other settings do not meet.
+constexpr std::uint32_t first_number = 0x7e55'0000;
+constexpr const char* user_data = "enclave=/;";
+
+bool is_host(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == ':' || c == '-' || c == '_';
+  });
+}
+bool is_address(std::string_view text) {
+  return text.find_first_not_of("0123456789.") == std::string_view::npos ||
+         text.find(':') != std::string_view::npos;
+}
+
+std::vector<std::string> hosts_of(std::string_view list) {
+  std::vector<std::string> hosts;
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    std::string host(list.substr(0, comma));
+    std::erase(host, ' ');
+    if (!is_host(host)) throw std::runtime_error("'" + host + "' is no name and no address of a host");
+    hosts.push_back(std::move(host));
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  return hosts;
+}
+
+[[noreturn]] void refuse(const std::string& what, dds_return_t code) {
+  throw std::runtime_error(what + ": " + dds_strretcode(code));
+}
+
+dds_entity_t checked(const std::string& what, dds_entity_t entity) {
+  if (entity < 0) refuse(what, entity);
+  return entity;
+}
+
+/// Identifiers of DDS have 16 bytes. Up to ROS 2 Humble, 24 are sent.
+std::size_t bytes_of_identifier() {
+  const char* const distribution = std::getenv("ROS_DISTRO");
+  static const std::set<std::string_view> old{"dashing", "eloquent", "foxy", "galactic", "humble"};
+  return distribution != nullptr && old.contains(distribution) ? 24 : 16;
+}
+
+void put_identifier(CdrWriter& writer, dds_entity_t entity) {
+  dds_guid_t guid{};
+  static_cast<void>(dds_get_guid(entity, &guid));
+  std::memcpy(writer.numbers(1, bytes_of_identifier()), guid.v, sizeof guid.v);
+}
+
+}  // namespace
+
+std::string configuration_of(const Network& network) {
+  if (!is_host(network.interface))
+    throw std::runtime_error("'" + network.interface + "' is no name and no address of a network interface");
+  std::vector<std::string> peers = hosts_of(network.peers);
+  const bool loopback = network.interface == "lo" || network.interface.starts_with("127.");
+  if (loopback && peers.empty()) peers.emplace_back("127.0.0.1");
+  const bool multicast = peers.empty();
+  std::string text = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface ";
+  text += (is_address(network.interface) ? "address=\"" : "name=\"") + network.interface + "\"";
+  text += std::string(" multicast=\"") + (multicast ? "default" : "false") + "\"/></Interfaces>";
+  text += std::string("<AllowMulticast>") + (multicast ? "spdp" : "false") + "</AllowMulticast></General>";
+  text += "<Discovery><ExternalDomainId>" + std::to_string(network.domain) + "</ExternalDomainId>";
+  text +=
+      "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers>";
+  for (const std::string& peer : peers) text += "<Peer Address=\"" + peer + "\"/>";
+  return text + "</Peers></Discovery></Domain></CycloneDDS>";
+}
+
+std::uint32_t domain_of_environment() {
+  const char* const text = std::getenv("ROS_DOMAIN_ID");
+  if (text == nullptr || *text == '\0') return 0;
+  const char* const end = text + std::strlen(text);
+  std::uint32_t domain = 0;
+  const auto [behind, problem] = std::from_chars(text, end, domain);
+  if (problem == std::errc() && behind == end && domain <= highest_domain) return domain;
+  throw std::runtime_error("ROS_DOMAIN_ID is '" + std::string(text) + "', and not a number from 0 to 232");
+}
+
+struct Participant::Announcing {
+  BlobTopic topic;
+};
+
+std::shared_ptr<Participant> Participant::of(const Network& network) {
+  static std::mutex mutex;
+  static std::map<Network, std::weak_ptr<Participant>> known;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<Participant>& one = known[network];
+  if (auto shared = one.lock()) return shared;
+  const std::shared_ptr<Participant> made(new Participant(network));
+  one = made;
+  return made;
+}
+
+Participant::Participant(const Network& network) : announcing_(std::make_unique<Announcing>()) {
+  try {
+    open(network);
+  } catch (...) {
+    if (domain_ > 0) dds_delete(domain_);
+    throw;
+  }
+}
+
+/// Deleting the domain deletes all that is in it.
+Participant::~Participant() { dds_delete(domain_); }
+
+void Participant::open(const Network& network) {
+  const std::string configuration = configuration_of(network);
+  std::uint32_t number = first_number;
+  do domain_ = dds_create_domain(number, configuration.c_str());
+  while (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && ++number < first_number + 0x1000);
+  checked("cannot open DDS on the interface '" + network.interface + "'", domain_);
+  dds_qos_t* const qos = dds_create_qos();
+  dds_qset_userdata(qos, user_data, std::strlen(user_data));
+  participant_ = dds_create_participant(number, qos, nullptr);
+  dds_reset_qos(qos);
+  checked("cannot take part in domain " + std::to_string(network.domain) + " of DDS", participant_);
+  announcing_->topic = create_blob_topic(participant_, "ros_discovery_info",
+                                         "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_");
+  checked("cannot make the topic ros_discovery_info", announcing_->topic.entity);
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+  writer_ = dds_create_writer(participant_, announcing_->topic.entity, qos, nullptr);
+  dds_delete_qos(qos);
+  checked("cannot write to ros_discovery_info", writer_);
+}
+
+void Participant::add(const std::string& node, dds_entity_t endpoint, bool writes) {
+  const std::lock_guard lock(mutex_);
+  endpoints_.push_back(Endpoint{node, endpoint, writes});
+  announce();
+}
+
+void Participant::remove(dds_entity_t endpoint) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(endpoints_, [&](const Endpoint& one) { return one.entity == endpoint; });
+  announce();
+}
+
+/// rmw_dds_common/msg/ParticipantEntitiesInfo.
+void Participant::announce() {
+  std::map<std::string, std::vector<const Endpoint*>> nodes;
+  for (const Endpoint& one : endpoints_) nodes[one.node].push_back(&one);
+  std::vector<std::byte> message;
+  CdrWriter writer(message);
+  put_identifier(writer, participant_);
+  writer.length(static_cast<std::uint32_t>(nodes.size()));
+  for (const auto& [name, endpoints] : nodes) {
+    writer.text("/");
+    writer.text(name);
+    for (const bool writes : {false, true}) {
+      const auto belongs = [&](const Endpoint* one) { return one->writes == writes; };
+      writer.length(static_cast<std::uint32_t>(std::ranges::count_if(endpoints, belongs)));
+      for (const Endpoint* one : endpoints)
+        if (belongs(one)) put_identifier(writer, one->entity);
+    }
+  }
+  writer.finish();
+  // Who looks for nodes sees fewer of them if this fails; the topics work all the same.
+  static_cast<void>(write_blob(writer_, announcing_->topic, message));
+}
+
+}  // namespace tessera::ros2

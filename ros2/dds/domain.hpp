@@ -1,0 +1,63 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace tessera::ros2 {
+
+/// Where a participant lives.
+struct Network {
+  std::uint32_t domain = 0;
+  std::string interface = "lo";  ///< a name or an address
+  std::string peers{};           ///< "10.0.0.2, cart.local"
+
+  auto operator<=>(const Network&) const = default;
+};
+
+/// The configuration of Cyclone DDS for that network: one interface and no other. On loopback, or with
+/// peers, nothing is sent to a multicast group; otherwise only the messages that look for others are.
+/// Throws std::runtime_error: no interface or host is named so.
+[[nodiscard]] std::string configuration_of(const Network& network);
+
+/// The domain of ROS_DOMAIN_ID, or 0. Throws std::runtime_error: it is no number from 0 to 232.
+[[nodiscard]] std::uint32_t domain_of_environment();
+
+/// A participant of DDS, shared by all drivers of this process with the same network. It tells ROS 2 which
+/// nodes are there, and which topics they read and write.
+///
+/// Threads: any.
+class Participant {
+ public:
+  /// Throws std::runtime_error.
+  [[nodiscard]] static std::shared_ptr<Participant> of(const Network& network);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  [[nodiscard]] dds_entity_t entity() const { return participant_; }
+  void add(const std::string& node, dds_entity_t endpoint, bool writes);
+  void remove(dds_entity_t endpoint);
+
+ private:
+  struct Endpoint {
+    std::string node;
+    dds_entity_t entity;
+    bool writes;
+  };
+  explicit Participant(const Network& network);
+  void open(const Network& network);
+  void announce();
+
+  std::mutex mutex_;
+  dds_entity_t domain_ = 0, participant_ = 0, writer_ = 0;
+  struct Announcing;
+  std::unique_ptr<Announcing> announcing_;
+  std::vector<Endpoint> endpoints_;
+};
+
+}  // namespace tessera::ros2

@@ -1,0 +1,118 @@
+#include "ros2/dds/endpoint.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+namespace tessera::ros2 {
+namespace {
+
+dds_duration_t dds_time_of(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
+}
+
+/// How ROS 2 names what differs.
+const char* name_of_policy(std::uint32_t policy) {
+  switch (policy) {
+    case DDS_RELIABILITY_QOS_POLICY_ID:
+      return "reliability";
+    case DDS_DURABILITY_QOS_POLICY_ID:
+      return "durability";
+    case DDS_DEADLINE_QOS_POLICY_ID:
+      return "deadline";
+    case DDS_LIVELINESS_QOS_POLICY_ID:
+      return "liveliness";
+    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
+      return "data representation";
+    default:
+      return "quality of service";
+  }
+}
+
+dds_qos_t* new_qos(const Qos& qos) {
+  dds_qos_t* const made = dds_create_qos();
+  constexpr dds_duration_t longest_block = DDS_MSECS(100);
+  dds_qset_reliability(made, qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       longest_block);
+  dds_qset_durability(made, qos.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_history(made, DDS_HISTORY_KEEP_LAST, qos.depth);
+  dds_qset_writer_data_lifecycle(made, false);
+  return made;
+}
+
+}  // namespace
+
+void Endpoint::tell_of_qos(const Told& told, std::uint32_t policy) {
+  std::fprintf(
+      stderr,
+      "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/ros2.md\n",
+      told.path.c_str(), told.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
+      told.topic.c_str());
+}
+
+Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
+    : participant_(Participant::of(setup.network)),
+      told_(new Told{setup.path, setup.topic, writes}),
+      writes_(writes),
+      depth_(static_cast<std::size_t>(setup.qos.depth)) {
+  topic_ = create_blob_topic(participant_->entity(), dds_topic_name(setup.topic).c_str(),
+                             dds_type_name(setup.type).c_str());
+  if (topic_.entity < 0)
+    throw std::runtime_error("cannot make the topic " + setup.topic + ": " + dds_strretcode(topic_.entity));
+  dds_qos_t* const qos = new_qos(setup.qos);
+  dds_listener_t* const listener = dds_create_listener(told_.get());
+  dds_lset_offered_incompatible_qos(
+      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* told) {
+        tell_of_qos(*static_cast<const Told*>(told), status.last_policy_id);
+      });
+  dds_lset_requested_incompatible_qos(
+      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* told) {
+        tell_of_qos(*static_cast<const Told*>(told), status.last_policy_id);
+      });
+  entity_ = writes ? dds_create_writer(participant_->entity(), topic_.entity, qos, listener)
+                   : dds_create_reader(participant_->entity(), topic_.entity, qos, listener);
+  dds_delete_listener(listener);
+  dds_delete_qos(qos);
+  if (entity_ < 0) {
+    dds_delete(topic_.entity);
+    throw std::runtime_error("cannot use the topic " + setup.topic + ": " + dds_strretcode(entity_));
+  }
+  participant_->add(setup.node, entity_, writes);
+}
+
+Endpoint::~Endpoint() {
+  participant_->remove(entity_);
+  dds_delete(entity_);
+  dds_delete(topic_.entity);
+}
+
+bool Endpoint::await_other_side(Duration timeout) const {
+  constexpr auto between_looks = std::chrono::milliseconds(5);
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    dds_publication_matched_status_t readers{};
+    dds_subscription_matched_status_t writers{};
+    if (writes_ ? dds_get_publication_matched_status(entity_, &readers) == DDS_RETCODE_OK &&
+                      readers.current_count > 0
+                : dds_get_subscription_matched_status(entity_, &writers) == DDS_RETCODE_OK &&
+                      writers.current_count > 0)
+      return true;
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(between_looks);
+  }
+}
+
+bool Endpoint::write(std::span<const std::byte> message) {
+  return write_blob(entity_, topic_, message) == DDS_RETCODE_OK;
+}
+
+bool Endpoint::await_receipt(Duration timeout) const {
+  return dds_wait_for_acks(entity_, dds_time_of(timeout)) == DDS_RETCODE_OK;
+}
+
+void Endpoint::take(void (*use)(void*, std::span<const std::byte>), void* context) const {
+  take_blobs(entity_, depth_, use, context);
+}
+
+}  // namespace tessera::ros2

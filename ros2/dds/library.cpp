@@ -1,0 +1,15 @@
+// What the library exports. Controllers load it at run time, so that they need no DDS to build.
+#include "ros2/dds/drivers.hpp"
+
+extern "C" {
+
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_1(
+    const tessera::Ros2Binding& binding, std::string& error) {
+  return tessera::ros2::make_receptor(binding, error);
+}
+
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_1(
+    const tessera::Ros2Binding& binding, std::string& error) {
+  return tessera::ros2::make_effector(binding, error);
+}
+}

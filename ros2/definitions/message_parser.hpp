@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ros2/definitions/type.hpp"
+
+namespace tessera::ros2 {
+
+/// What is wrong with a definition, or with a name of one.
+struct Mistake {
+  std::string file;      ///< empty: no file is to blame
+  std::size_t line = 0;  ///< from 1; 0: the whole file
+  std::string text, hint{};
+
+  /// "Twist.msg:3: unknown type 'flaot64'; did you mean 'float64'?"
+  [[nodiscard]] std::string shown() const;
+};
+
+/// Reads a .msg file. Types of other messages are named in full and not looked up.
+///
+/// name: "geometry_msgs/msg/Twist". file: for mistakes. All mistakes are reported, then nullopt.
+/// Threads: pure.
+[[nodiscard]] std::optional<Structure> parse_message(std::string_view name, std::string_view text,
+                                                     std::string_view file, std::vector<Mistake>& mistakes);
+
+struct Service {
+  Structure request, response;  ///< "example_interfaces/srv/AddTwoInts_Request", "..._Response"
+};
+/// Reads a .srv file: request, a line of three dashes, response.
+[[nodiscard]] std::optional<Service> parse_service(std::string_view name, std::string_view text,
+                                                   std::string_view file, std::vector<Mistake>& mistakes);
+
+}  // namespace tessera::ros2

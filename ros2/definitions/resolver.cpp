@@ -1,0 +1,145 @@
+#include "ros2/definitions/resolver.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "ros2/naming/names.hpp"
+#include "tessera/nearest.hpp"
+
+namespace tessera::ros2 {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t deepest_nesting = 32;
+const std::string bundle_separator(80, '=');
+
+/// "geometry_msgs/Vector3"
+std::string short_name(std::string name) {
+  if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
+  return name;
+}
+
+class Resolver {
+ public:
+  Resolver(const Definitions& definitions, std::vector<Mistake>& mistakes)
+      : definitions_(definitions), mistakes_(mistakes) {}
+
+  std::shared_ptr<const Structure> resolve(const std::string& name, const std::string& used_by) {
+    if (const auto known = known_.find(name); known != known_.end()) return known->second;
+    if (std::ranges::find(open_, name) != open_.end() || open_.size() >= deepest_nesting)
+      return wrong({}, short_name(name) +
+                           (open_.size() >= deepest_nesting ? " is nested too deeply" : " contains itself"));
+    const auto text = definitions_.find(name);
+    if (!text) return unknown(name, used_by);
+    auto parsed = parse_message(name, text->text, text->file, mistakes_);
+    if (!parsed) return nullptr;
+    open_.push_back(name);
+    bool whole = true;
+    for (Field& field : parsed->fields) {
+      if (field.type.primitive != Primitive::structure) continue;
+      field.type.structure = resolve(field.type.refers, text->file);
+      whole = whole && field.type.structure != nullptr;
+    }
+    open_.pop_back();
+    if (!whole) return nullptr;
+    return known_[name] = std::make_shared<const Structure>(std::move(*parsed));
+  }
+
+ private:
+  std::shared_ptr<const Structure> wrong(std::string file, std::string text, std::string hint = {}) {
+    mistakes_.push_back({std::move(file), 0, std::move(text), std::move(hint)});
+    return nullptr;
+  }
+
+  std::shared_ptr<const Structure> unknown(const std::string& name, const std::string& used_by) {
+    std::vector<std::string> names;
+    for (const std::string& one : definitions_.names()) names.push_back(short_name(one));
+    std::string hint = did_you_mean(short_name(name), names);
+    if (hint.empty()) hint = "write its definition into msg/" + name + ".msg beside the specification";
+    return wrong(used_by, "there is no message '" + short_name(name) + "'", hint);
+  }
+
+  const Definitions& definitions_;
+  std::vector<Mistake>& mistakes_;
+  std::map<std::string, std::shared_ptr<const Structure>> known_;
+  std::vector<std::string> open_;
+};
+
+}  // namespace
+
+std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string& name) const {
+  for (const fs::path& folder : folders_) {
+    const fs::path file = folder / (name + ".msg");
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    std::ifstream stream(file, std::ios::binary);
+    return Text{{std::istreambuf_iterator<char>(stream), {}}, file.string()};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> DefinitionFolders::names() const {
+  std::set<std::string> found;
+  std::error_code ignored;
+  for (const fs::path& folder : folders_)
+    for (const auto& package : fs::directory_iterator(folder, ignored))
+      for (const auto& file : fs::directory_iterator(package.path() / "msg", ignored))
+        if (file.path().extension() == ".msg")
+          found.insert(package.path().filename().string() + "/msg/" + file.path().stem().string());
+  return {found.begin(), found.end()};
+}
+
+DefinitionBundle::DefinitionBundle(std::string name, std::string_view text) {
+  messages_.emplace_back(std::move(name), "");
+  bool names_next = false;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (names_next && line.starts_with("MSG: "))
+      messages_.emplace_back(full_message_name(line.substr(5)).value_or(line.substr(5)), "");
+    else if (line != bundle_separator)
+      messages_.back().second += line + '\n';
+    names_next = line == bundle_separator;
+  }
+}
+
+std::optional<DefinitionBundle::Text> DefinitionBundle::find(const std::string& name) const {
+  for (const auto& [known, text] : messages_)
+    if (known == name) return Text{text, name};
+  return std::nullopt;
+}
+
+std::vector<std::string> DefinitionBundle::names() const {
+  std::vector<std::string> names;
+  for (const auto& message : messages_) names.push_back(message.first);
+  return names;
+}
+
+std::shared_ptr<const Structure> resolve(const std::string& name, const Definitions& definitions,
+                                         std::vector<Mistake>& mistakes) {
+  return Resolver(definitions, mistakes).resolve(name, "");
+}
+
+std::string bundle_of(const Structure& message) {
+  std::string text = message.text;
+  std::set<std::string> said;
+  const std::function<void(const Structure&)> add = [&](const Structure& structure) {
+    for (const Field& field : structure.fields) {
+      if (field.type.structure == nullptr || !said.insert(field.type.refers).second) continue;
+      text +=
+          bundle_separator + "\nMSG: " + short_name(field.type.refers) + '\n' + field.type.structure->text;
+      add(*field.type.structure);
+    }
+  };
+  add(message);
+  return text;
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ros2/definitions/message_parser.hpp"
+#include "ros2/definitions/type.hpp"
+
+namespace tessera::ros2 {
+
+/// Where definitions come from.
+class Definitions {
+ public:
+  struct Text {
+    std::string text, file;
+  };
+  virtual ~Definitions() = default;
+  /// name: "geometry_msgs/msg/Twist". nullopt: there is no such message.
+  [[nodiscard]] virtual std::optional<Text> find(const std::string& name) const = 0;
+  /// All names, for hints.
+  [[nodiscard]] virtual std::vector<std::string> names() const = 0;
+};
+
+/// Folders with PACKAGE/msg/NAME.msg; the first folder that has a message counts.
+class DefinitionFolders : public Definitions {
+ public:
+  explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+  [[nodiscard]] std::optional<Text> find(const std::string& name) const override;
+  [[nodiscard]] std::vector<std::string> names() const override;
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+/// One text with a message and all that it uses, as recordings of ROS 2 have it: the definition of the
+/// message, then for each other a line of 80 '=', a line "MSG: geometry_msgs/Vector3" and its definition.
+class DefinitionBundle : public Definitions {
+ public:
+  DefinitionBundle(std::string name, std::string_view text);
+  [[nodiscard]] std::optional<Text> find(const std::string& name) const override;
+  [[nodiscard]] std::vector<std::string> names() const override;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> messages_;
+};
+
+/// Reads a message and all that it uses. nullptr after mistakes: unknown messages, wrong definitions,
+/// a message that contains itself.
+[[nodiscard]] std::shared_ptr<const Structure> resolve(const std::string& name,
+                                                       const Definitions& definitions,
+                                                       std::vector<Mistake>& mistakes);
+
+/// The text of DefinitionBundle.
+[[nodiscard]] std::string bundle_of(const Structure& message);
+
+}  // namespace tessera::ros2

@@ -1,0 +1,79 @@
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "tessera/ros2.hpp"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_ros2_library(const char* folder) {
+  if (const char* const given = std::getenv("TESSERA_ROS2_LIBRARY"); given != nullptr && *given != '\0')
+    return given;
+  std::error_code ignored;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / ros2_library_name;
+  return fs::exists(beside, ignored) ? beside : fs::path(folder) / ros2_library_name;
+}
+
+void* ros2_function(const char* folder, const char* name) {
+  const fs::path file = find_ros2_library(folder);
+  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr)
+    throw DriverError(fmt::format(
+        "cannot load the library for ROS 2: {}; TESSERA_ROS2_LIBRARY can say where it is", dlerror()));
+  void* const function = dlsym(library, name);
+  if (function == nullptr)
+    throw DriverError(
+        fmt::format("'{}' is no library of this version: it has no function {}", file.string(), name));
+  return function;
+}
+
+Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) {
+  Ros2Binding binding;
+  binding.path = setup.path();
+  binding.topic = setup.text("topic");
+  binding.type = setup.text("type");
+  binding.definition = setup.text("definition");
+  binding.fields = setup.text_or("fields", "");
+  binding.names = setup.text_or("names", "");
+  binding.frame_id = setup.text_or("frame_id", "");
+  binding.qos = setup.text_or("qos", "");
+  binding.node = setup.text_or("node", "");
+  binding.interface = setup.text_or("interface", "lo");
+  binding.peers = setup.text_or("peers", "");
+  if (setup.has("domain")) binding.domain = static_cast<std::uint32_t>(setup.integer("domain"));
+  binding.wait = setup.duration_or("wait", Duration::zero());
+  binding.encoding = encoding;
+  refuse_unknown_options(setup, true);
+  return binding;
+}
+
+template <class Maker>
+auto make_with_library(const DriverSetup& setup, const ValueEncoding* encoding, const char* folder,
+                       const char* name) {
+  const Ros2Binding binding = binding_of(setup, encoding);
+  const auto maker = reinterpret_cast<Maker>(ros2_function(folder, name));
+  std::string error = "it cannot be made";
+  auto device = maker(binding, error);
+  if (device == nullptr) throw DriverError(error);
+  return device;
+}
+
+}  // namespace
+
+std::unique_ptr<RealReceptor> make_ros2_receptor(const DriverSetup& setup, const ValueEncoding* encoding,
+                                                 const char* folder) {
+  return make_with_library<Ros2ReceptorMaker>(setup, encoding, folder, ros2_receptor_function);
+}
+
+std::unique_ptr<RealEffector> make_ros2_effector(const DriverSetup& setup, const ValueEncoding* encoding,
+                                                 const char* folder) {
+  return make_with_library<Ros2EffectorMaker>(setup, encoding, folder, ros2_effector_function);
+}
+
+}  // namespace tessera

@@ -1,0 +1,97 @@
+#include "project/files/ros2_messages.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "project/files/installation.hpp"
+#include "ros2/codec/plan.hpp"
+#include "ros2/codec/value_type.hpp"
+#include "ros2/codec/written_mapping.hpp"
+#include "ros2/definitions/resolver.hpp"
+
+namespace tessera::project {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_option(const spec::Driver& driver, const char* name) {
+  const auto found = driver.options.find(name);
+  const auto* const text =
+      found == driver.options.end() ? nullptr : std::get_if<std::string>(&found->second.value);
+  return text == nullptr ? std::string() : *text;
+}
+
+diagnostics::Span place_in(const spec::Driver& driver, const std::string& option) {
+  for (const std::string& name : {"fields." + option, option, std::string("fields"), std::string("type")})
+    if (const auto found = driver.option_spans.find(name); found != driver.option_spans.end())
+      return found->second;
+  return driver.span;
+}
+
+/// One message for a whole fleet.
+class MessageFinder {
+ public:
+  MessageFinder(const spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out)
+      : model_(model), definitions_({project / "msg", Installation::find().share / "ros2"}), out_(out) {}
+
+  bool find(spec::Driver& driver) {
+    const std::string name = text_option(driver, "type");
+    std::vector<ros2::Mistake> mistakes;
+    const auto message = ros2::resolve(name, definitions_, mistakes);
+    for (const ros2::Mistake& mistake : mistakes) {
+      const std::string file =
+          mistake.line == 0 ? mistake.file : mistake.file + ":" + std::to_string(mistake.line);
+      complain("E320", place_in(driver, "type"), (file.empty() ? "" : file + ": ") + mistake.text,
+               mistake.hint);
+    }
+    if (message == nullptr) return false;
+    driver.options["definition"] = spec::DriverOption{ros2::bundle_of(*message), ""};
+    return fits(driver, message);
+  }
+
+ private:
+  void complain(const char* code, const diagnostics::Span& place, const std::string& text,
+                const std::string& hint) {
+    if (said_.insert({place, text}).second) out_.error(code, place, text, hint);
+  }
+
+  bool fits(const spec::Driver& driver, std::shared_ptr<const ros2::Structure> message) {
+    const spec::Subsystem& subsystem = model_.subsystem(driver.instance);
+    const auto value = ros2::parse_value_type(model_.layout_of(subsystem.real[driver.real].type));
+    if (!value) return true;  // a type that is wrong in itself, which is said elsewhere
+    const ros2::Mapping mapping = ros2::written_mapping(
+        text_option(driver, "fields"), text_option(driver, "names"), text_option(driver, "frame_id"));
+    const auto direction =
+        subsystem.kind == spec::SubsystemKind::effector ? ros2::Direction::send : ros2::Direction::receive;
+    std::vector<ros2::MappingProblem> problems;
+    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems)) return true;
+    for (const ros2::MappingProblem& problem : problems)
+      complain("E321", place_in(driver, problem.subject), problem.text, problem.hint);
+    return false;
+  }
+
+  const spec::Model& model_;
+  ros2::DefinitionFolders definitions_;
+  diagnostics::Diagnostics& out_;
+  std::set<std::pair<diagnostics::Span, std::string>> said_;
+};
+
+}  // namespace
+
+bool find_messages(spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
+  const auto is_topic = [](const spec::Driver& driver) { return driver.kind == "ros2"; };
+  if (std::ranges::none_of(model.drivers, is_topic)) return true;
+  std::vector<spec::Driver> drivers = std::move(model.drivers);
+  MessageFinder finder(model, project, out);
+  bool found = true;
+  for (spec::Driver& driver : drivers)
+    if (is_topic(driver)) found = finder.find(driver) && found;
+  model.drivers = std::move(drivers);
+  return found;
+}
+
+}  // namespace tessera::project

@@ -1,0 +1,208 @@
+#include "spec/devices/topics.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+#include "diagnostics/utf8.hpp"
+#include "ros2/naming/names.hpp"
+#include "spec/devices/driver_options.hpp"
+#include "spec/document/section.hpp"
+#include "spec/values/quantities.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::quoted;
+
+constexpr const char* topic_hint = "for example { ros2: /cmd_vel, type: geometry_msgs/msg/Twist }";
+constexpr int highest_domain = 232;
+
+/// Words and dots: "linear.x".
+bool is_field_path(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  });
+}
+/// Without what separates the parts of lists and options.
+bool is_plain(std::string_view text) { return text.find_first_of(",=\n\r\t\"") == std::string_view::npos; }
+
+class TopicReader {
+ public:
+  TopicReader(const Section& section, Driver& driver, Diagnostics& out)
+      : section_(section), driver_(driver), out_(out) {}
+
+  void read() {
+    read_name();
+    read_message();
+    if (const Entry* fields = section_.find("fields")) read_fields(*fields);
+    if (const Entry* names = section_.find("names")) put(*names, list_of(*names, "the names"));
+    if (const Entry* qos = section_.find("qos")) read_qos(*qos);
+    for (const char* option : {"frame_id", "interface"}) read_text(option);
+    if (const Entry* peers = section_.find("peers")) put(*peers, list_of(*peers, "the peers"));
+    read_node();
+    if (const Entry* domain = section_.find("domain")) read_domain(*domain);
+    if (const Entry* wait = section_.find("wait")) read_wait(*wait);
+  }
+
+ private:
+  void put(const Entry& entry, std::string text) {
+    driver_.option_spans.emplace(entry.key, entry.value->is_scalar() ? entry.value->span : entry.span);
+    if (!text.empty()) driver_.options.emplace(entry.key, DriverOption{std::move(text), ""});
+  }
+
+  void read_name() {
+    const Entry* const entry = section_.require("ros2", topic_hint);
+    const Node* const text =
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the topic", out_, topic_hint);
+    if (text == nullptr) return;
+    std::string error;
+    if (ros2::full_topic_name(with_agent_number(text->text, 0), error).empty())
+      out_.error("E105", text->span, error,
+                 "for example /cmd_vel, or /robot{i}/cmd_vel for each agent of a fleet");
+    driver_.targets.push_back({text->text, text->span});
+  }
+
+  void read_message() {
+    const Entry* const entry = section_.require("type", topic_hint);
+    const Node* const text =
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the type", out_, topic_hint);
+    if (text == nullptr) return;
+    const auto name = ros2::full_message_name(text->text);
+    if (!name)
+      out_.error("E105", text->span, quoted(text->text) + " is no name of a message",
+                 "for example geometry_msgs/msg/Twist");
+    put(*entry, name.value_or(""));
+  }
+
+  /// A field of the message for all of the buffer, or a map of fields.
+  void read_fields(const Entry& entry) {
+    if (entry.value->is_scalar()) {
+      driver_.option_spans.emplace("fields." + entry.value->text, entry.value->span);
+      if (check_path(entry.value->text, entry.value->span)) put(entry, entry.value->text);
+      return;
+    }
+    std::string all;
+    for (const Entry& one : entries_of(*entry.value, entry.span, "fields", out_)) {
+      driver_.option_spans.emplace("fields." + one.key, one.span);
+      const Node* const text = text_of(*one.value, one.span, "the field of the buffer", out_,
+                                       "for example fields: { linear.x: v, angular.z: omega }");
+      if (text == nullptr || !check_path(one.key, one.span) || !check_path(text->text, text->span)) continue;
+      all += (all.empty() ? "" : ", ") + one.key + "=" + text->text;
+    }
+    put(entry, all);
+  }
+
+  bool check_path(const std::string& path, const Span& at) {
+    if (is_field_path(path)) return true;
+    out_.error("E105", at, quoted(path) + " is no name of a field", "for example linear.x");
+    return false;
+  }
+
+  std::string list_of(const Entry& entry, const char* what) {
+    std::string all;
+    if (entry.value->is_scalar()) return plain_text(*entry.value, entry.span, what);
+    for (const Node* item : items_of(*entry.value, entry.span, what, out_)) {
+      const std::string one = plain_text(*item, entry.span, what);
+      if (!one.empty()) all += (all.empty() ? "" : ", ") + one;
+    }
+    return all;
+  }
+
+  std::string plain_text(const Node& node, const Span& at, const char* what) {
+    const Node* const text = text_of(node, at, what, out_);
+    if (text == nullptr) return {};
+    if (is_plain(text->text)) return text->text;
+    out_.error("E105", text->span, std::string(what) + " may not contain commas, quotes or =");
+    return {};
+  }
+
+  void read_text(const char* option) {
+    const Entry* const entry = section_.find(option);
+    if (entry != nullptr) put(*entry, plain_text(*entry->value, entry->span, option));
+  }
+
+  void read_node() {
+    const Entry* const entry = section_.find("node");
+    const Node* const text =
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the node", out_);
+    if (text == nullptr) return;
+    if (!ros2::is_node_name(with_agent_number(text->text, 0)))
+      out_.error("E105", text->span, quoted(text->text) + " is no name of a node",
+                 "letters, digits and single underscores, for example base_driver");
+    put(*entry, text->text);
+  }
+
+  /// qos: sensor, or qos: { reliability: best_effort, durability: volatile, depth: 5 }.
+  void read_qos(const Entry& entry) {
+    if (entry.value->is_map()) return read_policies(entry);
+    const Node* const text = text_of(*entry.value, entry.span, "qos", out_);
+    if (text == nullptr) return;
+    if (text->text != "sensor" && text->text != "default")
+      out_.error("E204", text->span, "qos must be default or sensor, not " + quoted(text->text),
+                 "or its parts: qos: { reliability: best_effort, durability: volatile, depth: 5 }");
+    put(entry, text->text);
+  }
+
+  void read_policies(const Entry& entry) {
+    const Section policies(*entry.value, entry.span, "qos", {"reliability", "durability", "depth"}, out_);
+    std::string all;
+    const auto add = [&](const std::string& part) { all += (all.empty() ? "" : ", ") + part; };
+    for (const auto& [key, first, second] : {std::tuple{"reliability", "reliable", "best_effort"},
+                                             {"durability", "volatile", "transient_local"}})
+      if (const Entry* policy = policies.find(key)) {
+        const Node* const text = text_of(*policy->value, policy->span, key, out_);
+        if (text == nullptr) continue;
+        if (text->text != first && text->text != second)
+          out_.error(
+              "E204", text->span,
+              std::string(key) + " must be " + first + " or " + second + ", not " + quoted(text->text));
+        add(text->text);
+      }
+    if (const Entry* depth = policies.find("depth"))
+      if (const auto number = whole(*depth, "the depth", 1, 10000)) add("depth " + std::to_string(*number));
+    put(entry, all);
+  }
+
+  std::optional<int> whole(const Entry& entry, const char* what, int least, int most) {
+    const Node* const text = text_of(*entry.value, entry.span, what, out_);
+    if (text == nullptr) return std::nullopt;
+    const char* const end = text->text.data() + text->text.size();
+    int number = 0;
+    const auto [behind, problem] = std::from_chars(text->text.data(), end, number);
+    if (problem == std::errc() && behind == end && number >= least && number <= most) return number;
+    out_.error("E204", text->span,
+               std::string(what) + " must be a whole number from " + std::to_string(least) + " to " +
+                   std::to_string(most) + ", not " + quoted(text->text));
+    return std::nullopt;
+  }
+
+  void read_domain(const Entry& entry) {
+    const auto domain = whole(entry, "the domain", 0, highest_domain);
+    if (domain) driver_.options.emplace("domain", DriverOption{static_cast<double>(*domain), ""});
+  }
+
+  void read_wait(const Entry& entry) {
+    const auto wait = read_duration(*entry.value, entry.span, "wait", out_);
+    if (!wait) return;
+    const double seconds = std::chrono::duration<double>(*wait).count();
+    driver_.options.emplace("wait", DriverOption{seconds, "s"});
+  }
+
+  const Section& section_;
+  Driver& driver_;
+  Diagnostics& out_;
+};
+
+}  // namespace
+
+void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
+  driver.kind = topic_kind;
+  const Section section(
+      *entry.value, entry.span, "a topic of ROS 2",
+      {"ros2", "type", "fields", "names", "qos", "frame_id", "node", "domain", "interface", "peers", "wait"},
+      out);
+  if (section.readable()) TopicReader(section, driver, out).read();
+}
+
+}  // namespace tessera::spec

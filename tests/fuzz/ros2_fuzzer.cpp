@@ -1,0 +1,121 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "ros2/codec/plan.hpp"
+#include "ros2/codec/value_type.hpp"
+#include "ros2/definitions/resolver.hpp"
+
+namespace {
+
+using namespace tessera::ros2;
+
+/// Of everything that a definition can have.
+constexpr const char* rich_message = R"(bool flag
+string<=8 word
+string[] name
+float64[] position
+Part[] parts
+Part[2] pair
+int16[<=3] few
+float32[3] three
+uint8[] bytes
+Nothing nothing
+int64 last
+================================================================================
+MSG: fuzz/Part
+int8 a
+string b
+float64 c 0.5
+================================================================================
+MSG: fuzz/Nothing
+)";
+constexpr const char* rich_value =
+    "{flag: bool, word: string(8), position: float64[2], pair: {a: int16, b: string(4), c: float64}[2], "
+    "three: float64[3], last: int64}";
+
+struct Case {
+  Plan receive, send;
+};
+const Case& rich_case() {
+  static const Case made = [] {
+    std::vector<Mistake> mistakes;
+    std::vector<MappingProblem> problems;
+    const auto message = resolve("fuzz/msg/Rich", DefinitionBundle("fuzz/msg/Rich", rich_message), mistakes);
+    const auto value = parse_value_type(rich_value);
+    if (message == nullptr || !value) std::abort();
+    const Mapping mapping{{}, {"left", "right"}, ""};
+    auto receive = Plan::make(message, *value, mapping, Direction::receive, problems);
+    const auto same = parse_value_type(
+        "{flag: bool, word: string(8), position: float64[2], pair: {a: int8, b: string(4), c: float64}[2], "
+        "three: float32[3], last: int64}");
+    auto send = Plan::make(message, *same, mapping, Direction::send, problems);
+    if (!receive || !send) std::abort();
+    return Case{*receive, *send};
+  }();
+  return made;
+}
+
+/// A message that is accepted can be sent on, and gives the same value again.
+void try_message(std::span<const std::byte> bytes) {
+  static const Plan back = [] {
+    std::vector<Mistake> mistakes;
+    std::vector<MappingProblem> problems;
+    const auto message = resolve("fuzz/msg/Rich", DefinitionBundle("fuzz/msg/Rich", rich_message), mistakes);
+    auto plan =
+        Plan::make(message,
+                   *parse_value_type("{flag: bool, word: string(8), position: float64[2], pair: {a: "
+                                     "int8, b: string(4), c: float64}[2], three: float32[3], last: int64}"),
+                   {{}, {"left", "right"}, ""}, Direction::receive, problems);
+    return plan ? *plan : rich_case().receive;
+  }();
+  std::vector<std::byte> value, again, other;
+  static_cast<void>(rich_case().receive.decode(bytes, other));
+  if (back.decode(bytes, value) != Plan::Outcome::good) return;
+  std::vector<std::byte> message;
+  if (!rich_case().send.encode(value, {}, message)) std::abort();
+  if (back.decode(message, again) != Plan::Outcome::good || again != value) std::abort();
+}
+
+/// A definition is refused with a mistake, or is the same after it was written.
+void try_definition(const std::string& text) {
+  std::vector<Mistake> mistakes;
+  const auto message = resolve("fuzz/msg/Any", DefinitionBundle("fuzz/msg/Any", text), mistakes);
+  if ((message == nullptr) == mistakes.empty()) std::abort();
+  if (message == nullptr) return;
+  const std::string written = bundle_of(*message);
+  std::vector<Mistake> none;
+  const auto again = resolve("fuzz/msg/Any", DefinitionBundle("fuzz/msg/Any", written), none);
+  if (again == nullptr || bundle_of(*again) != written) std::abort();
+}
+
+}  // namespace
+
+/// The first byte chooses: a message, a value to be sent, a definition, a service, or the type of a value.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data) + 1, size - 1);
+  const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  std::vector<std::byte> message;
+  std::vector<Mistake> mistakes;
+  switch (data[0] % 5) {
+    case 0:
+      try_message(bytes);
+      break;
+    case 1:
+      static_cast<void>(rich_case().send.encode(bytes, {1, 2}, message));
+      break;
+    case 2:
+      try_definition(text);
+      break;
+    case 3:
+      if (parse_service("fuzz/srv/Any", text, "", mistakes).has_value() != mistakes.empty()) std::abort();
+      break;
+    default:
+      static_cast<void>(parse_value_type(text));
+  }
+  return 0;
+}

@@ -1,0 +1,251 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "ros2/codec/cdr.hpp"
+#include "ros2/codec/plan.hpp"
+#include "ros2/codec/value_type.hpp"
+#include "ros2/codec/written_mapping.hpp"
+#include "ros2/definitions/resolver.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+std::shared_ptr<const Structure> message_of(const std::string& definition) {
+  std::vector<Mistake> mistakes;
+  const bool is_name = definition.find('/') != std::string::npos && definition.find(' ') == std::string::npos;
+  const auto message =
+      is_name
+          ? resolve(definition, DefinitionFolders({std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"}),
+                    mistakes)
+          : resolve("pkg/msg/Some", DefinitionBundle("pkg/msg/Some", definition), mistakes);
+  for (const Mistake& one : mistakes) ADD_FAILURE() << one.shown();
+  return message;
+}
+
+struct Wanted {
+  std::string definition, value, fields{}, names{}, frame_id{};
+};
+
+std::string problems_of(const Wanted& wanted, Direction direction) {
+  std::vector<MappingProblem> problems;
+  const auto plan =
+      Plan::make(message_of(wanted.definition), *parse_value_type(wanted.value),
+                 written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
+  EXPECT_EQ(plan.has_value(), problems.empty());
+  std::string all;
+  for (const MappingProblem& one : problems) all += one.subject + "|" + one.text + "|" + one.hint + "\n";
+  return all;
+}
+
+Plan plan_of(const Wanted& wanted, Direction direction) {
+  std::vector<MappingProblem> problems;
+  auto plan = Plan::make(message_of(wanted.definition), *parse_value_type(wanted.value),
+                         written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
+  for (const MappingProblem& one : problems) ADD_FAILURE() << one.text;
+  return *plan;
+}
+
+template <class... Numbers>
+Bytes bytes_of(Numbers... numbers) {
+  Bytes bytes;
+  const auto add = [&](const auto& number) {
+    const auto* const first = reinterpret_cast<const std::byte*>(&number);
+    bytes.insert(bytes.end(), first, first + sizeof number);
+  };
+  (add(numbers), ...);
+  return bytes;
+}
+
+std::string hex(std::span<const std::byte> bytes) {
+  std::string text;
+  for (const std::byte one : bytes)
+    for (const int half : {static_cast<int>(one) >> 4, static_cast<int>(one) & 15})
+      text += "0123456789abcdef"[half];
+  return text;
+}
+Bytes from_hex(const std::string& text) {
+  Bytes bytes;
+  for (std::size_t at = 0; at + 1 < text.size(); at += 2)
+    bytes.push_back(static_cast<std::byte>(std::stoi(text.substr(at, 2), nullptr, 16)));
+  return bytes;
+}
+
+/// Bytes that Cyclone DDS wrote, with code that its own compiler made (ros2.md of the design).
+TEST(Codec, WritesTheBytesOfOtherImplementations) {
+  Bytes message;
+  ASSERT_TRUE(
+      plan_of({"std_msgs/msg/Float64", "float64"}, Direction::send).encode(bytes_of(1.5), {}, message));
+  EXPECT_EQ(hex(message), "00010000000000000000f83f");
+  Bytes text = bytes_of(std::uint32_t{2});
+  text.push_back(std::byte{'h'});
+  text.push_back(std::byte{'i'});
+  ASSERT_TRUE(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::send).encode(text, {}, message));
+  EXPECT_EQ(hex(message), "000100010300000068690000");
+  Bytes value;
+  ASSERT_EQ(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::receive).decode(message, value),
+            Plan::Outcome::good);
+  EXPECT_EQ(value, text);
+}
+
+TEST(Codec, ReadsBothOrdersOfBytes) {
+  const Plan plan =
+      plan_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},
+              Direction::receive);
+  Bytes little, big;
+  ASSERT_EQ(plan.decode(
+                from_hex("0001000007000000feffffff0100000000000000000000000000f83f026800000300000068690000"),
+                little),
+            Plan::Outcome::malformed)
+      << "the string of 2 has no zero";
+  // at 0 a, 4 b, 8 length, 16 number, 24 length, 28 text
+  ASSERT_EQ(
+      plan.decode(from_hex("0001000007000000feffffff0100000000000000000000000000f83f03000000686900"), little),
+      Plan::Outcome::good);
+  ASSERT_EQ(
+      plan.decode(from_hex("0000000007000000fffffffe00000001000000003ff800000000000000000003686900"), big),
+      Plan::Outcome::good);
+  EXPECT_EQ(little, big);
+  Bytes expected = bytes_of(std::int64_t{-2}, 1.5, std::uint32_t{2});
+  expected.push_back(std::byte{'h'});
+  expected.push_back(std::byte{'i'});
+  EXPECT_EQ(little, expected);
+}
+
+TEST(Codec, FillsWhatTheBufferDoesNot) {
+  const Plan send =
+      plan_of({"geometry_msgs/msg/PoseStamped", "float64", "pose.position.x", "", "map"}, Direction::send);
+  Bytes message, value;
+  ASSERT_TRUE(send.encode(bytes_of(2.5), {7, 8}, message));
+  const Plan receive = plan_of({"geometry_msgs/msg/PoseStamped",
+                                "{sec: int32, nanosec: uint32, frame: string(8), x: float64, w: float64}",
+                                "header.stamp.sec=sec, header.stamp.nanosec=nanosec, header.frame_id=frame, "
+                                "pose.position.x=x, pose.orientation.w=w"},
+                               Direction::receive);
+  ASSERT_EQ(receive.decode(message, value), Plan::Outcome::good);
+  Bytes expected = bytes_of(std::int32_t{7}, std::uint32_t{8}, std::uint32_t{3});
+  for (const char c : {'m', 'a', 'p'}) expected.push_back(static_cast<std::byte>(c));
+  const Bytes rest = bytes_of(2.5, 1.0);
+  expected.insert(expected.end(), rest.begin(), rest.end());
+  EXPECT_EQ(value, expected);
+}
+
+TEST(Codec, PutsJointsInTheOrderOfTheirNames) {
+  const Wanted wanted{"sensor_msgs/msg/JointState", "{position: float64[2], velocity: float64[2]}", "",
+                      "left, right"};
+  const Plan receive = plan_of(wanted, Direction::receive);
+  Bytes message, value;
+  ASSERT_TRUE(plan_of(wanted, Direction::send).encode(bytes_of(1.0, 2.0, 3.0, 4.0), {}, message));
+  ASSERT_EQ(receive.decode(message, value), Plan::Outcome::good);
+  EXPECT_EQ(value, bytes_of(1.0, 2.0, 3.0, 4.0));
+  Wanted other = wanted;
+  other.names = "right, left";
+  ASSERT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::good);
+  EXPECT_EQ(value, bytes_of(2.0, 1.0, 4.0, 3.0));
+  other.names = "left, middle";
+  EXPECT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::other_names);
+}
+
+TEST(Codec, RefusesWhatIsNoSuchMessage) {
+  const Plan plan = plan_of({"bool a\nfloat64[2] b", "{a: bool, b: float64[2]}"}, Direction::receive);
+  const Bytes good = from_hex("00010000010000000000000000000000000000000000000000000000");
+  Bytes value;
+  ASSERT_EQ(plan.decode(good, value), Plan::Outcome::good);
+  for (std::size_t size = 0; size < good.size(); ++size)
+    EXPECT_EQ(plan.decode(std::span(good).first(size), value), Plan::Outcome::malformed) << size;
+  Bytes other = good;
+  other.resize(good.size() + 3);
+  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::good) << "padding";
+  other.resize(good.size() + 4);
+  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "another definition";
+  other = good;
+  other[4] = std::byte{2};
+  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "no bool";
+  other = good;
+  other[1] = std::byte{7};
+  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "XCDR2";
+}
+
+TEST(Codec, SurvivesAnyBytes) {
+  const Plan plan =
+      plan_of({"sensor_msgs/msg/PointCloud2", "{height: uint32, is_dense: bool}"}, Direction::receive);
+  const Plan scan =
+      plan_of({"sensor_msgs/msg/LaserScan", "{range_max: float64, ranges: float32[3]}"}, Direction::receive);
+  Bytes good, value;
+  ASSERT_TRUE(
+      plan_of({"sensor_msgs/msg/LaserScan", "{range_max: float32, ranges: float32[3]}"}, Direction::send)
+          .encode(bytes_of(9.0F, 1.0F, 2.0F, 3.0F), {}, good));
+  std::mt19937 random(1);
+  int accepted = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    Bytes bytes = good;
+    for (int change = 0; change < 3; ++change)
+      bytes[random() % bytes.size()] = static_cast<std::byte>(random() % 4 == 0 ? 0xff : random() % 5);
+    bytes.resize(random() % 3 == 0 ? random() % bytes.size() : bytes.size());
+    static_cast<void>(plan.decode(bytes, value));
+    if (scan.decode(bytes, value) == Plan::Outcome::good) ++accepted;
+  }
+  EXPECT_GT(accepted, 1000);
+  EXPECT_LT(accepted, 19'000);
+}
+
+TEST(Codec, ConvertsExactlyOrNotAtAll) {
+  EXPECT_TRUE(converts_exactly(Primitive::float32, Primitive::float64));
+  EXPECT_TRUE(converts_exactly(Primitive::uint8, Primitive::int16));
+  EXPECT_TRUE(converts_exactly(Primitive::int32, Primitive::float64));
+  EXPECT_TRUE(converts_exactly(Primitive::int16, Primitive::float32));
+  for (const auto& [from, to] : {std::pair{Primitive::float64, Primitive::float32},
+                                 {Primitive::int64, Primitive::float64},
+                                 {Primitive::int8, Primitive::uint8},
+                                 {Primitive::uint8, Primitive::int8},
+                                 {Primitive::int32, Primitive::float32},
+                                 {Primitive::boolean, Primitive::uint8},
+                                 {Primitive::float32, Primitive::int64},
+                                 {Primitive::string, Primitive::uint8}})
+    EXPECT_FALSE(converts_exactly(from, to)) << name_of(from) << " " << name_of(to);
+}
+
+TEST(Mapping, MistakesAreTold) {
+  const std::string twist = "geometry_msgs/msg/Twist", motion = "{v: float64, omega: float64}";
+  EXPECT_EQ(problems_of({twist, motion, "linear.x=v, angular.zz=omega"}, Direction::send),
+            "angular.zz|'geometry_msgs/msg/Vector3' has no field 'zz'|did you mean 'z'?\n");
+  EXPECT_EQ(problems_of({twist, motion, "linear.x=v"}, Direction::send),
+            "|no field of the message corresponds to the buffer's 'omega'|name it in `fields`\n");
+  EXPECT_EQ(problems_of({twist, motion, "linear.x=v, angular.z=omgea"}, Direction::send),
+            "angular.z|the buffer has no field 'omgea'|did you mean 'omega'?\n");
+  EXPECT_EQ(problems_of({twist, motion}, Direction::send),
+            "|'geometry_msgs/msg/Twist' has no field 'v'|say which fields correspond: fields: { linear: v }\n"
+            "|'geometry_msgs/msg/Twist' has no field 'omega'|say which fields correspond: fields: { linear: "
+            "omega }\n");
+  EXPECT_EQ(
+      problems_of({"std_msgs/msg/Float32", "float64"}, Direction::send),
+      "|the buffer of type float64 does not fit 'data' of type float32|a buffer of type float32 does\n");
+  EXPECT_EQ(problems_of({"std_msgs/msg/Float32", "float64"}, Direction::receive), "");
+  EXPECT_EQ(problems_of({"float64[9] a", "float64[8]"}, Direction::receive),
+            "|'a' of type float64[9] does not fit the buffer of type float64[8]|a buffer of type float64[9] "
+            "does\n");
+  EXPECT_EQ(problems_of({"float64[<=4] a", "float64[8]"}, Direction::send),
+            "|the buffer of type float64[8] does not fit 'a' of type float64[<=4]|a buffer of type "
+            "float64[4] does\n");
+  EXPECT_EQ(
+      problems_of({"string<=4 a", "string(8)"}, Direction::send),
+      "|the buffer of type string<=8 does not fit 'a' of type string<=4|a buffer of type string<=4 does\n");
+  EXPECT_EQ(problems_of({twist, "float64"}, Direction::send),
+            "|which field of 'geometry_msgs/msg/Twist' is meant?|for example fields: angular\n");
+  EXPECT_EQ(problems_of({"wstring a", "string(8)"}, Direction::send),
+            "|'pkg/msg/Some' has the wstring 'a'|implementations of DDS disagree on wide strings, so that "
+            "Tessera sends and receives none\n");
+  EXPECT_EQ(problems_of({twist, "float64", "linear.x", "a, b"}, Direction::receive),
+            "names|'geometry_msgs/msg/Twist' has no field 'name' of type string[]|names are for messages "
+            "such as sensor_msgs/JointState\n");
+}
+
+}  // namespace
+}  // namespace tessera::ros2

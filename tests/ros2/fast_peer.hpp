@@ -1,0 +1,187 @@
+#pragma once
+
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
+
+#include <array>
+#include <cstdint>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The other side of topics, by an implementation of DDS that Tessera does not use: Fast DDS with its own CDR.
+/// Nothing here includes a header of Tessera. The types are written by hand, field after field, from the
+/// public definitions of ROS 2.
+namespace fast {
+
+using eprosima::fastcdr::Cdr;
+
+struct Header {
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+  std::string frame_id;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(sec, nanosec, frame_id);
+  }
+};
+struct Text {
+  static constexpr const char* name = "std_msgs::msg::dds_::String_";
+  std::string data;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(data);
+  }
+};
+struct Twist {
+  static constexpr const char* name = "geometry_msgs::msg::dds_::Twist_";
+  double linear_x = 0, linear_y = 0, linear_z = 0, angular_x = 0, angular_y = 0, angular_z = 0;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(linear_x, linear_y, linear_z, angular_x, angular_y, angular_z);
+  }
+};
+struct LaserScan {
+  static constexpr const char* name = "sensor_msgs::msg::dds_::LaserScan_";
+  Header header;
+  float angle_min = 0, angle_max = 0, angle_increment = 0, time_increment = 0, scan_time = 0, range_min = 0,
+        range_max = 0;
+  std::vector<float> ranges, intensities;
+  template <class Archive>
+  void fields(Archive& all) {
+    header.fields(all);
+    all(angle_min, angle_max, angle_increment, time_increment, scan_time, range_min, range_max, ranges,
+        intensities);
+  }
+};
+struct Odometry {
+  static constexpr const char* name = "nav_msgs::msg::dds_::Odometry_";
+  Header header;
+  std::string child_frame_id;
+  double x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 1;
+  std::array<double, 36> pose_covariance{};
+  Twist twist;
+  std::array<double, 36> twist_covariance{};
+  template <class Archive>
+  void fields(Archive& all) {
+    header.fields(all);
+    all(child_frame_id, x, y, z, qx, qy, qz, qw, pose_covariance);
+    twist.fields(all);
+    all(twist_covariance);
+  }
+};
+struct JointState {
+  static constexpr const char* name = "sensor_msgs::msg::dds_::JointState_";
+  Header header;
+  std::vector<std::string> names;
+  std::vector<double> position, velocity, effort;
+  template <class Archive>
+  void fields(Archive& all) {
+    header.fields(all);
+    all(names, position, velocity, effort);
+  }
+};
+struct Float64MultiArray {
+  static constexpr const char* name = "std_msgs::msg::dds_::Float64MultiArray_";
+  std::uint32_t dimensions = 0;  ///< an empty sequence of them
+  std::uint32_t data_offset = 0;
+  std::vector<double> data;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(dimensions, data_offset, data);
+  }
+};
+
+/// A type without keys, serialised by Fast CDR.
+template <class Message>
+class Type final : public eprosima::fastdds::dds::TopicDataType {
+ public:
+  Type() {
+    setName(Message::name);
+    m_typeSize = 1 << 16;
+    m_isGetKeyDefined = false;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
+    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->max_size);
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    payload->encapsulation = CDR_LE;
+    cdr.serialize_encapsulation();
+    auto put = [&](auto&... field) { ((cdr << field), ...); };
+    static_cast<Message*>(data)->fields(put);
+    payload->length = static_cast<std::uint32_t>(cdr.getSerializedDataLength());
+    return true;
+  }
+  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
+    try {
+      eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload->data), payload->length);
+      Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+      cdr.read_encapsulation();
+      auto take = [&](auto&... field) { ((cdr >> field), ...); };
+      static_cast<Message*>(data)->fields(take);
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
+    return [] { return 1U << 16; };
+  }
+  void* createData() override { return new Message; }
+  void deleteData(void* data) override { delete static_cast<Message*>(data); }
+  bool getKey(void* /*data*/, eprosima::fastrtps::rtps::InstanceHandle_t* /*key*/, bool /*md5*/) override {
+    return false;
+  }
+};
+
+/// A participant on the loopback interface that uses no multicast.
+class Peer {
+ public:
+  explicit Peer(std::uint32_t domain);
+  ~Peer();
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  /// topic: "rt/cmd_vel".
+  template <class Message>
+  eprosima::fastdds::dds::DataWriter* writer(const std::string& topic, bool reliable = true) {
+    return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable);
+  }
+  template <class Message>
+  eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool reliable = true) {
+    return make_reader(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable);
+  }
+  /// The next message; nullopt: there is none now.
+  template <class Message>
+  static std::optional<Message> take(eprosima::fastdds::dds::DataReader& reader) {
+    Message message;
+    eprosima::fastdds::dds::SampleInfo info;
+    using eprosima::fastrtps::types::ReturnCode_t;
+    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
+      if (info.valid_data) return message;
+    return std::nullopt;
+  }
+  static bool is_matched(eprosima::fastdds::dds::DataWriter& writer);
+  static bool is_matched(eprosima::fastdds::dds::DataReader& reader);
+
+ private:
+  eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::TypeSupport type,
+                                                  const std::string& topic, bool reliable);
+  eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::TypeSupport type,
+                                                  const std::string& topic, bool reliable);
+  eprosima::fastdds::dds::Topic* topic(eprosima::fastdds::dds::TypeSupport& type, const std::string& name);
+
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
+};
+
+}  // namespace fast

@@ -1,0 +1,256 @@
+// The drivers against Fast DDS, which has its own protocol, its own discovery and its own CDR.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+
+#include "eventually.hpp"
+#include "fast_peer.hpp"
+#include "ros2/dds/drivers.hpp"
+#include "ros2/definitions/resolver.hpp"
+#include "tessera/bounded_string.hpp"
+#include "tessera/fields.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+struct Motion {
+  double v{}, omega{};
+  TESSERA_FIELDS(Motion, v, omega)
+};
+struct Scan {
+  float range_max{};
+  std::array<double, 5> ranges{};
+  TESSERA_FIELDS(Scan, range_max, ranges)
+};
+struct Odometry {
+  double x{}, speed{};
+  TESSERA_FIELDS(Odometry, x, speed)
+};
+
+/// A domain for this process, so that tests do not hear each other.
+std::uint32_t test_domain() { return 60 + static_cast<std::uint32_t>(getpid()) % 150; }
+
+template <class Value>
+Ros2Binding binding(const std::string& topic, const std::string& type, const std::string& fields = "") {
+  std::vector<Mistake> mistakes;
+  const DefinitionFolders folders({std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"});
+  const auto message = resolve(type, folders, mistakes);
+  Ros2Binding made;
+  made.path = "robot.part.buffer";
+  made.topic = topic;
+  made.type = type;
+  made.definition = message == nullptr ? "" : bundle_of(*message);
+  made.fields = fields;
+  made.interface = "lo";
+  made.domain = test_domain();
+  made.encoding = value_encoding_of<Value>();
+  return made;
+}
+
+std::unique_ptr<RealReceptor> opened_receptor(const Ros2Binding& binding) {
+  std::string error;
+  auto receptor = make_receptor(binding, error);
+  EXPECT_NE(receptor, nullptr) << error;
+  if (receptor != nullptr) EXPECT_TRUE(receptor->open());
+  return receptor;
+}
+
+std::unique_ptr<RealEffector> opened_effector(const Ros2Binding& binding) {
+  std::string error;
+  auto effector = make_effector(binding, error);
+  EXPECT_NE(effector, nullptr) << error;
+  if (effector != nullptr) EXPECT_TRUE(effector->open());
+  return effector;
+}
+
+template <class Value>
+bool write(RealEffector& effector, const Value& value) {
+  return effector.write(std::as_bytes(std::span(&value, 1)));
+}
+template <class Value>
+bool read(RealReceptor& receptor, Value& value) {
+  return receptor.read(std::as_writable_bytes(std::span(&value, 1)));
+}
+
+class WithFastDds : public testing::Test {
+ protected:
+  fast::Peer peer{test_domain()};
+};
+
+TEST_F(WithFastDds, GetsEveryTwistOfASecondAtOneKilohertz) {
+  auto* const reader = peer.reader<fast::Twist>("rt/cmd_vel");
+  auto effector =
+      opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*reader); }));
+  ASSERT_TRUE(eventually([&] {  // the writer knows the reader when something arrives
+    EXPECT_TRUE(write(*effector, Motion{-1, 0}));
+    return fast::Peer::take<fast::Twist>(*reader).has_value();
+  }));
+  const char* const seconds = std::getenv("TESSERA_ROS2_SECONDS");
+  const int count = 1000 * (seconds == nullptr ? 1 : std::atoi(seconds));
+  int received = 0;
+  const auto take_all = [&] {
+    while (const auto twist = fast::Peer::take<fast::Twist>(*reader)) {
+      if (twist->linear_x < 0) continue;
+      EXPECT_EQ(twist->linear_x, received);
+      EXPECT_EQ(twist->angular_z, 0.5 * received);
+      EXPECT_EQ(twist->linear_y, 0);
+      ++received;
+    }
+    return received >= count;
+  };
+  auto next = std::chrono::steady_clock::now();
+  for (int number = 0; number < count; ++number) {
+    ASSERT_TRUE(write(*effector, Motion{static_cast<double>(number), 0.5 * number}));
+    take_all();
+    std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(eventually(take_all)) << received;
+  effector->close();
+}
+
+TEST_F(WithFastDds, GivesTwistsAndEachIsFreshOnce) {
+  auto* const writer = peer.writer<fast::Twist>("rt/cmd_vel");
+  auto receptor =
+      opened_receptor(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  Motion motion{7, 7};
+  EXPECT_FALSE(read(*receptor, motion));
+  EXPECT_EQ(motion.v, 7);
+  ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*writer); }));
+  fast::Twist twist;
+  twist.linear_x = 0.25;
+  twist.angular_z = -3;
+  writer->write(&twist);
+  ASSERT_TRUE(eventually([&] { return read(*receptor, motion); }));
+  EXPECT_EQ(motion.v, 0.25);
+  EXPECT_EQ(motion.omega, -3);
+  EXPECT_FALSE(read(*receptor, motion));
+  receptor->close();
+}
+
+TEST_F(WithFastDds, GivesScansOfABestEffortSensorAndDropsThoseOfAnotherLength) {
+  auto* const writer = peer.writer<fast::LaserScan>("rt/scan", /*reliable=*/false);
+  auto sensor = binding<Scan>("/scan", "sensor_msgs/msg/LaserScan");
+  sensor.qos = "sensor";
+  auto receptor = opened_receptor(sensor);
+  fast::LaserScan scan;
+  scan.header.frame_id = "laser";
+  scan.range_max = 12;
+  scan.ranges = {1, 2, std::numeric_limits<float>::infinity(), 0.5F, 4};
+  Scan seen;
+  ASSERT_TRUE(eventually([&] {
+    writer->write(&scan);
+    return read(*receptor, seen);
+  }));
+  EXPECT_EQ(seen.range_max, 12);
+  EXPECT_EQ(seen.ranges[1], 2);
+  EXPECT_TRUE(std::isinf(seen.ranges[2]));
+  scan.ranges.pop_back();
+  scan.range_max = 13;
+  testing::internal::CaptureStderr();
+  std::string told;
+  for (int number = 0; number < 3; ++number) writer->write(&scan);
+  scan.ranges.push_back(9);
+  scan.range_max = 14;
+  EXPECT_TRUE(eventually([&] {
+    writer->write(&scan);
+    return read(*receptor, seen) && seen.range_max == 14;
+  }));
+  told = testing::internal::GetCapturedStderr();
+  EXPECT_NE(told.find("robot.part.buffer: a message of /scan was dropped (1 until now): an array or text has "
+                      "another length"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(seen.ranges[4], 9);
+  receptor->close();
+}
+
+TEST_F(WithFastDds, GivesOdometryAndStrings) {
+  auto* const odometry = peer.writer<fast::Odometry>("rt/odom");
+  auto* const words = peer.writer<fast::Text>("rt/words");
+  auto wheels = opened_receptor(binding<Odometry>("odom", "nav_msgs/msg/Odometry",
+                                                  "pose.pose.position.x=x, twist.twist.linear.x=speed"));
+  auto ear = opened_receptor(binding<BoundedString<16>>("/words", "std_msgs/msg/String"));
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*odometry) && fast::Peer::is_matched(*words); }));
+  fast::Odometry sent;
+  sent.header.frame_id = "odom";
+  sent.child_frame_id = "base_link";
+  sent.x = 2.5;
+  sent.twist.linear_x = 0.75;
+  odometry->write(&sent);
+  fast::Text text{"halt"};
+  words->write(&text);
+  Odometry got;
+  BoundedString<16> heard;
+  EXPECT_TRUE(eventually([&] { return read(*wheels, got); }));
+  EXPECT_TRUE(eventually([&] { return read(*ear, heard); }));
+  EXPECT_EQ(got.x, 2.5);
+  EXPECT_EQ(got.speed, 0.75);
+  EXPECT_EQ(heard.view(), "halt");
+}
+
+TEST_F(WithFastDds, MovesAnArmWhoseJointsHaveAnotherOrder) {
+  auto* const state = peer.writer<fast::JointState>("rt/joint_states");
+  auto* const commands = peer.reader<fast::Float64MultiArray>("rt/commands");
+  auto joints = binding<std::array<double, 3>>("/joint_states", "sensor_msgs/msg/JointState", "position");
+  joints.names = "base, shoulder, elbow";
+  auto receptor = opened_receptor(joints);
+  auto effector =
+      opened_effector(binding<std::array<double, 3>>("/commands", "std_msgs/msg/Float64MultiArray"));
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*state) && fast::Peer::is_matched(*commands); }));
+  fast::JointState sent;
+  sent.names = {"gripper", "elbow", "base", "shoulder"};
+  sent.position = {0.5, 3, 1, 2};
+  state->write(&sent);
+  std::array<double, 3> positions{};
+  ASSERT_TRUE(eventually([&] { return read(*receptor, positions); }));
+  EXPECT_EQ(positions, (std::array<double, 3>{1, 2, 3}));
+  std::optional<fast::Float64MultiArray> command;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(write(*effector, positions));
+    return (command = fast::Peer::take<fast::Float64MultiArray>(*commands)).has_value();
+  }));
+  EXPECT_EQ(command->data, (std::vector<double>{1, 2, 3}));
+}
+
+TEST_F(WithFastDds, TellsOfAPublisherWithAnotherReliability) {
+  testing::internal::CaptureStderr();
+  auto* const writer = peer.writer<fast::Text>("rt/words", /*reliable=*/false);
+  auto ear = opened_receptor(binding<BoundedString<16>>("/words", "std_msgs/msg/String"));
+  fast::Text text{"unheard"};
+  std::string told;
+  EXPECT_TRUE(eventually([&] {
+    writer->write(&text);
+    told += testing::internal::GetCapturedStderr();
+    testing::internal::CaptureStderr();
+    return told.find("a publisher offers another reliability of /words than ours") != std::string::npos;
+  }));
+  told += testing::internal::GetCapturedStderr();
+  BoundedString<16> heard;
+  EXPECT_FALSE(read(*ear, heard));
+}
+
+TEST_F(WithFastDds, WaitsForTheOtherSideIfAsked) {
+  auto waiting = binding<Motion>("/nobody", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega");
+  waiting.wait = std::chrono::milliseconds(50);
+  std::string error;
+  const auto effector = make_effector(waiting, error);
+  ASSERT_NE(effector, nullptr) << error;
+  try {
+    static_cast<void>(effector->open());
+    FAIL();
+  } catch (const std::runtime_error& problem) {
+    EXPECT_STREQ(problem.what(), "there is no subscriber of /nobody");
+  }
+}
+
+}  // namespace
+}  // namespace tessera::ros2

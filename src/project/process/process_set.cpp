@@ -142,7 +142,7 @@ void ProcessSet::start_what_is_due() {
 
 void ProcessSet::read_output(Child& child, std::size_t process) {
   std::array<char, 4096> buffer{};
-  const ssize_t count = read(child.output, buffer.data(), buffer.size());
+  const ssize_t count = ::read(child.output, buffer.data(), buffer.size());
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (count <= 0) {
     flush_output(child, process);

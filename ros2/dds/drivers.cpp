@@ -19,7 +19,7 @@ namespace tessera::ros2 {
 namespace {
 
 constexpr Duration longest_receipt = std::chrono::milliseconds(500);
-constexpr Duration guardian_finds_within = std::chrono::seconds(1);
+constexpr Duration guardian_finds_within = std::chrono::seconds(4);
 
 /// What receptors and effectors have in common. Throws std::runtime_error: the binding is wrong.
 struct Prepared {

@@ -3,9 +3,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "ros2/codec/plan.hpp"
@@ -17,7 +19,7 @@ namespace tessera::ros2 {
 namespace {
 
 constexpr Duration longest_receipt = std::chrono::milliseconds(500);
-constexpr Duration guardian_finds_within = std::chrono::seconds(1);
+constexpr Duration guardian_finds_within = std::chrono::seconds(4);
 
 /// What receptors and effectors have in common. Throws std::runtime_error: the binding is wrong.
 struct Prepared {
@@ -149,11 +151,23 @@ class Publisher final : public RealEffector {
     sink_.clear();
     prepared_.encoding->put(value.data(), sink_);
     if (!prepared_.plan.encode(sink_.bytes(), now(), message_)) return false;
-    if (is_guardian() && !endpoint_->await_other_side(guardian_finds_within)) return false;
-    return endpoint_->write(message_) && (!is_guardian() || endpoint_->await_receipt(longest_receipt));
+    return is_guardian() ? write_until_received() : endpoint_->write(message_);
   }
 
  private:
+  /// A subscriber gets nothing that was written before it has found the writer, though the writer may have
+  /// found it already. So the command is sent several times.
+  [[nodiscard]] bool write_until_received() {
+    constexpr int times = 4;
+    if (!endpoint_->await_other_side(guardian_finds_within)) return false;
+    bool received = true;
+    for (int time = 0; time < times; ++time) {
+      if (time > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      received = endpoint_->write(message_) && endpoint_->await_receipt(longest_receipt);
+    }
+    return received;
+  }
+
   /// The guardian makes its drivers early, and opens them in a process that it forks for that. This process
   /// says "taken" only of what somebody has got.
   [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }

@@ -53,14 +53,17 @@ Plan plan_of(const Wanted& wanted, Direction direction) {
   return *plan;
 }
 
+void append(Bytes& bytes, const void* more, std::size_t size) {
+  const std::size_t first = bytes.size();
+  bytes.resize(first + size);
+  std::memcpy(bytes.data() + first, more, size);
+}
+
 template <class... Numbers>
 Bytes bytes_of(Numbers... numbers) {
   Bytes bytes;
-  const auto add = [&](const auto& number) {
-    const auto* const first = reinterpret_cast<const std::byte*>(&number);
-    bytes.insert(bytes.end(), first, first + sizeof number);
-  };
-  (add(numbers), ...);
+  bytes.reserve((std::size_t{0} + ... + sizeof numbers));
+  (append(bytes, &numbers, sizeof numbers), ...);
   return bytes;
 }
 
@@ -85,8 +88,7 @@ TEST(Codec, WritesTheBytesOfOtherImplementations) {
       plan_of({"std_msgs/msg/Float64", "float64"}, Direction::send).encode(bytes_of(1.5), {}, message));
   EXPECT_EQ(hex(message), "00010000000000000000f83f");
   Bytes text = bytes_of(std::uint32_t{2});
-  text.push_back(std::byte{'h'});
-  text.push_back(std::byte{'i'});
+  append(text, "hi", 2);
   ASSERT_TRUE(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::send).encode(text, {}, message));
   EXPECT_EQ(hex(message), "000100010300000068690000");
   Bytes value;
@@ -114,8 +116,7 @@ TEST(Codec, ReadsBothOrdersOfBytes) {
       Plan::Outcome::good);
   EXPECT_EQ(little, big);
   Bytes expected = bytes_of(std::int64_t{-2}, 1.5, std::uint32_t{2});
-  expected.push_back(std::byte{'h'});
-  expected.push_back(std::byte{'i'});
+  append(expected, "hi", 2);
   EXPECT_EQ(little, expected);
 }
 
@@ -131,9 +132,9 @@ TEST(Codec, FillsWhatTheBufferDoesNot) {
                                Direction::receive);
   ASSERT_EQ(receive.decode(message, value), Plan::Outcome::good);
   Bytes expected = bytes_of(std::int32_t{7}, std::uint32_t{8}, std::uint32_t{3});
-  for (const char c : {'m', 'a', 'p'}) expected.push_back(static_cast<std::byte>(c));
-  const Bytes rest = bytes_of(2.5, 1.0);
-  expected.insert(expected.end(), rest.begin(), rest.end());
+  append(expected, "map", 3);
+  const std::array rest{2.5, 1.0};
+  append(expected, rest.data(), sizeof rest);
   EXPECT_EQ(value, expected);
 }
 

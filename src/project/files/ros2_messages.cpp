@@ -35,8 +35,8 @@ diagnostics::Span place_in(const spec::Driver& driver, const std::string& option
 /// One message for a whole fleet.
 class MessageFinder {
  public:
-  MessageFinder(const spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out)
-      : model_(model), definitions_({project / "msg", Installation::find().share / "ros2"}), out_(out) {}
+  MessageFinder(const spec::Model& model, const std::vector<fs::path>& folders, diagnostics::Diagnostics& out)
+      : model_(model), definitions_(folders), out_(out) {}
 
   bool find(spec::Driver& driver) {
     const std::string name = text_option(driver, "type");
@@ -82,16 +82,21 @@ class MessageFinder {
 
 }  // namespace
 
+bool find_messages_in(spec::Model& model, const std::vector<fs::path>& folders,
+                      diagnostics::Diagnostics& out) {
+  std::vector<spec::Driver> drivers = std::move(model.drivers);
+  MessageFinder finder(model, folders, out);
+  bool found = true;
+  for (spec::Driver& driver : drivers)
+    if (driver.kind == "ros2") found = finder.find(driver) && found;
+  model.drivers = std::move(drivers);
+  return found;
+}
+
 bool find_messages(spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
   const auto is_topic = [](const spec::Driver& driver) { return driver.kind == "ros2"; };
   if (std::ranges::none_of(model.drivers, is_topic)) return true;
-  std::vector<spec::Driver> drivers = std::move(model.drivers);
-  MessageFinder finder(model, project, out);
-  bool found = true;
-  for (spec::Driver& driver : drivers)
-    if (is_topic(driver)) found = finder.find(driver) && found;
-  model.drivers = std::move(drivers);
-  return found;
+  return find_messages_in(model, {project / "msg", Installation::find().share / "ros2"}, out);
 }
 
 }  // namespace tessera::project

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/model.hpp"
@@ -15,5 +16,8 @@ namespace tessera::project {
 /// Errors: E320 a message that does not exist, or whose definition is wrong; E321 fields of message and buffer
 ///         that do not correspond. false after one of them.
 bool find_messages(spec::Model& model, const std::filesystem::path& project, diagnostics::Diagnostics& out);
+/// The same with these folders of definitions.
+bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::path>& folders,
+                      diagnostics::Diagnostics& out);
 
 }  // namespace tessera::project

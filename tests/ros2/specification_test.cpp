@@ -1,0 +1,86 @@
+// From a specification to the definitions in the tables of the controller.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "project/files/ros2_messages.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path shipped = fs::path(TESSERA_SOURCE_DIR) / "share/tessera/ros2";
+
+/// The report about a robot with this driver of its base, whose real buffer is { v, omega } of float64.
+std::string report_of(const std::string& driver, const fs::path& own = "/nowhere") {
+  diagnostics::Diagnostics out("spec.yaml", R"(tessera: 1
+system: demo
+types: { Motion: { v: float64, omega: float64 } }
+agents:
+  robot:
+    control: { rate: 1 Hz, outputs: { motion: Motion }, behaviours: { wait: {} } }
+    effectors:
+      base: { rate: 1 Hz, inputs: { motion: Motion }, real: { command: Motion }, stale: 1 s, behaviours: { drive: {} } }
+channels: [robot.control.motion -> robot.base.motion]
+drivers:
+  robot.base.command: { ros2: /cmd_vel, )" + driver +
+                                                " }\n");
+  auto model = spec::parse(out);
+  EXPECT_TRUE(model.has_value()) << render(out);
+  if (!model) return "";
+  const bool good = project::find_messages_in(*model, {own, shipped}, out);
+  EXPECT_EQ(good, !out.has_errors());
+  EXPECT_TRUE(!good || model->drivers.at(0).options.contains("definition"));
+  return render(out);
+}
+
+TEST(Specification, WithATopicHasTheDefinitionOfItsMessage) {
+  EXPECT_EQ(report_of("type: geometry_msgs/Twist, fields: { linear.x: v, angular.z: omega }"), "");
+}
+
+TEST(Specification, WithAnUnknownMessageIsRefused) {
+  EXPECT_EQ(report_of("type: geometry_msgs/Twits, fields: { linear.x: v, angular.z: omega }"),
+            R"(spec.yaml:11:47: error E320: there is no message 'geometry_msgs/Twits'
+   11 |   robot.base.command: { ros2: /cmd_vel, type: geometry_msgs/Twits, fields: { linear.x: v, angular.z: omega } }
+      |                                               ^~~~~~~~~~~~~~~~~~~
+hint: did you mean 'geometry_msgs/Twist'?
+1 error
+)");
+}
+
+TEST(Specification, WithFieldsThatDoNotFitIsRefused) {
+  EXPECT_EQ(report_of("type: geometry_msgs/Twist, fields: { linear.xx: v, angular: omega }"),
+            R"(spec.yaml:11:78: error E321: 'geometry_msgs/msg/Vector3' has no field 'xx'
+   11 |   robot.base.command: { ros2: /cmd_vel, type: geometry_msgs/Twist, fields: { linear.xx: v, angular: omega } }
+      |                                                                              ^~~~~~~~~
+hint: did you mean 'x'?
+spec.yaml:11:92: error E321: the buffer's 'omega' of type float64 does not fit 'angular' of type geometry_msgs/Vector3
+   11 |   robot.base.command: { ros2: /cmd_vel, type: geometry_msgs/Twist, fields: { linear.xx: v, angular: omega } }
+      |                                                                                            ^~~~~~~
+hint: map its fields one by one, or give the buffer a structure
+2 errors
+)");
+}
+
+TEST(Specification, SeesTheMistakesOfItsOwnMessages) {
+  const fs::path own = fs::path(testing::TempDir()) / ("msg_" + std::to_string(getpid()));
+  fs::create_directories(own / "my_robot/msg");
+  std::ofstream(own / "my_robot/msg/Drive.msg") << "# of our base\nfloat64 v\nflaot64 omega\n";
+  const std::string report = report_of("type: my_robot/msg/Drive", own);
+  EXPECT_NE(
+      report.find("error E320: " + (own / "my_robot/msg/Drive.msg").string() + ":3: unknown type 'flaot64'"),
+      std::string::npos)
+      << report;
+  EXPECT_NE(report.find("hint: did you mean 'float64'?"), std::string::npos) << report;
+  std::ofstream(own / "my_robot/msg/Drive.msg") << "float64 v\nfloat64 omega\n";
+  EXPECT_EQ(report_of("type: my_robot/msg/Drive", own), "");
+  fs::remove_all(own);
+}
+
+}  // namespace
+}  // namespace tessera::ros2

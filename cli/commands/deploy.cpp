@@ -1,4 +1,4 @@
-#include "cli/deploy.hpp"
+#include "cli/commands/deploy.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -80,7 +80,7 @@ class DeployedRun final : public ProcessSetListener {
     file_.ended(number, end, kept.how);
     if (!kept.failed) return;
     any_failed_ = any_failed_ || !again_in;
-    tell(fmt::format("'{}' {}", name_of(number), kept.how) +
+    tell(fmt::format("{}: {}", name_of(number), kept.how) +
          (again_in                                   ? fmt::format("; start {} in {:.1f} s", end.start + 1,
                                                                    std::chrono::duration<double>(*again_in).count())
           : deploy_.restart != "never" && !end.asked ? "; it has failed too often and is not started again"

@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/joint_check.hpp"
 #include "cli/coverage.hpp"
 #include "cli/film.hpp"
-#include "cli/joint_check.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/deploy.hpp"
 #include "cli/coverage.hpp"
-#include "cli/deploy.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
@@ -175,25 +175,8 @@ int simulate_command(SimulateOptions options) {
   return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
 }
 
-/// nullopt: these options of a deployed system fit.
-std::optional<int> wrong_for_deployment(const RunCommandOptions& options, const Controller& controller) {
-  const auto& deployment = controller.specification.model.deployment;
-  const bool asked = options.deploy.asked || !options.process.empty();
-  if (asked && !deployment)
-    return complain(
-        "the specification has no `deploy`: --deploy and --process are for systems of several "
-        "processes");
-  if (!deployment || asked || deployment->processes.size() < 2) return std::nullopt;
-  return complain(
-      fmt::format("the system is deployed in {} processes: `--deploy` starts those of this machine, "
-                  "`--process NAME` one of them, and `tessera simulate` runs all in one",
-                  deployment->processes.size()));
-}
-
 /// One process of a deployed system, as any other run.
 int launch_process(const Controller& controller, const RunFolder& folder, const RunCommandOptions& options) {
-  const spec::Deployment& deployment = *controller.specification.model.deployment;
-  static_cast<void>(placement_of(deployment, {options.process}, machine_name()));  // is there such a process?
   Command command = controller_command(controller, options, "run", /*simulated=*/false);
   add_process(command, options.process, options.deploy.network);
   return launch(controller, folder, options, command, options.json, options.report);
@@ -206,6 +189,7 @@ int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
+  if (!check_deployment(options.spec, options.deploy, options.process)) return failed;
   if (!every_real_buffer_has_driver(options, options.world, terminal())) return failed;
   check_outputs(options, options.json, options.report);
   std::optional<Controller> controller =
@@ -213,8 +197,6 @@ int run_command(RunCommandOptions options) {
   if (!controller) return exit_code_without_net();
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
-  if (!options.world)
-    if (const std::optional<int> wrong = wrong_for_deployment(options, *controller)) return *wrong;
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
   if (options.deploy.asked) return run_deployed(*controller, folder, options, options.deploy);
   if (!options.process.empty()) return launch_process(*controller, folder, options);

@@ -347,8 +347,6 @@ class JointOrder {
            parts_[waits.awaited].begun;
   }
 
-  // -------------------------------------------------------------------------------------------- the end
-
   [[nodiscard]] JointJudgement of_the_end() const {
     const Recording& first = sources_.front().recording();
     if (one_run_ && first.truncated) return incomplete("the recording is cut off at its end");
@@ -367,13 +365,7 @@ class JointOrder {
     std::vector<bool> given(processes_.names.size(), one_run_);
     for (const JointSource& source : sources_)
       if (source.recording().process) given[source.recording().process->number] = true;
-    constexpr std::size_t named = 4;
-    std::string names;
-    std::size_t count = 0;
-    for (std::size_t process = 0; process < given.size(); ++process)
-      if (!given[process] && ++count <= named)
-        names += (names.empty() ? "" : ", ") + processes_.names[process];
-    return count > named ? fmt::format("{} and {} more processes", names, count - named) : names;
+    return names_without(processes_, given);
   }
 
   /// The lanes of one recording.

@@ -39,6 +39,15 @@ std::string JointSource::missing(const Event& event) const {
   return fmt::format("{}events of {} are missing", place_of(event), path_of(event));
 }
 
+std::string names_without(const ProcessMap& processes, const std::vector<bool>& given) {
+  constexpr std::size_t named = 4;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t process = 0; process < given.size(); ++process)
+    if (!given[process] && ++count <= named) names += (names.empty() ? "" : ", ") + processes.names[process];
+  return count > named ? fmt::format("{} and {} more processes", names, count - named) : names;
+}
+
 std::vector<const Recording*> in_order(std::span<const Recording> recordings) {
   std::vector<const Recording*> sorted;
   for (const Recording& recording : recordings) sorted.push_back(&recording);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "net/net.hpp"
+#include "replay/deployed_net.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::replay {
@@ -44,6 +45,8 @@ class JointSource {
   return event.kind() == Event::Kind::firing || event.kind() == Event::Kind::peer;
 }
 
+/// The processes that are not given: "office, cart[0] and 3 more processes"; empty: all are.
+[[nodiscard]] std::string names_without(const ProcessMap& processes, const std::vector<bool>& given);
 /// By their processes, and those of one process by their incarnations.
 [[nodiscard]] std::vector<const Recording*> in_order(std::span<const Recording> recordings);
 

@@ -1,4 +1,4 @@
-#include "cli/joint_check.hpp"
+#include "cli/commands/joint_check.hpp"
 
 #include <fmt/core.h>
 

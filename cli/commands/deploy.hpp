@@ -16,6 +16,11 @@ struct DeployOptions {
   project::NetworkOptions network;
 };
 
+/// Do the options fit the deployment of the specification? Prints why not. process: of `--process`. True, too,
+/// if the specification cannot be read, which is told elsewhere. Called before anything is built.
+[[nodiscard]] bool check_deployment(const std::string& spec, const DeployOptions& deploy,
+                                    const std::string& process);
+
 /// Starts the processes of this machine and waits until all have ended. Prints their lines, each after its
 /// name, and at the end a table. Returns the exit code: `ok`; `failed` if one has failed; 128 + the signal
 /// that stopped them.

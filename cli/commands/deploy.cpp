@@ -1,4 +1,4 @@
-#include "cli/deploy.hpp"
+#include "cli/commands/deploy.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -13,8 +13,10 @@
 #include <stdexcept>
 
 #include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
 #include "project/files/file_names.hpp"
 #include "project/process/death.hpp"
+#include "spec/parser.hpp"
 #include "tessera/signals.hpp"
 
 namespace tessera::cli {
@@ -80,7 +82,7 @@ class DeployedRun final : public ProcessSetListener {
     file_.ended(number, end, kept.how);
     if (!kept.failed) return;
     any_failed_ = any_failed_ || !again_in;
-    tell(fmt::format("'{}' {}", name_of(number), kept.how) +
+    tell(fmt::format("{}: {}", name_of(number), kept.how) +
          (again_in                                   ? fmt::format("; start {} in {:.1f} s", end.start + 1,
                                                                    std::chrono::duration<double>(*again_in).count())
           : deploy_.restart != "never" && !end.asked ? "; it has failed too often and is not started again"
@@ -195,6 +197,30 @@ void tell_of_others(const spec::Deployment& deployment, const Placement& placeme
 }
 
 }  // namespace
+
+bool check_deployment(const std::string& spec, const DeployOptions& deploy, const std::string& process) {
+  diagnostics::Diagnostics found = diagnostics::load(spec_file(spec));
+  const std::optional<spec::Model> model = found.has_errors() ? std::nullopt : spec::parse(found);
+  if (!model) return true;
+  const bool asked = deploy.asked || !process.empty();
+  if (!model->deployment && !asked) return true;
+  if (!model->deployment)
+    return complain(
+               "the specification has no `deploy`: --deploy and --process are for systems of several "
+               "processes"),
+           false;
+  const spec::Deployment& deployment = *model->deployment;
+  if (!asked && deployment.processes.size() > 1)
+    return complain(
+               fmt::format("the system is deployed in {} processes: `--deploy` starts those of this machine, "
+                           "`--process NAME` one of them, and `tessera simulate` runs all in one",
+                           deployment.processes.size())),
+           false;
+  const std::vector<std::string> named =
+      process.empty() ? names_in(deploy.only) : std::vector<std::string>{process};
+  static_cast<void>(placement_of(deployment, named, machine_name()));  // throws for a name that is unknown
+  return true;
+}
 
 int run_deployed(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
                  const DeployOptions& deploy) {

@@ -1,6 +1,11 @@
 // What the library exports. Controllers load it at run time, so that they need no DDS to build.
 #include "ros2/dds/drivers.hpp"
 
+// Both sides of the call are C++; only the names are those of C.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
+#endif
+
 extern "C" {
 
 __attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_1(

@@ -3,7 +3,7 @@
 //
 //     ros2_base [DOMAIN [SECONDS]]
 //
-// At the end it prints what it has seen: "commands 180, driven 2.31 m, nearest wall 0.62 m, last v 0.0".
+// It ends after that time, or when a controller has come and gone. At the end it prints what it has seen: "commands 180, driven 2.31 m, nearest wall 0.62 m, last v 0.0".
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -90,8 +90,12 @@ int main(int argc, char** argv) {
   auto* const scans = peer.writer<fast::LaserScan>("rt/scan", /*reliable=*/false);
   auto* const odometry = peer.writer<fast::Odometry>("rt/odom");
   Base base;
+  bool met = false;
   const auto start = std::chrono::steady_clock::now();
   for (auto next = start; next - start < std::chrono::duration<double>(seconds);) {
+    const bool here = fast::Peer::is_matched(*commands);
+    if (met && !here) break;
+    met = met || here;
     while (const auto twist = fast::Peer::take<fast::Twist>(*commands)) base.obey(*twist);
     base.move();
     auto scan = base.scan();

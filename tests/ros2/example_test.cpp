@@ -1,0 +1,53 @@
+// The example as its users run it: a generated controller, and a base of another implementation of DDS.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+namespace tessera::ros2 {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The example in a folder of its own. Its run waits for the base, so that nothing depends on time.
+fs::path copy_of_example() {
+  fs::path folder = fs::path(testing::TempDir()) / ("ros2_base_" + std::to_string(getpid()));
+  fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/10_ros2_base", folder, fs::copy_options::recursive);
+  std::ifstream stream(folder / "spec.yaml");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const std::string end : {"qos: sensor", "angular.z: omega }"})
+    text.insert(text.find(end) + end.size(), ", wait: 100 s");
+  std::ofstream(folder / "spec.yaml") << text;
+  return folder;
+}
+
+TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
+  const fs::path project = copy_of_example();
+  const std::string domain = std::to_string(10 + getpid() % 50);
+  const std::string base = std::string(TESSERA_ROS2_BASE) + " " + domain + " 200";
+  const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(base.c_str(), "r"), pclose);
+  ASSERT_NE(output, nullptr);
+  const std::string run = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera run " +
+                          project.string() + " --for 3s > " + (project / "run.log").string() + " 2>&1";
+  EXPECT_EQ(std::system(run.c_str()), 0);
+  std::ifstream log(project / "run.log");
+  int commands = 0;
+  double driven_m = 0, nearest_m = 0, last_v = -1;
+  EXPECT_EQ(std::fscanf(output.get(), "commands %d, driven %lf m, nearest wall %lf m, last v %lf", &commands,
+                        &driven_m, &nearest_m, &last_v),
+            4)
+      << std::string(std::istreambuf_iterator<char>(log), {});
+  EXPECT_GT(commands, 10);
+  EXPECT_GT(driven_m, 0.05);
+  EXPECT_EQ(last_v, 0) << "the safe command";
+  fs::remove_all(project);
+}
+
+}  // namespace
+}  // namespace tessera::ros2

@@ -1,4 +1,5 @@
 // Deployed systems under the simulated clock: every channel crosses a bad network.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,6 +77,17 @@ TEST(Crossing, ABlockingSendEndsWhenItsValueWasTakenWhateverTheNetworkLoses) {
   for (std::size_t at = 0; at < crossing.sent_after.size(); ++at)
     ASSERT_GE(crossing.sent_after[at], static_cast<double>(at + 1))
         << "a send has ended that nobody has read";
+}
+
+/// A receiver that has heard nothing yet says again and again that it is there, as often as the sender repeats.
+TEST(Crossing, AValueThatIsFirstSentDuringACutArrivesWheneverTheCutEnds) {
+  for (Duration end = 200ms; end < 2s; end += 50ms) {
+    Crossing crossing(nets::far_b_sender, nets::far_b_receiver, networked_single, 1, 0s, 0s);
+    RunOptions options =
+        over("", {fmt::format("link:p0-p1:cut={}ms@0.1s", end / 1ms), "robot.talk.run:stall=137ms@0s"});
+    options.duration = 5s;
+    EXPECT_EQ(run(crossing.system, options).ended, "stopped: enough") << end / 1ms;
+  }
 }
 
 TEST(Crossing, AValueThatWasGivenUpIsReadOnceOrNever) {

@@ -96,6 +96,9 @@ void SendingEnd::hear(const network::State& state, Time now, LinkServices& servi
                       true);
   }
   if (effects.taken) acknowledge(state.from);
+  // A receiver that says again and again that it is there must not put off what is sent again: it may be what the
+  // receiver lacks.
+  if (!effects.send && sender_.repeats()) return;
   if (effects.send) repetition_.start(effects.send->recall);
   send(effects, now, services);
 }

@@ -53,10 +53,11 @@ dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& nam
   return publisher_->create_datawriter(topic(type, name), qos);
 }
 
-dds::DataReader* Peer::make_reader(dds::TypeSupport type, const std::string& name, bool reliable) {
+dds::DataReader* Peer::make_reader(dds::TypeSupport type, const std::string& name, bool transient_local) {
   dds::DataReaderQos qos;
-  qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind =
+      transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 100;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;

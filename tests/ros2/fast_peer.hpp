@@ -99,6 +99,20 @@ struct Float64MultiArray {
   }
 };
 
+/// Of a participant with one node, which has one writer and no reader.
+struct OneWriter {
+  static constexpr const char* name = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+  std::array<std::uint8_t, 16> participant{};
+  std::uint32_t nodes = 0;
+  std::string node_namespace, node_name;
+  std::uint32_t readers = 0, writers = 0;
+  std::array<std::uint8_t, 16> writer{};
+  template <class Archive>
+  void fields(Archive& all) {
+    all(participant, nodes, node_namespace, node_name, readers, writers, writer);
+  }
+};
+
 /// A type without keys, serialised by Fast CDR.
 template <class Message>
 class Type final : public eprosima::fastdds::dds::TopicDataType {
@@ -156,8 +170,8 @@ class Peer {
     return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable);
   }
   template <class Message>
-  eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool reliable = true) {
-    return make_reader(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable);
+  eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool transient_local = false) {
+    return make_reader(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, transient_local);
   }
   /// The next message; nullopt: there is none now.
   template <class Message>
@@ -176,7 +190,7 @@ class Peer {
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::TypeSupport type,
                                                   const std::string& topic, bool reliable);
   eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::TypeSupport type,
-                                                  const std::string& topic, bool reliable);
+                                                  const std::string& topic, bool transient_local);
   eprosima::fastdds::dds::Topic* topic(eprosima::fastdds::dds::TypeSupport& type, const std::string& name);
 
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;

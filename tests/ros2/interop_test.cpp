@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -238,6 +239,23 @@ TEST_F(WithFastDds, MovesAnArmWhoseJointsHaveAnotherOrder) {
     return (command = fast::Peer::take<fast::Float64MultiArray>(*commands)).has_value();
   }));
   EXPECT_EQ(command->data, (std::vector<double>{1, 2, 3}));
+}
+
+TEST_F(WithFastDds, IsANodeForToolsOfRos2) {
+  auto* const nodes = peer.reader<fast::OneWriter>("ros_discovery_info", /*transient_local=*/true);
+  auto effector =
+      opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  std::optional<fast::OneWriter> node;
+  ASSERT_TRUE(eventually([&] { return (node = fast::Peer::take<fast::OneWriter>(*nodes)).has_value(); }));
+  EXPECT_EQ(node->nodes, 1U);
+  EXPECT_EQ(node->node_namespace, "/");
+  EXPECT_EQ(node->node_name, "robot");
+  EXPECT_EQ(node->readers, 0U);
+  EXPECT_EQ(node->writers, 1U);
+  // Endpoints begin like their participant and end in what they are.
+  EXPECT_TRUE(std::equal(node->participant.begin(), node->participant.begin() + 12, node->writer.begin()));
+  EXPECT_NE(node->participant, node->writer);
+  EXPECT_EQ(node->participant.back(), 0xc1);
 }
 
 TEST_F(WithFastDds, TellsOfAPublisherWithAnotherReliability) {

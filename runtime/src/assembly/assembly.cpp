@@ -11,7 +11,6 @@
 #include "assembly/planted_faults.hpp"
 #include "assembly/recording_setup.hpp"
 #include "subsystem/parameters.hpp"
-#include "system/console.hpp"
 
 namespace tessera {
 namespace {
@@ -31,7 +30,9 @@ class Assembler {
   bool run() {
     return check_version() && plan_faults() && bind() && link_ports() && compile_plans() && check_hash() &&
            read_script() && set_values() && make_devices() && make_channels() &&
-           open_network(assembly_, clock_, error_) && open_recording() && make_executors();
+           open_network(assembly_, clock_, error_) &&
+           open_recording(assembly_, clock_, net_, parts_, channels_of_transitions(), error_) &&
+           make_executors();
   }
 
   bool run(LooseParts& loose) {
@@ -268,15 +269,12 @@ class Assembler {
         if (!make_networked(index)) return false;
         continue;
       }
-      std::uint32_t marking = 0;
-      for (std::size_t place = 0; place < channel.places.size() && place < most_shared_places; ++place)
-        if (channel.places[place].tokens > 0) marking |= 1U << place;
       const std::size_t sent = value_size(channel.from, Side::send),
                         received = value_size(channel.to, Side::receive);
       if (sent != 0 && received != 0 && sent != received)
         return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
       std::unique_ptr<SharedChannel>& word = assembly_.channels[index].of_sender;
-      word = std::make_unique<SharedChannel>(marking, std::max(sent, received),
+      word = std::make_unique<SharedChannel>(initial_marking(channel.places), std::max(sent, received),
                                              std::max<std::size_t>(channel.slots, 1), value_type(channel));
       if (!connect(channel.from, Side::send, *word) || !connect(channel.to, Side::receive, *word))
         return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
@@ -343,40 +341,6 @@ class Assembler {
         });
   }
 
-  bool open_recording() {
-    const RunOptions& options = assembly_.options;
-    if (options.recording.empty()) {
-      if (assembly_.tally != nullptr)
-        assembly_.recorder = Recorder::counting(static_cast<std::uint32_t>(parts_.size()), *assembly_.tally);
-      return true;
-    }
-    const bool simulated = options.clock == RunOptions::Clock::simulated;
-    std::optional<WorldScene> scene;
-    if (assembly_.world != nullptr) scene = assembly_.world->scene(options.drivers);
-    const WorldScene* const shown = scene ? &*scene : nullptr;
-    assembly_.recorder = Recorder::open(
-        options.recording, recording_header(part_, assembly_.incarnation, options, net_, parts_, shown),
-        static_cast<std::uint32_t>(parts_.size()),
-        simulated ? Recorder::Mode::direct : Recorder::Mode::threaded, error_,
-        longest_recorded_value(options, parts_, shown), options.record_limit,
-        options.record_limit.segment_bytes == 0
-            ? nullptr
-            : std::make_unique<MarkingTrack>(net_, channels_of_transitions()),
-        part_.instances);
-    if (assembly_.recorder == nullptr) return false;
-    record_values(options, *assembly_.recorder, parts_);
-    if (shown != nullptr) record_poses(*shown);
-    return true;
-  }
-
-  void record_poses(const WorldScene& scene) {
-    std::string problem;
-    assembly_.scene_file = keep_scene(scene, assembly_.options.recording, problem);
-    if (!problem.empty()) console::print(LogLevel::warning, clock_.now(), "tessera", problem);
-    assembly_.poses = std::make_unique<PoseRecorder>(*assembly_.recorder->world_lane(), clock_, scene);
-    assembly_.world->show_poses(*assembly_.poses);
-  }
-
   /// As MarkingTrack wants them.
   [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
     std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
@@ -415,13 +379,6 @@ class Assembler {
 };
 
 }  // namespace
-
-std::uint16_t Assembly::Words::marking() const {
-  if (of_receiver == nullptr) return of_sender == nullptr ? std::uint16_t{0} : of_sender->marking();
-  const std::uint16_t there = of_receiver->marking();
-  return of_sender == nullptr ? there
-                              : static_cast<std::uint16_t>((of_sender->marking() & ~receivers) | there);
-}
 
 bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string& error) try {
   return Assembler(assembly, clock, &waker, error).run();

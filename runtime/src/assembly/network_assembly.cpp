@@ -70,6 +70,13 @@ namespace {
 
 }  // namespace
 
+std::uint16_t Assembly::Words::marking() const {
+  if (of_receiver == nullptr) return of_sender == nullptr ? std::uint16_t{0} : of_sender->marking();
+  const std::uint16_t there = of_receiver->marking();
+  return of_sender == nullptr ? there
+                              : static_cast<std::uint16_t>((of_sender->marking() & ~receivers) | there);
+}
+
 void make_links(Assembly& assembly, const Clock& clock) {
   const ProcessPart& part = assembly.part;
   bool any = false;

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "recorder/pose_recorder.hpp"
 #include "recorder/value_recorder.hpp"
+#include "system/console.hpp"
 #include "tessera/poses.hpp"
 
 namespace tessera {
@@ -71,11 +73,11 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
     eyes.push_back(ordered_json::array({eye.body, eye.at_m[0], eye.at_m[1], eye.at_m[2], eye.footprint_m}));
 }
 
-}  // namespace
-
-RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
-                                 const RunOptions& options, const FlatNet& net,
-                                 std::span<const SubsystemParts> all, const WorldScene* scene) {
+/// The JSON at the beginning: the net, and with values also what `simulate --from` needs to know.
+/// scene: nullptr: no poses are recorded.
+[[nodiscard]] RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
+                                               const RunOptions& options, const FlatNet& net,
+                                               std::span<const SubsystemParts> all, const WorldScene* scene) {
   const System& system = *part.whole;
   ordered_json header{{"system", system.name},
                       {"net_hash", system.net_hash},
@@ -99,8 +101,10 @@ RecordingHeader recording_header(const ProcessPart& part, network::Incarnation i
   return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr};
 }
 
-std::size_t longest_recorded_value(const RunOptions& options, std::span<const SubsystemParts> all,
-                                   const WorldScene* scene) {
+/// The most bytes that a value, or a frame of poses, takes in the recording; 0: none is recorded.
+[[nodiscard]] std::size_t longest_recorded_value(const RunOptions& options,
+                                                 std::span<const SubsystemParts> all,
+                                                 const WorldScene* scene) {
   std::size_t longest = scene == nullptr ? 0 : PoseEncoder::longest_frame(scene->bodies.size());
   if (options.values == RunOptions::Values::none) return longest;
   for (const SubsystemParts& parts : all)
@@ -111,6 +115,7 @@ std::size_t longest_recorded_value(const RunOptions& options, std::span<const Su
   return longest;
 }
 
+/// Gives each subsystem its recorder of values, if they are recorded.
 void record_values(const RunOptions& options, Recorder& recorder, std::span<SubsystemParts> all) {
   if (options.values == RunOptions::Values::none) return;
   std::uint32_t first = 0;
@@ -119,6 +124,49 @@ void record_values(const RunOptions& options, Recorder& recorder, std::span<Subs
                                                    *recorder.lane(parts.index));
     first += count_buffers(parts.bindings);
   }
+}
+
+void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scene) {
+  std::string problem;
+  assembly.scene_file = keep_scene(scene, assembly.options.recording, problem);
+  if (!problem.empty()) console::print(LogLevel::warning, clock.now(), "tessera", problem);
+  assembly.poses = std::make_unique<PoseRecorder>(*assembly.recorder->world_lane(), clock, scene);
+  assembly.world->show_poses(*assembly.poses);
+}
+
+/// nullptr: the recording has no limit, so nobody needs to know the marking.
+[[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, const FlatNet& net,
+                                                     std::vector<std::uint32_t> channels) {
+  if (assembly.options.record_limit.segment_bytes == 0) return nullptr;
+  auto track = std::make_unique<MarkingTrack>(net, std::move(channels));
+  // What the network between processes does is a part of the marking, and is not recorded.
+  if (assembly.links != nullptr) track->forget();
+  return track;
+}
+
+}  // namespace
+
+bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,
+                    std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
+                    std::string& error) {
+  const RunOptions& options = assembly.options;
+  const auto instances = static_cast<std::uint32_t>(parts.size());
+  if (options.recording.empty()) {
+    if (assembly.tally != nullptr) assembly.recorder = Recorder::counting(instances, *assembly.tally);
+    return true;
+  }
+  std::optional<WorldScene> scene;
+  if (assembly.world != nullptr) scene = assembly.world->scene(options.drivers);
+  const WorldScene* const shown = scene ? &*scene : nullptr;
+  assembly.recorder = Recorder::open(
+      options.recording, recording_header(assembly.part, assembly.incarnation, options, net, parts, shown),
+      instances, clock.simulated() ? Recorder::Mode::direct : Recorder::Mode::threaded, error,
+      longest_recorded_value(options, parts, shown), options.record_limit,
+      track_of(assembly, net, std::move(channels)), assembly.part.instances);
+  if (assembly.recorder == nullptr) return false;
+  record_values(options, *assembly.recorder, parts);
+  if (shown != nullptr) record_poses(assembly, clock, *shown);
+  return true;
 }
 
 }  // namespace tessera

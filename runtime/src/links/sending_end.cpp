@@ -37,7 +37,7 @@ std::uint32_t SendingEnd::fired(Firing firing, Time now, RecordingLane* lane) {
   if (firing.elapsed) {
     given_up_.store(number, std::memory_order_release);
     tell();
-    return low(number);
+    return firing.taken == 0 ? 0 : low(number);  // `timeout` touches no place of the channel
   }
   if (channel().exchanged && firing.produced == 0) return low(number + 1);  // about to be written
   if ((firing.taken & channel().empty) != 0) {                              // it was taken

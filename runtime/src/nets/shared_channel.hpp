@@ -158,6 +158,14 @@ class alignas(64) SharedChannel {
   alignas(64) std::uint64_t writes_ = 0;  // used by the sender only
 };
 
+/// A bit per place that holds a token at first.
+[[nodiscard]] inline std::uint32_t initial_marking(std::span<const FusedPlace> places) {
+  std::uint32_t marking = 0;
+  for (std::size_t place = 0; place < places.size() && place < most_shared_places; ++place)
+    if (places[place].tokens > 0) marking |= 1U << place;
+  return marking;
+}
+
 inline SharedChannel::Word SharedChannel::Word::with_wants(Side side, std::uint16_t wants) const {
   return {(bits & ~(field << wants_shift(side))) | static_cast<std::uint64_t>(wants) << wants_shift(side)};
 }

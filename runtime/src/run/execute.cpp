@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <ctime>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "links/incarnation.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
 #include "run/world_checks.hpp"
@@ -183,11 +183,20 @@ namespace {
 
 /// Greater than that of every earlier start, if the clock of the machine goes on.
 [[nodiscard]] network::Incarnation incarnation_of(const RunOptions& options) {
-  if (options.clock == RunOptions::Clock::simulated) return {1};
+  if (options.network.process.empty()) return {1};
   if (options.network.incarnation) return {*options.network.incarnation};
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return {static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec)};
+  return new_incarnation(options.recording, options.network.process);
+}
+
+/// Without the devices of other processes.
+[[nodiscard]] RunOptions options_of(const ProcessPart& part, RunOptions options) {
+  if (!part.process) return options;
+  const auto agents = agents_of(part.system);
+  std::erase_if(options.drivers, [&](const DriverRequest& driver) {
+    return std::ranges::find(agents, driver.path.substr(0, driver.path.find('.')), &AgentSpan::name) ==
+           agents.end();
+  });
+  return options;
 }
 
 [[nodiscard]] std::string names_of(std::span<const Process> processes) {
@@ -227,10 +236,11 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
   return execute(system, options, nullptr, error);
 }
 
-std::optional<RunSummary> execute(const System& system, const RunOptions& options, RunTally* tally,
+std::optional<RunSummary> execute(const System& system, const RunOptions& given, RunTally* tally,
                                   std::string& error) {
-  std::optional<ProcessPart> part = part_to_run(system, options, error);
+  std::optional<ProcessPart> part = part_to_run(system, given, error);
   if (!part) return std::nullopt;
+  const RunOptions options = options_of(*part, given);
   const auto instances = static_cast<std::uint32_t>(part->system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
@@ -254,6 +264,9 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& option
     SimulatedRun run(instances, options.seed);
     return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
   }
+  if (assembly.part.process && options.world)
+    console::print(LogLevel::warning, Time{}, "tessera",
+                   "this process simulates a world of its own, which no other process sees");
   SteadyRun run(instances);
   return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
 }

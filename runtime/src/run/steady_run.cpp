@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "run/steady_links.hpp"
 #include "run/world_checks.hpp"
 #include "safety/death.hpp"
 #include "system/console.hpp"
@@ -30,9 +31,6 @@ constexpr Duration world_step = std::chrono::milliseconds(1);
 constexpr Duration longest_world_step = std::chrono::milliseconds(10);
 // A slow world makes up for at most this delay.
 constexpr Duration most_behind = std::chrono::milliseconds(200);
-constexpr Duration longest_wait_for_network = std::chrono::milliseconds(100);
-// After the end, repeated values are still answered for so long; so long are values sent that nobody has taken.
-constexpr Duration farewell = std::chrono::milliseconds(250), longest_farewell = std::chrono::seconds(2);
 constexpr Duration progress_step = std::chrono::milliseconds(200);
 // After this delay, the devices of threads that have not ended get their safe command.
 constexpr Duration security_delay = std::chrono::milliseconds(20);
@@ -41,15 +39,6 @@ constexpr Duration first_patience = std::chrono::seconds(1);
 
 [[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
   return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
-}
-
-/// Whether some subsystem waits for another process, which nobody here can judge.
-[[nodiscard]] bool waits_for_network(const Assembly& assembly) {
-  return std::ranges::any_of(assembly.executors, [](const auto& executor) {
-    return std::ranges::any_of(executor->operations().parts().ports, [](const PortLink& port) {
-      return port.end != nullptr && port.channel->waiting(port.side) != SharedChannel::Waiting::no;
-    });
-  });
 }
 
 }  // namespace
@@ -68,18 +57,6 @@ SteadyRun::~SteadyRun() {
 void SteadyRun::tell_supervisor() const {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
-}
-
-/// The thread has ended by pthread_exit.
-void SteadyRun::complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control) {
-  std::array<char, 256> place_room, reason_room;
-  const std::string_view place = where_a_subsystem_is(executor, place_room);
-  const auto end =
-      fmt::format_to_n(reason_room.data(), reason_room.size(),
-                       "{}: user code has ended the thread of the subsystem (pthread_exit)", place);
-  const std::string_view reason(reason_room.data(), std::min(end.size, reason_room.size()));
-  control.request_stop(reason, /*fault=*/true);
-  executor.record_death(reason);
 }
 
 void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control) {
@@ -165,20 +142,11 @@ void SteadyRun::run_world(Assembly& assembly) {
   if (!survived) tell_supervisor();
 }
 
-/// When the agents here have ended, others may still need what they have sent, and to know what was taken.
 void SteadyRun::run_links(Assembly& assembly) {
-  Links& links = *assembly.links;
-  RunControl& control = assembly.control;
   const AlternateStack stack;
-  const bool survived = survives_in_thread(control, "the network", [&] {
-    while (!control.stopping()) links.serve(clock_.now() + longest_wait_for_network);
-    if (!net_ended_.load(std::memory_order_acquire)) return;
-    const Time stopped = clock_.now();
-    for (Time now = stopped; now < stopped + (links.pending() ? longest_farewell : farewell);
-         now = clock_.now())
-      links.serve(now + farewell);
-  });
-  if (!survived) tell_supervisor();
+  if (!survives_in_thread(assembly.control, "the network",
+                          [&] { serve_links_until_end(assembly, clock_, net_ended_); }))
+    tell_supervisor();
 }
 
 void SteadyRun::say_world_is_slow() {

@@ -33,7 +33,6 @@ class SteadyRun final : public Waker {
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
 
  private:
-  static void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control);
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
   void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
              const SubsystemExecutor::Progress& progress) const;

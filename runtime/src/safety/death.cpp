@@ -65,4 +65,15 @@ std::string_view where_this_thread_is(std::span<char> room) {
   return executor == nullptr ? "the controller" : where_a_subsystem_is(*executor, room);
 }
 
+void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control) {
+  std::array<char, 256> place_room, reason_room;
+  const std::string_view place = where_a_subsystem_is(executor, place_room);
+  const auto end =
+      fmt::format_to_n(reason_room.data(), reason_room.size(),
+                       "{}: user code has ended the thread of the subsystem (pthread_exit)", place);
+  const std::string_view reason(reason_room.data(), std::min(end.size, reason_room.size()));
+  control.request_stop(reason, /*fault=*/true);
+  executor.record_death(reason);
+}
+
 }  // namespace tessera

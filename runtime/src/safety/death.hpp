@@ -18,6 +18,7 @@ struct Death {
 /// "killed by SIGSEGV at address 0x10", "called exit(0)". room: memory for the text. Async-signal-safe.
 [[nodiscard]] std::string_view describe(const Death& death, std::span<char> room);
 
+class RunControl;
 class SubsystemExecutor;
 
 /// The behaviour that the subsystem is in, or was in last: "robot.control.follow". Async-signal-safe.
@@ -26,5 +27,8 @@ class SubsystemExecutor;
 /// The position of the calling thread: "robot.control.follow", "robot.control", or "the
 /// controller". Async-signal-safe.
 [[nodiscard]] std::string_view where_this_thread_is(std::span<char> room);
+
+/// The thread of the subsystem has ended by pthread_exit: the run is to stop, as a fault. Threads: that thread.
+void complain_of_ended_thread(SubsystemExecutor& executor, RunControl& control);
 
 }  // namespace tessera

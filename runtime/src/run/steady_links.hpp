@@ -1,0 +1,19 @@
+#pragma once
+
+#include <atomic>
+
+#include "assembly/assembly.hpp"
+#include "system/clock.hpp"
+
+namespace tessera {
+
+/// Serves the links until the run is to stop. If it stops because the net has ended, it goes on for a while:
+/// others may still need what has been sent, and to know what was taken.
+///
+/// Threads: that of the network.
+void serve_links_until_end(Assembly& assembly, const SteadyClock& clock, const std::atomic<bool>& net_ended);
+
+/// Whether some subsystem waits for another process, which nobody here can judge. Threads: any.
+[[nodiscard]] bool waits_for_network(const Assembly& assembly);
+
+}  // namespace tessera

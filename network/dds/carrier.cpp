@@ -84,15 +84,9 @@ DdsCarrier::DdsCarrier(const network::CarrierSetup& setup)
     : deployment_(deployment_of(setup)),
       presence_(deployment_),
       announcements_(deployment_),
-      endpoints_(deployment_, setup.domain, locate(setup.interface, setup.peers)) {
-  // One byte more than the longest, so that a longer one is noticed. The middleware cuts it off there: the room is
-  // not its own to grow.
-  room_.bytes._maximum = deployment_.longest_received_bytes() + 1;
-  room_.bytes._buffer = static_cast<std::uint8_t*>(dds_alloc(room_.bytes._maximum));
-  room_.bytes._release = false;
-}
-
-DdsCarrier::~DdsCarrier() { dds_free(room_.bytes._buffer); }
+      endpoints_(deployment_, setup.domain, locate(setup.interface, setup.peers)),
+      // One byte more than the longest, so that a longer one is noticed.
+      room_(deployment_.longest_received_bytes() + 1) {}
 
 void DdsCarrier::send(ChannelNumber number, const network::Data& data, const network::Value& value) {
   const Channel* channel = deployment_.channel(number);
@@ -171,11 +165,22 @@ void DdsCarrier::take_all(Listener& listener) {
   take_data(listener, now);
 }
 
+bool DdsCarrier::take(tessera_wire_Data& sample, dds_sample_info_t& info) {
+  // The middleware cuts off what is longer: the room is not its own to grow. It forgets the room if somebody has
+  // gone and there is no value.
+  sample.bytes._buffer = room_.data();
+  sample.bytes._maximum = static_cast<std::uint32_t>(room_.size());
+  sample.bytes._length = 0;
+  sample.bytes._release = false;
+  void* pointer = &sample;
+  return dds_take(endpoints_.data(), &pointer, &info, 1, 1) == 1;
+}
+
 void DdsCarrier::take_data(Listener& listener, Clock::time_point now) {
-  void* sample = &room_;
+  tessera_wire_Data sample{};
   dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.data(), &sample, &info, 1, 1) == 1; ++taken)
-    if (info.valid_data) hear(room_, listener, now);
+  for (int taken = 0; taken < most_at_once && take(sample, info); ++taken)
+    if (info.valid_data) hear(sample, listener, now);
 }
 
 void DdsCarrier::hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now) {

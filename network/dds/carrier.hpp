@@ -1,6 +1,7 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <vector>
 
 #include "network/carrier.hpp"
 #include "network/dds/announcements.hpp"
@@ -23,9 +24,6 @@ class DdsCarrier final : public network::Carrier {
  public:
   /// Errors: SetupError. It waits for the name service if a peer is named by its name.
   explicit DdsCarrier(const network::CarrierSetup& setup);
-  ~DdsCarrier() override;
-  DdsCarrier(const DdsCarrier&) = delete;
-  DdsCarrier& operator=(const DdsCarrier&) = delete;
 
   void send(ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void send(ChannelNumber channel, const network::State& state) override;
@@ -37,6 +35,8 @@ class DdsCarrier final : public network::Carrier {
   void take_data(Listener& listener, Clock::time_point now);
   void take_states(Listener& listener, Clock::time_point now);
   void take_alive(Listener& listener, Clock::time_point now);
+  /// Whether there was a message. It is valid until the next one is taken.
+  [[nodiscard]] bool take(tessera_wire_Data& sample, dds_sample_info_t& info);
   void take_announcements(Listener& listener);
   void hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now);
   void hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now);
@@ -50,7 +50,7 @@ class DdsCarrier final : public network::Carrier {
   Dropped dropped_{"dropped"}, unsent_{"could not send"};
   Endpoints endpoints_;
   Clock::time_point next_sign_of_life_ = Clock::time_point::min();
-  tessera_wire_Data room_{};  ///< for the value that is read next
+  std::vector<std::uint8_t> room_;  ///< for the value that is read next
 };
 
 }  // namespace tessera::dds

@@ -79,7 +79,8 @@ Deployment deployment_of(const network::CarrierSetup& setup) {
   deployment.processes_hash = hash_of_names(setup.processes);
   for (const network::ChannelSetup& channel : setup.channels) add_channel(deployment, channel);
   std::ranges::sort(deployment.peers);
-  deployment.peers.erase(std::unique(deployment.peers.begin(), deployment.peers.end()), deployment.peers.end());
+  deployment.peers.erase(std::unique(deployment.peers.begin(), deployment.peers.end()),
+                         deployment.peers.end());
   return deployment;
 }
 

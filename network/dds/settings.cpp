@@ -32,10 +32,15 @@ std::string discovery(int domain, const Location& location) {
 }
 
 /// A writer is never held back: it keeps one value of each channel, so that what it keeps is bounded.
-std::string watermarks() {
-  return element("Internal", element("Watermarks", element("WhcLow", "1 kB") + element("WhcHigh", "1 GiB") +
-                                                       element("WhcHighInit", "1 GiB") +
-                                                       element("WhcAdaptive", "false")));
+///
+/// A writer asks once a second (not ten times) whether all has arrived. While many processes meet at once, most of the
+/// traffic would be such questions and their answers. The protocol of channels repeats sooner than either.
+std::string writing() {
+  return element(
+      "Internal",
+      element("HeartbeatInterval", "1 s") +
+          element("Watermarks", element("WhcLow", "1 kB") + element("WhcHigh", "1 GiB") +
+                                    element("WhcHighInit", "1 GiB") + element("WhcAdaptive", "false")));
 }
 
 }  // namespace
@@ -51,7 +56,7 @@ std::string settings(int domain, const Location& location) {
   return element("CycloneDDS", "<Domain Id=\"any\">" +
                                    element("General", interface + element("AllowMulticast", "false") +
                                                           sizes(location.is_loopback)) +
-                                   discovery(domain, location) + watermarks() +
+                                   discovery(domain, location) + writing() +
                                    element("Tracing", element("Verbosity", "none")) + "</Domain>");
 }
 

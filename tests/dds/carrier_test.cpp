@@ -122,18 +122,28 @@ TEST(Carrier, WakeEndsTheWaitOrTheNextOne) {
   EXPECT_TRUE(heard.changes.empty());
 }
 
-TEST(Carrier, AProcessThatEndsInOrderIsNotReachable) {
+TEST(Carrier, AProcessThatEndsInOrderIsNotReachableAndItsNextIncarnationIsHeard) {
   const Crossing crossing;
   DdsCarrier office_carrier(crossing.setup(Crossing::office, 10));
   Station office(office_carrier);
-  {
-    DdsCarrier cart_carrier(crossing.setup(Crossing::cart, 20));
+  for (const std::uint64_t incarnation : {20U, 21U}) {
+    office.heard.messages.clear();
+    DdsCarrier cart_carrier(crossing.setup(Crossing::cart, incarnation));
     Station cart(cart_carrier);
-    ASSERT_TRUE(receive_until([&] { return office.heard.sees(Crossing::cart); }, office, cart));
+    ASSERT_TRUE(
+        receive_until([&] { return office.heard.sees(Crossing::cart) && cart.heard.sees(Crossing::office); },
+                      office, cart));
+    cart_carrier.send(Crossing::position, {Incarnation{incarnation}, {}, Number{1}, false},
+                      {1ns, true, some_bytes(8)});
+    ASSERT_TRUE(receive_until([&] { return !office.heard.messages.empty(); }, office, cart));
+    EXPECT_EQ(office.heard.messages.front().bytes, some_bytes(8));
   }
   ASSERT_TRUE(receive_until([&] { return !office.heard.sees(Crossing::cart); }, office));
-  EXPECT_EQ(office.heard.changes,
-            (std::vector<Heard::Change>{{Crossing::cart, true}, {Crossing::cart, false}}));
+  EXPECT_EQ(
+      office.heard.changes,
+      (std::vector<Heard::Change>{
+          {Crossing::cart, true}, {Crossing::cart, false}, {Crossing::cart, true}, {Crossing::cart, false}}));
+  EXPECT_TRUE(office.heard.complaints.empty());
 }
 
 TEST(Carrier, ProcessesOfAnotherNetAreToldOfAndNotHeard) {

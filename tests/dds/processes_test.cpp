@@ -34,6 +34,7 @@ class Child {
     ::kill(process_, SIGKILL);
     (void)exit_code();
   }
+  void signal(int number) const { ::kill(process_, number); }
   [[nodiscard]] int exit_code() {
     int status = -1;
     if (process_ != 0) waitpid(process_, &status, 0);
@@ -54,7 +55,7 @@ std::vector<std::string> station(const std::string& role, const Crossing& crossi
   return command;
 }
 
-TEST(Processes, AKilledProcessIsNotReachableAndItsNextIncarnationIs) {
+TEST(Processes, AKilledOrStoppedProcessIsNotReachableAndItsNextIncarnationIs) {
   const Crossing crossing;
   DdsCarrier carrier(crossing.setup(Crossing::office, 10));
   Station office(carrier);
@@ -66,6 +67,10 @@ TEST(Processes, AKilledProcessIsNotReachableAndItsNextIncarnationIs) {
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - killed;
   std::printf("not reachable %.3f s after it was killed\n", time.count());
   Child second(station("stay", crossing, 21));
+  ASSERT_TRUE(receive_until([&] { return office.heard.sees(Crossing::cart); }, office));
+  second.signal(SIGSTOP);
+  ASSERT_TRUE(receive_until([&] { return !office.heard.sees(Crossing::cart); }, office));
+  second.signal(SIGCONT);
   ASSERT_TRUE(receive_until([&] { return office.heard.sees(Crossing::cart); }, office));
   second.kill();
   ASSERT_TRUE(receive_until([&] { return !office.heard.sees(Crossing::cart); }, office));

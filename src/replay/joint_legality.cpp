@@ -120,14 +120,6 @@ class JointOrder {
     return sends ? ends.sending : ends.receiving;
   }
 
-  /// A firing of another process, or of the whole system, in the recording of one process.
-  [[nodiscard]] std::string stranger(std::size_t recording, const Event& event) const {
-    const Recording& from = sources_[recording].recording();
-    const TransitionId id = sources_[recording].transition(event);
-    if (one_run_ || net_[id].process == from.process->number) return {};
-    return fmt::format("'{}' fired, which is no transition of this process", net_.net()[id].name);
-  }
-
   enum class Turn : std::uint8_t { next, gap, back };
   static Turn follow(JointLane& lane, const Event& event) {
     const std::uint32_t due = std::exchange(lane.next_sequence, event.sequence + 1);
@@ -156,6 +148,8 @@ class JointOrder {
   }
 
   JointOutcome play_next(const Recording::Entry& entry) {
+    if (std::string wrong = sources_.front().stranger(entry.event, net_); !wrong.empty())
+      return illegal(wrong);
     if (entry.event.kind() == Event::Kind::firing) {
       const Firing firing = firing_of(0, entry.event);
       if (const Obstruction found = play_->obstacle(firing); found.kind != Obstruction::Kind::no)
@@ -230,9 +224,7 @@ class JointOrder {
       note(sources_[recording].missing(event));
     }
     if (!is_played(event) || lane.gap) return {};
-    if (event.kind() == Event::Kind::firing)
-      if (std::string wrong = stranger(recording, event); !wrong.empty())
-        return illegal(sources_[recording].place_of(event) + wrong);
+    if (std::string wrong = sources_[recording].stranger(event, net_); !wrong.empty()) return illegal(wrong);
     if (lane.left.empty()) ++part.unplayed;
     lane.left.push_back(&entry);
     return {};

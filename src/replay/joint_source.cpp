@@ -39,6 +39,19 @@ std::string JointSource::missing(const Event& event) const {
   return fmt::format("{}events of {} are missing", place_of(event), path_of(event));
 }
 
+std::string JointSource::stranger(const Event& event, const DeployedNet& net) const {
+  if (event.kind() != Event::Kind::firing) return {};
+  const net::TransitionId id = transition(event);
+  const char* whose = nullptr;
+  if (recording_.transitions[event.subject].instance != event.instance())
+    whose = "subsystem";
+  else if (recording_.process && net[id].process != recording_.process->number)
+    whose = "process";
+  if (whose == nullptr) return {};
+  return fmt::format("{}'{}' fired, which is no transition of this {}", place_of(event), net.net()[id].name,
+                     whose);
+}
+
 std::string names_without(const ProcessMap& processes, const std::vector<bool>& given) {
   constexpr std::size_t named = 4;
   std::string names;

@@ -30,6 +30,8 @@ class JointSource {
   /// What is wrong with the sequence of its events: one is there again, or some are not there.
   [[nodiscard]] std::string twice(const Event& event) const;
   [[nodiscard]] std::string missing(const Event& event) const;
+  /// A firing that is recorded as one of another subsystem, or of another process; empty: it is not.
+  [[nodiscard]] std::string stranger(const Event& event, const DeployedNet& net) const;
 
  private:
   const Recording& recording_;

@@ -148,5 +148,42 @@ TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
   EXPECT_GT(verdicts[false], 100U);
 }
 
+TEST(JointLegality, AFiringOfAnotherProcessOrSubsystemIsIllegal) {
+  std::mt19937 random(13);
+  const Deployed system = each_apart(test::fleet(2));
+  const std::vector<Recording> run = deployed_run(system, 200, random);
+  std::vector<Recording> wrong = run;
+  wrong[0].entries.push_back(run[1].entries.front());
+  renumber(wrong[0]);
+  const Legality other = check_joint(wrong, system.net, system.processes);
+  EXPECT_EQ(other.verdict, JointVerdict::illegal);
+  EXPECT_NE(other.why.find("which is no transition of this process"), std::string::npos) << other.why;
+  wrong = run;
+  Event& event = wrong[0].entries.back().event;
+  event.origin = (event.instance() == 0 ? 1U : 0U) << 8 | static_cast<std::uint32_t>(Event::Kind::firing);
+  renumber(wrong[0]);
+  EXPECT_NE(check_joint(wrong, system.net, system.processes).why.find("no transition of this subsystem"),
+            std::string::npos);
+}
+
+TEST(JointLegality, RecordingsThatDoNotBelongTogetherAreRefused) {
+  std::mt19937 random(17);
+  const Deployed system = each_apart(test::fleet(2));
+  std::vector<Recording> run = deployed_run(system, 50, random);
+  const auto refused = [&](const std::vector<Recording>& recordings) {
+    return cannot_be_joined(recordings, system.processes).value_or("they can be joined");
+  };
+  EXPECT_EQ(refused({run[0], run[0]}), "two of them are of 'p0' in the same start (incarnation 1); give one");
+  EXPECT_EQ(refused({run[0], simulated_run(system, 50, random)}),
+            "one of them is of a whole system, which is judged alone; give recordings of processes only");
+  std::vector<Recording> renamed = run;
+  renamed[1].process->name = "p7";
+  EXPECT_EQ(refused(renamed), "the specification deploys no process 'p7' with number 1");
+  EXPECT_EQ(check_joint({run.data(), 1}, system.net, system.processes).why,
+            "no recording of p1 is given: what it did is assumed");
+  run[1].truncated = true;
+  EXPECT_EQ(check_joint(run, system.net, system.processes).why, "the recording of p1 is cut off at its end");
+}
+
 }  // namespace
 }  // namespace tessera::replay

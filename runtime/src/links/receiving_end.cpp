@@ -63,8 +63,7 @@ void ReceivingEnd::announce(Time now, LinkServices& services) {
 void ReceivingEnd::hear(const network::Data& data, const network::Value& value, Time stamp, Time now,
                         LinkServices& services) {
   set_disconnected(false);
-  finish_read(services);
-  if (!seize()) return hold(data, value, stamp, now);
+  if (!seize(services)) return hold(data, value, stamp, now);
   accept(data, value, stamp, services);
   release();
 }
@@ -101,7 +100,7 @@ void ReceivingEnd::hold(const network::Data& data, const network::Value& value, 
 void ReceivingEnd::take_held(Time now, LinkServices& services) {
   if (!held_.any) return;
   look_ = now + until_free;
-  if (!seize()) return;
+  if (!seize(services)) return;
   held_.any = false;
   accept(held_.data, {held_.stamp.time_since_epoch(), held_.valid, held_.bytes}, held_.stamp, services);
   release();
@@ -110,13 +109,22 @@ void ReceivingEnd::take_held(Time now, LinkServices& services) {
 /// Only the service gives `full`, and only a read makes `empty` of it.
 void ReceivingEnd::finish_read(LinkServices& services) {
   if (channel().exchanged || !receiver_.full() || (word_.marking() & channel().empty) == 0) return;
+  end_read(services);
+}
+
+void ReceivingEnd::end_read(LinkServices& services) {
   receiver_.begin_read();
   answer(receiver_.end_read(), services);
 }
 
-bool ReceivingEnd::seize() {
-  for (const std::uint16_t token : {channel().own_memory, channel().empty, channel().full})
-    if (token != 0 && word_.fire_if(Side::send, token, 0, [] { return true; }) != 0) return true;
+/// What the token was says what has happened: a read may have ended since the last look.
+bool ReceivingEnd::seize(LinkServices& services) {
+  const auto always = [] { return true; };
+  for (const std::uint16_t token : {channel().own_memory, channel().empty, channel().full}) {
+    if (token == 0 || word_.fire_if(Side::send, token, 0, always) == 0) continue;
+    if (token == channel().empty && receiver_.full()) end_read(services);
+    return true;
+  }
   return false;
 }
 

@@ -53,7 +53,8 @@ class ReceivingEnd final : public NetworkEnd {
   void accept(const network::Data& data, const network::Value& value, Time stamp, LinkServices& services);
   void take_held(Time now, LinkServices& services);
   void finish_read(LinkServices& services);
-  [[nodiscard]] bool seize();
+  void end_read(LinkServices& services);
+  [[nodiscard]] bool seize(LinkServices& services);
   void release();
   void keep(const network::Data& data, bool valid, Time stamp);
   void answer(const network::Receiver::Effects& effects, LinkServices& services);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "project/files/file_names.hpp"
+#include "project/files/installation.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::project {
@@ -75,7 +76,8 @@ ProcessFiles process_files(const fs::path& folder, const std::string& process, u
 }
 
 void add_process(Command& command, const std::string& process, const NetworkOptions& network) {
-  command.insert(command.end(), {"--process", process});
+  command.insert(command.end(),
+                 {"--process", process, "--carrier-library", Installation::find().carrier_library.string()});
   for (const auto& [option, value] :
        {std::pair("--domain", &network.domain), std::pair("--interface", &network.interface),
         std::pair("--peers", &network.peers)})

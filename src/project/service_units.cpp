@@ -35,7 +35,7 @@ Description={description}
 [Service]
 # Started when all devices are open and the first function may run.
 Type=notify
-ExecStart=/opt/{system}/controller run{process} --record /var/lib/{system}/{unit}.tsr --record-limit 500MB
+{library}ExecStart=/opt/{system}/controller run{process} --record /var/lib/{system}/{unit}.tsr --record-limit 500MB
 StateDirectory={system}
 # A subsystem that stalls for so long ends the service (with `watchdog` in the specification).
 WatchdogSec=2
@@ -70,12 +70,15 @@ ServiceUnit unit_of(const std::string& system, const spec::Process* process) {
                                   "network.\nAfter=network-online.target\nWants=network-online.target\n";
   return {.host = process == nullptr ? "" : process->host,
           .file = unit + ".service",
-          .text = filled(unit_text, {{"{first_line}", first_line},
-                                     {"{description}", description},
-                                     {"{after}", after},
-                                     {"{process}", options},
-                                     {"{unit}", unit},
-                                     {"{system}", plain}})};
+          .text = filled(
+              unit_text,
+              {{"{first_line}", first_line},
+               {"{description}", description},
+               {"{after}", after},
+               {"{process}", options},
+               {"{library}", process == nullptr ? "" : "# With libtessera_dds.so beside the controller.\n"},
+               {"{unit}", unit},
+               {"{system}", plain}})};
 }
 
 void write_unit(const fs::path& file, const std::string& text) {

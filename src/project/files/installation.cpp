@@ -10,8 +10,9 @@ Installation Installation::find() {
   const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& prefix : {folder, folder.parent_path()}) {
     if (!fs::exists(prefix / "share/tessera")) continue;
-    return {prefix / "share/tessera", prefix / "lib/cmake/tessera",
-            prefix / "lib/tessera/libtessera_world.so", prefix / "lib/tessera/libtessera_coppelia.so"};
+    const fs::path libraries = prefix / "lib/tessera";
+    return {prefix / "share/tessera", prefix / "lib/cmake/tessera", libraries / "libtessera_world.so",
+            libraries / "libtessera_coppelia.so", libraries / "libtessera_dds.so"};
   }
   throw std::runtime_error("this installation is incomplete: no share/tessera beside " + folder.string());
 }

@@ -13,6 +13,7 @@ struct Installation {
   std::filesystem::path cmake_package;     ///< folder of tesseraConfig.cmake
   std::filesystem::path world_library;     ///< libtessera_world.so, of MuJoCo
   std::filesystem::path coppelia_library;  ///< libtessera_coppelia.so
+  std::filesystem::path carrier_library;   ///< libtessera_dds.so
 
   /// Throws std::runtime_error that names the missing part.
   [[nodiscard]] static Installation find();

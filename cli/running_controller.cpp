@@ -31,8 +31,9 @@ namespace {
 std::vector<fs::path> sockets(const std::string& which) {
   std::vector<fs::path> found;
   for (const fs::path& file : project::control_sockets(monitor_folder())) {
-    const std::string name = file.filename().string();  // SYSTEM.PID.sock
-    if (which.empty() || name.starts_with(which + ".") || name.ends_with("." + which + ".sock"))
+    const std::string name = file.filename().string();  // SYSTEM.PID.sock or SYSTEM.PROCESS.PID.sock
+    if (which.empty() || name.starts_with(which + ".") || name.ends_with("." + which + ".sock") ||
+        name.find("." + which + ".") != std::string::npos)
       found.push_back(file);
   }
   return found;
@@ -58,7 +59,8 @@ std::optional<RunningController> find_controller(const std::string& which) {
   if (running.empty()) return std::nullopt;
   std::string names;
   for (const RunningController& one : running) names += (names.empty() ? "" : ", ") + one.name();
-  complain("several controllers are running (" + names + "): name one, by its system or its process");
+  complain("several controllers are running (" + names +
+           "): name one, by its system, its process or its number");
   return std::nullopt;
 }
 

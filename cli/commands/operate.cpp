@@ -88,8 +88,9 @@ int reset_command(const OperateOptions& options) {
   return wrong ? complain(wrong->text) : ok;
 }
 
-void declare_controller(Subcommand& command, OperateOptions& options,
-                        const char* meaning = "Its system or its process; needed if several run") {
+void declare_controller(
+    Subcommand& command, OperateOptions& options,
+    const char* meaning = "Its system, its process (cart[0]) or its process number; needed if several run") {
   command.option("--controller", options.which, meaning);
 }
 

@@ -99,7 +99,7 @@ void add_top(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("top", "Watch a controller that runs in real time");
   auto options = std::make_shared<TopOptions>();
   command.option("controller,--controller", options->which,
-                 "Its system or its process; needed if several run");
+                 "Its system, its process (cart[0]) or its process number; needed if several run");
   command.flag("--once", options->once, "Print one table and end");
   command.flag("--json", options->lines, "Print the lines of JSON that the controller sends");
   command.footer(

@@ -30,6 +30,12 @@ constexpr std::size_t most_clients = 32;
 /// long.
 constexpr std::int64_t rest_per_work = 50;
 
+/// "line_follower"; "depot.cart[0]" of one process of a deployed system.
+[[nodiscard]] std::string name_of_controller(const Assembly& assembly) {
+  const std::string& process = assembly.options.network.process;
+  return std::string(assembly.system.name) + (process.empty() ? "" : "." + process);
+}
+
 /// As it is where that cannot be found out: the folder may have gone.
 [[nodiscard]] std::string absolute(const std::string& path) {
   if (path.empty()) return path;
@@ -44,7 +50,7 @@ Monitor::Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote)
     : assembly_(assembly),
       clock_(clock),
       recording_path_(absolute(assembly.options.recording)),
-      listening_(assembly.system.name),
+      listening_(name_of_controller(assembly)),
       remote_(remote) {
   failure_ = listening_.failure();
   if (listening_.descriptor() < 0) return;

@@ -42,7 +42,7 @@ namespace {
 /// The process that made the socket was killed: it is gone, and nobody else (through a tunnel, from a
 /// container) listens.
 [[nodiscard]] bool is_left_behind(const std::filesystem::path& file) {
-  const std::string name = file.stem().string();  // SYSTEM.PID
+  const std::string name = file.stem().string();  // NAME.PID
   const std::size_t dot = name.rfind('.');
   if (file.extension() != ".sock" || dot == std::string::npos ||
       file.native().size() >= sizeof(sockaddr_un::sun_path))
@@ -77,7 +77,7 @@ std::string monitor_folder() {
   return fmt::format("/tmp/tessera-{}", geteuid());
 }
 
-MonitorSocket::MonitorSocket(std::string_view system) { listen_in(monitor_folder(), system); }
+MonitorSocket::MonitorSocket(std::string_view name) { listen_in(monitor_folder(), name); }
 
 MonitorSocket::~MonitorSocket() {
   if (descriptor_ < 0) return;
@@ -85,12 +85,12 @@ MonitorSocket::~MonitorSocket() {
   unlink(file_.c_str());
 }
 
-void MonitorSocket::listen_in(const std::string& folder, std::string_view system) {
+void MonitorSocket::listen_in(const std::string& folder, std::string_view name) {
   if (!own_folder(folder, failure_)) return;
   remove_left_behind(folder);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string file = fmt::format("{}/{}.{}.sock", folder, system, getpid());
+  const std::string file = fmt::format("{}/{}.{}.sock", folder, name, getpid());
   if (file.size() >= sizeof address.sun_path) {
     failure_ = fmt::format("the path '{}' is too long for a socket", file);
     return;
@@ -98,8 +98,8 @@ void MonitorSocket::listen_in(const std::string& folder, std::string_view system
   std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
   unlink(file.c_str());  // of an earlier process with our number
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const auto* name = reinterpret_cast<const sockaddr*>(&address);
-  if (descriptor < 0 || bind(descriptor, name, sizeof address) != 0 || listen(descriptor, 4) != 0) {
+  const auto* own = reinterpret_cast<const sockaddr*>(&address);
+  if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || listen(descriptor, 4) != 0) {
     failure_ = fmt::format("cannot listen at '{}': {}", file, std::strerror(errno));
     if (descriptor >= 0) close(descriptor);
     return;

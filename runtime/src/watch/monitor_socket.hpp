@@ -9,7 +9,8 @@ namespace tessera {
 /// Making it removes the sockets of runs that were killed.
 class MonitorSocket {
  public:
-  explicit MonitorSocket(std::string_view system);
+  /// The file is NAME.PID.sock.
+  explicit MonitorSocket(std::string_view name);
   ~MonitorSocket();
   MonitorSocket(const MonitorSocket&) = delete;
   MonitorSocket& operator=(const MonitorSocket&) = delete;
@@ -26,7 +27,7 @@ class MonitorSocket {
   [[nodiscard]] Accepted accept() const;
 
  private:
-  void listen_in(const std::string& folder, std::string_view system);
+  void listen_in(const std::string& folder, std::string_view name);
 
   std::string file_, failure_;
   int descriptor_ = -1;

@@ -81,8 +81,8 @@ class Plan {
     Type type;
     std::optional<std::size_t> block{};  ///< the part of the buffer that corresponds
     Fill fill = Fill::nothing;
-    bool by_name = false;         ///< its elements are in the order of Mapping::names
-    bool per_element = false;     ///< `members` has one step for each element of an array of messages
+    bool by_name = false;       ///< its elements are in the order of Mapping::names
+    bool per_element = false;   ///< `members` has one step for each element of an array of messages
     std::vector<Step> members;  ///< of a message
     std::vector<Literal> defaults{};
   };

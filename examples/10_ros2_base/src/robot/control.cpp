@@ -18,7 +18,8 @@ double free_ahead_m(const Inputs& in) {
         (2 * static_cast<double>(ray) / static_cast<double>(scan.ranges.size()) - 1) * std::numbers::pi;
     const double range_m = scan.ranges[ray];
     // Rays that hit nothing are infinite.
-    if (std::abs(angle_rad) < std::numbers::pi / 3 && std::isfinite(range_m)) free_m = std::min(free_m, range_m);
+    if (std::abs(angle_rad) < std::numbers::pi / 3 && std::isfinite(range_m))
+      free_m = std::min(free_m, range_m);
   }
   return free_m;
 }

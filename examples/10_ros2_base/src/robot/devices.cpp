@@ -16,6 +16,8 @@ void wheels::look(Context& context, const Inputs& in, Memory& memory, Outputs& o
 }
 
 /// Behaviour drive of robot.base.
-void base::drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.command = in.motion; }
+void base::drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.command = in.motion;
+}
 
 }  // namespace roamer::robot

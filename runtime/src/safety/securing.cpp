@@ -25,7 +25,7 @@ void insist_on_safe_commands(Effectors& effectors, SafeReason why) {
 
 Securing::Securing(const std::vector<std::unique_ptr<SubsystemExecutor>>& executors, int priority,
                    std::function<void()> news)
-    : executors_(executors), priority_(priority), news_(std::move(news)), jobs_(executors.size()) {
+    : priority_(priority), news_(std::move(news)), jobs_(executors.size()) {
   for (std::size_t index = 0; index < executors.size(); ++index) {
     if (executors[index]->effectors().none()) continue;
     // allocated now, because there may be no memory when it is needed

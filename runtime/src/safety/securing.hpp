@@ -47,7 +47,6 @@ class Securing {
   [[nodiscard]] bool start(Job& job, bool realtime) const;
   void join(Job& job);
 
-  const std::vector<std::unique_ptr<SubsystemExecutor>>& executors_;
   int priority_;
   std::function<void()> news_;
   std::vector<std::unique_ptr<Job>> jobs_;  // per instance; nullptr: none yet

@@ -81,7 +81,8 @@ class UdpCarrier final : public Carrier {
       if (channel.number != header.channel) continue;
       std::vector<std::byte> bytes(sizeof header + value.size());
       std::memcpy(bytes.data(), &header, sizeof header);
-      std::memcpy(bytes.data() + sizeof header, value.data(), value.size());
+      if (!value.empty())  // a state has none
+        std::memcpy(bytes.data() + sizeof header, value.data(), value.size());
       const sockaddr_in to = address(header.is_state ? channel.sender : channel.receiver);
       for (int copies = sent_ % repeated == 0 ? 2 : 1; copies > 0; --copies)
         sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),

@@ -126,7 +126,7 @@ TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
   std::mt19937 random(7);
   std::map<bool, std::size_t> verdicts;
   const char* more = std::getenv("TESSERA_JOINT_RUNS");
-  const std::uint32_t runs = more == nullptr ? 60 : static_cast<std::uint32_t>(std::stoul(more));
+  const std::uint32_t runs = more == nullptr ? 30 : static_cast<std::uint32_t>(std::stoul(more));
   for (std::uint32_t seed = 0; seed < runs; ++seed) {
     const Deployed system = each_apart(small_model(random));
     const std::vector<Recording> run = deployed_run(system, 40, random);
@@ -144,8 +144,8 @@ TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
       ++verdicts[possible];
     }
   }
-  EXPECT_GT(verdicts[true], 20U);
-  EXPECT_GT(verdicts[false], 100U);
+  EXPECT_GT(verdicts[true], 10U);
+  EXPECT_GT(verdicts[false], 50U);
 }
 
 TEST(JointLegality, AFiringOfAnotherProcessOrSubsystemIsIllegal) {

@@ -67,7 +67,7 @@ struct CarrierSetup {
   std::span<const std::string_view> processes;  ///< names, by number
   std::uint64_t incarnation = 0;                ///< of this start of the process; greater than all before
   int domain = 0;                               ///< of the middleware
-  std::string_view interface;                   ///< of the network: "lo"; empty: as the middleware chooses
+  std::string_view interface;                   ///< of the network, or its address; empty: "lo"
   std::span<const std::string_view>
       peers;                               ///< hosts at which other processes are looked for; empty: anywhere
   std::span<const ChannelSetup> channels;  ///< those that begin or end in this process

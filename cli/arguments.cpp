@@ -1,9 +1,14 @@
 #include "cli/arguments.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "cli/terminal.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::cli {
 
@@ -113,10 +118,73 @@ void CommandLine::option(const std::string& name, const std::string& value,
 
 void CommandLine::footer(const std::string& text) { app_->footer(text); }
 
+void CommandLine::add_hidden(const std::string& name, std::function<void(std::vector<std::string>)> run) {
+  hidden_[name] = std::move(run);
+}
+
+namespace {
+
+/// "robot" of "TEXT:{robot,arm}": the values that are allowed, as the help shows them.
+std::vector<std::string> allowed_values(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t begin = type.find('{'), end = type.rfind('}');
+  std::vector<std::string> values;
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return values;
+  std::istringstream words(type.substr(begin + 1, end - begin - 1));
+  for (std::string word; std::getline(words, word, ',');) values.push_back(word);
+  return values;
+}
+
+}  // namespace
+
+std::optional<int> CommandLine::unknown_command(int argc, char** argv) const {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app_->get_subcommands({})) commands.push_back(command->get_name());
+  for (int at = 1; at < argc; ++at) {
+    const std::string word = argv[at];
+    if (word == "--state") {
+      ++at;
+    } else if (!word.starts_with('-')) {
+      if (std::find(commands.begin(), commands.end(), word) != commands.end()) return std::nullopt;
+      complain(with_hint("there is no command '" + word + "'", did_you_mean(word, commands)));
+      fmt::print(stderr, "`tessera --help` lists the commands\n");
+      return usage;
+    }
+  }
+  return std::nullopt;
+}
+
+void CommandLine::tell_unexpected() const {
+  std::string command = "tessera";
+  std::vector<std::string> options{"--help", "--version", "--state"};
+  for (const CLI::App* chosen : app_->get_subcommands()) {
+    command += " " + chosen->get_name();
+    for (const CLI::Option* option : chosen->get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  for (const std::string& word : app_->remaining(true)) {
+    const std::string name = word.substr(0, word.find('='));
+    if (word.starts_with('-'))
+      complain(with_hint(fmt::format("{} has no option '{}'", command, name), did_you_mean(name, options)));
+    else
+      complain(fmt::format("{} does not expect '{}'", command, word));
+  }
+  fmt::print(stderr, "`{} --help` shows its options\n", command);
+}
+
 std::optional<int> CommandLine::read(int argc, char** argv) {
+  if (argc > 1)
+    if (const auto hidden = hidden_.find(argv[1]); hidden != hidden_.end()) {
+      hidden->second({argv + 2, argv + argc});
+      return std::nullopt;
+    }
+  if (const std::optional<int> wrong = unknown_command(argc, argv)) return wrong;
   try {
     app_->parse(argc, argv);
     return std::nullopt;
+  } catch (const CLI::ExtrasError&) {
+    tell_unexpected();
+    return usage;
   } catch (const CLI::ParseError& error) {
     return app_->exit(error) == 0 ? ok : usage;
   }
@@ -125,9 +193,12 @@ std::optional<int> CommandLine::read(int argc, char** argv) {
 std::vector<CommandLine::Words> CommandLine::words() const {
   std::vector<Words> all;
   for (const CLI::App* command : app_->get_subcommands({})) {
-    Words words{command->get_name(), {}};
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) words.options.push_back(name);
+    Words words{command->get_name(), {}, {}};
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames())
+        words.options.push_back({name, option->get_items_expected_max() > 0, allowed_values(*option)});
+      if (option->get_positional() && words.values.empty()) words.values = allowed_values(*option);
+    }
     all.push_back(std::move(words));
   }
   return all;

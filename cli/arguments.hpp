@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,15 +88,29 @@ class CommandLine {
   /// was asked for and has been printed. `usage`: the line is wrong, and standard error says why.
   [[nodiscard]] std::optional<int> read(int argc, char** argv);
 
+  struct Word {
+    std::string name;  ///< without dashes
+    bool takes_value = false;
+    std::vector<std::string> values;  ///< if only these are allowed
+  };
   struct Words {
     std::string command;
-    std::vector<std::string> options;  ///< long names, without dashes
+    std::vector<Word> options;        ///< with long names
+    std::vector<std::string> values;  ///< of the first argument, if only these are allowed
   };
   /// All words that can be typed, for completion.
   [[nodiscard]] std::vector<Words> words() const;
 
+  /// A command that is not shown, and that gets the words behind its name as they are.
+  void add_hidden(const std::string& name, std::function<void(std::vector<std::string>)> run);
+
  private:
+  /// nullopt: it is a command, or there is none.
+  [[nodiscard]] std::optional<int> unknown_command(int argc, char** argv) const;
+  void tell_unexpected() const;
+
   std::unique_ptr<CLI::App> app_;
+  std::map<std::string, std::function<void(std::vector<std::string>)>> hidden_;
 };
 
 }  // namespace tessera::cli

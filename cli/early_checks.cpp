@@ -60,8 +60,10 @@ class Parameters {
 
  private:
   [[nodiscard]] static std::size_t bytes_of(const spec::Type& type) {
-    return type.kind == spec::Type::Kind::string ? std::size_t{type.capacity} + sizeof(std::uint32_t)
-                                                 : sizeof(double);
+    const std::size_t one = type.kind == spec::Type::Kind::string
+                                ? std::size_t{type.capacity} + sizeof(std::uint32_t)
+                                : sizeof(double);
+    return one * std::max<std::size_t>(type.extent, 1);
   }
 
   /// All share their storage: what is there is not looked at.
@@ -75,7 +77,8 @@ class Parameters {
             bytes_of(parameter.type),
             parameter.minimum.value_or(-infinity),
             parameter.maximum.value_or(infinity),
-            text ? parameter.type.capacity : 0};
+            text ? parameter.type.capacity : 0,
+            parameter.type.extent};
   }
 
   std::vector<std::byte> storage_;
@@ -87,17 +90,16 @@ static_assert(static_cast<int>(spec::Scalar::boolean) == static_cast<int>(ValueK
               static_cast<int>(spec::Scalar::float64) == static_cast<int>(ValueKind::float64));
 
 bool parameters_fit(const Specification& specification, const LaunchOptions& options) {
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const std::string& assignment : parameter_values(specification, options)) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0)
-      return complain(fmt::format("--set {}: expected PATH=VALUE", assignment)), false;
-    values.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
-  std::string error;
   const Parameters parameters(specification.model);
-  if (set_parameters(parameters.owners(), values, error)) return true;
-  return complain(error), false;
+  bool all_fit = true;
+  for (const GivenParameter& one : given_parameters(specification, options)) {
+    const std::pair<std::string, std::string> value{one.path, one.value};
+    std::string error;
+    if (set_parameters(parameters.owners(), {&value, 1}, error)) continue;
+    complain(one.where + error);
+    all_fit = false;
+  }
+  return all_fit;
 }
 
 bool times_are_times(const LaunchOptions& options) {

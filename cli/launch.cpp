@@ -1,6 +1,10 @@
 #include "cli/launch.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
+
+#include "cli/outcome.hpp"
+#include "project/files/installation.hpp"
 
 namespace tessera::cli {
 
@@ -58,6 +62,14 @@ void declare_world_options(Subcommand& command, project::LaunchOptions& options)
   command.option("--metres-per-pixel", options.metres_per_pixel, "Scale of the floor picture").positive();
   command.option("--start", options.start,
                  "Start pose X,Y,DEGREES: metres from the lower left corner (default: on the line)");
+}
+
+int print_debugger_line(const project::Command& command) {
+  const auto printers = project::Installation::find().share / "gdb/tessera_printers.py";
+  project::Command line{"gdb", "-ix", printers.string(), "--args"};
+  line.insert(line.end(), command.begin(), command.end());
+  fmt::print("{}\n", project::shell_line(line));
+  return ok;
 }
 
 }  // namespace tessera::cli

@@ -4,6 +4,7 @@
 
 #include "cli/arguments.hpp"
 #include "project/launch.hpp"
+#include "project/process/process.hpp"
 
 /// Options that several commands share.
 namespace tessera::cli {
@@ -16,5 +17,8 @@ void declare_verification_gate(Subcommand& command, project::VerificationGate& g
 void declare_run_options(Subcommand& command, project::LaunchOptions& options);
 /// Declares the options of the simulated world.
 void declare_world_options(Subcommand& command, project::LaunchOptions& options);
+
+/// Prints the command that debugs the run of this one in gdb. Returns the exit code.
+int print_debugger_line(const project::Command& command);
 
 }  // namespace tessera::cli

@@ -1,5 +1,7 @@
 #include "cli/running_controller.hpp"
 
+#include <algorithm>
+#include <variant>
 #include <vector>
 
 #include "cli/terminal.hpp"
@@ -53,15 +55,40 @@ std::vector<RunningController> find_controllers(const std::string& which) {
   return running;
 }
 
-std::optional<RunningController> find_controller(const std::string& which) {
-  std::vector<RunningController> running = find_controllers(which);
-  if (running.size() == 1) return std::move(running.front());
-  if (running.empty()) return std::nullopt;
+std::vector<SeenController> first_look(std::vector<RunningController> controllers) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(2);
+  std::vector<SeenController> seen;
+  for (RunningController& one : controllers) {
+    SeenController& looked_at = seen.emplace_back(SeenController{std::move(one), {}, {}});
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    looked_at.controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
+    looked_at.line = looked_at.controller.line().value_or("");
+    std::optional<project::ControlLine> line = project::read_control_line(looked_at.line);
+    if (auto* snapshot = line ? std::get_if<project::Snapshot>(&*line) : nullptr)
+      looked_at.snapshot = std::move(*snapshot);
+  }
+  return seen;
+}
+
+std::optional<std::string> common_deployment(const std::vector<SeenController>& controllers) {
+  std::optional<std::string> system;
+  for (const SeenController& one : controllers) {
+    if (!one.snapshot) continue;  // it hangs; its system is one of the others', or it is the only one
+    if (!one.snapshot->name || (system && *system != one.snapshot->system)) return std::nullopt;
+    system = one.snapshot->system;
+  }
+  const bool all = system && std::ranges::all_of(controllers, [&](const SeenController& one) {
+                     return one.controller.name().starts_with(*system + ".");
+                   });
+  return all ? system : std::nullopt;
+}
+
+int complain_of_several(const std::vector<SeenController>& controllers) {
   std::string names;
-  for (const RunningController& one : running) names += (names.empty() ? "" : ", ") + one.name();
-  complain("several controllers are running (" + names +
-           "): name one, by its system, its process or its number");
-  return std::nullopt;
+  for (const SeenController& one : controllers) names += (names.empty() ? "" : ", ") + one.controller.name();
+  return complain("several controllers are running (" + names +
+                  "): name one, by its system, its process or its number");
 }
 
 }  // namespace tessera::cli

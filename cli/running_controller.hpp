@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "project/process/control_connection.hpp"
+#include "project/process/control_messages.hpp"
 
 namespace tessera::cli {
 
@@ -36,12 +37,21 @@ class RunningController {
   std::string name_, pending_;
 };
 
+/// A controller and what it has said first.
+struct SeenController {
+  RunningController controller;
+  std::string line;                           ///< its first; empty: it has said nothing for two seconds
+  std::optional<project::Snapshot> snapshot;  ///< what that says
+};
+/// Asks nothing, but listens to all of them at once.
+[[nodiscard]] std::vector<SeenController> first_look(std::vector<RunningController> controllers);
+/// The name of the deployed system whose processes they are, all of them; nullopt: they are not.
+[[nodiscard]] std::optional<std::string> common_deployment(const std::vector<SeenController>& controllers);
+/// "tessera: error: several controllers are running (...): name one, ..."
+int complain_of_several(const std::vector<SeenController>& controllers);
+
 /// All controllers that `which` means: a system, a process, or empty for all. If
 /// there is none, prints that.
 [[nodiscard]] std::vector<RunningController> find_controllers(const std::string& which);
-
-/// The controller that `which` means: a system, a process, or empty for any. nullopt after the reason has
-/// been printed, for example that there are several.
-[[nodiscard]] std::optional<RunningController> find_controller(const std::string& which);
 
 }  // namespace tessera::cli

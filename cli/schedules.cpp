@@ -94,14 +94,7 @@ int run_schedules(const Controller& controller, const LaunchOptions& options,
   command.insert(command.end(), {"--schedules", std::to_string(seeds.count())});
   if (schedules.jobs > 0) command.insert(command.end(), {"--jobs", std::to_string(schedules.jobs)});
   if (!schedules.coverage.empty()) command.emplace_back("--coverage");
-  if (options.debug) {
-    fmt::print("{}\n", shell_line([&] {
-                 Command line{"gdb", "--args"};
-                 line.insert(line.end(), command.begin(), command.end());
-                 return line;
-               }()));
-    return ok;
-  }
+  if (options.debug) return print_debugger_line(command);
   const RunFiles files = run_files(options);
   const Exit exit = run(command);
   if (!fs::exists(files.summary)) {

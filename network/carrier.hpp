@@ -3,9 +3,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "network/clock_offset.hpp"
 #include "network/messages.hpp"
 
 namespace tessera::network {
@@ -22,6 +24,13 @@ using ProcessNumber = std::uint32_t;
 /// Which channel of the system. All processes number them alike: they execute parts of one verified net.
 using ChannelNumber = std::uint32_t;
 
+/// What is known of the way from a process that is there. Only for display.
+struct SignsOfLife {
+  std::uint32_t expected = 0;  ///< of its newest signs of life, at most 64
+  std::uint32_t lost = 0;      ///< of these, those that have not come (yet)
+  std::optional<ClockOffset> clock;
+};
+
 /// Moves messages between the processes of one deployment. It may lose, repeat, delay and reorder them: the
 /// protocol bears that. It never alters one, and never delivers one of another deployment.
 ///
@@ -36,6 +45,8 @@ class Carrier {
     virtual void heard(ChannelNumber channel, const State& state) = 0;
     /// A process of the deployment has been found, or is not heard of any more.
     virtual void reachable(ProcessNumber process, bool is_there) = 0;
+    /// A sign of life has come, as carriers send them that have some.
+    virtual void alive(ProcessNumber /*process*/, const SignsOfLife& /*signs*/) {}
     /// Something was dropped that a person should know of: another version, another net, bytes that make no sense.
     virtual void complaint(std::string_view text) = 0;
   };
@@ -77,6 +88,6 @@ struct CarrierSetup {
 ///
 /// Errors: nullptr, and `error` (of `size` bytes, 0 at its end) says why.
 using OpenCarrier = Carrier*(const CarrierSetup& setup, char* error, std::size_t size);
-inline constexpr const char* open_carrier_function = "tessera_open_carrier_1";
+inline constexpr const char* open_carrier_function = "tessera_open_carrier_2";
 
 }  // namespace tessera::network

@@ -12,6 +12,7 @@ void add_show(CommandLine& app, int& exit_code);
 void add_verify(CommandLine& app, int& exit_code);
 void add_export(CommandLine& app, int& exit_code);
 void add_generate(CommandLine& app, int& exit_code);
+void add_package(CommandLine& app, int& exit_code);
 void add_test(CommandLine& app, int& exit_code);
 void add_simulate(CommandLine& app, int& exit_code);
 void add_run(CommandLine& app, int& exit_code);
@@ -23,6 +24,7 @@ void add_set(CommandLine& app, int& exit_code);
 void add_emergency_stop(CommandLine& app, int& exit_code);
 void add_reset(CommandLine& app, int& exit_code);
 void add_world(CommandLine& app, int& exit_code);
+void add_lsp(CommandLine& app, int& exit_code);
 void add_completion(CommandLine& app, int& exit_code);
 
 }  // namespace tessera::cli

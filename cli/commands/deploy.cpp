@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "cli/commands/unhurried_output.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/file_names.hpp"
@@ -46,7 +49,15 @@ class DeployedRun final : public ProcessSetListener {
         deploy_(deploy),
         placement_(std::move(placement)),
         coloured_(isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr),
-        file_(folder_ / file_names::deployment, controller) {
+        file_(folder_ / file_names::deployment, controller),
+        told_(std::make_unique<UnhurriedOutput>(STDERR_FILENO)),
+        said_(
+            std::make_unique<UnhurriedOutput>(STDOUT_FILENO, [told = told_.get()](std::string_view problem) {
+              told->write(fmt::format(
+                  "tessera: cannot write to standard output: {}; the processes go on (Ctrl-C stops them)\n",
+                  problem));
+            })) {
+    std::fflush(stdout);
     options_.progress = false;  // several cannot share one line
     for (const std::uint32_t number : placement_.here) width_ = std::max(width_, name_of(number).size());
     ends_.resize(placement_.here.size());
@@ -59,7 +70,7 @@ class DeployedRun final : public ProcessSetListener {
         placement_.here.size(),
         [this](std::size_t which, unsigned start) { return command_of(which, start); }, policy, *this);
     stopped_by_ = set.run();
-    print_table();
+    said_->write(table());
     return exit_code();
   }
 
@@ -67,12 +78,10 @@ class DeployedRun final : public ProcessSetListener {
     file_.started(placement_.here[which], start, pid);
   }
   void said(std::size_t which, std::string_view line) override {
-    if (coloured_)
-      fmt::print("\033[{}m{:<{}} |\033[0m {}\n", colours[which % colours.size()],
-                 name_of(placement_.here[which]), width_, line);
-    else
-      fmt::print("{:<{}} | {}\n", name_of(placement_.here[which]), width_, line);
-    std::fflush(stdout);
+    const std::string& name = name_of(placement_.here[which]);
+    said_->write(coloured_ ? fmt::format("\033[{}m{:<{}} |\033[0m {}\n", colours[which % colours.size()],
+                                         name, width_, line)
+                           : fmt::format("{:<{}} | {}\n", name, width_, line));
   }
   void ended(const ProcessEnd& end, std::optional<std::chrono::milliseconds> again_in) override {
     const std::uint32_t number = placement_.here[end.process];
@@ -89,6 +98,7 @@ class DeployedRun final : public ProcessSetListener {
                                                      : ""));
   }
   void stopping(int signal) override {
+    asked_by_ = signal == 0 ? SIGTERM : signal;
     tell(signal == 0 ? "one process has failed: all are stopped (--on-failure go-on lets the others go on)"
                      : fmt::format("{}: all processes are stopped", signal_name(signal)));
   }
@@ -117,9 +127,10 @@ class DeployedRun final : public ProcessSetListener {
     const std::uint32_t number = placement_.here[which];
     return process_command(controller_, options_, deploy_.network, name_of(number), files_of(number, start));
   }
-  static void tell(const std::string& text) {
-    std::fflush(stdout);
-    terminal().say("tessera: " + text + "\n");
+  void tell(const std::string& text) {
+    said_->settle(std::chrono::milliseconds(100));  // usually both are one terminal
+    told_->write("tessera: " + text + "\n");
+    told_->settle(std::chrono::milliseconds(100));
   }
 
   [[nodiscard]] nlohmann::json summary_of(std::uint32_t number, unsigned start) const {
@@ -130,36 +141,43 @@ class DeployedRun final : public ProcessSetListener {
   /// One that was asked to stop has failed if it died, or says so itself.
   [[nodiscard]] bool has_failed(std::uint32_t number, const ProcessEnd& end) const {
     if (!end.asked) return end.exit.code != 0;
+    if (never_began(number, end)) return false;
     const nlohmann::json summary = summary_of(number, end.start);
     return summary.empty() || summary.value("failed", false);
+  }
+  /// The signal came before the controller could handle it: it has moved nothing.
+  [[nodiscard]] bool never_began(std::uint32_t number, const ProcessEnd& end) const {
+    return end.asked && end.exit.code == 128 + asked_by_ && end.ran < std::chrono::seconds(2) &&
+           summary_of(number, end.start).empty();
   }
   [[nodiscard]] std::string how_it_ended(std::uint32_t number, const ProcessEnd& end) const {
     const nlohmann::json summary = summary_of(number, end.start);
     if (!summary.empty()) return "ended: " + summary.value("ended", std::string("no reason given"));
+    if (never_began(number, end)) return "stopped before it had begun";
     const std::string death = describe_death(end.exit, files_of(number, end.start).note);
     if (!death.empty()) return death;
     return fmt::format("could not start (exit code {})", end.exit.code);
   }
 
-  void print_table() const {
-    fmt::print("\n{:<{}}  {:>6}  {:>9}  {:>10}  {}\n", "process", std::max<std::size_t>(width_, 7), "starts",
-               "ran", "firings", "end");
+  [[nodiscard]] std::string table() const {
+    const std::size_t width = std::max<std::size_t>(width_, 7);
+    std::string text = fmt::format("\n{:<{}}  {:>6}  {:>9}  {:>10}  {}\n", "process", width, "starts", "ran",
+                                   "firings", "end");
     for (std::size_t which = 0; which < ends_.size(); ++which) {
       const End& end = ends_[which];
       const std::uint32_t number = placement_.here[which];
       if (end.starts == 0) {
-        fmt::print("{:<{}}  not started\n", name_of(number), std::max<std::size_t>(width_, 7));
+        text += fmt::format("{:<{}}  not started\n", name_of(number), width);
         continue;
       }
       const nlohmann::json summary = summary_of(number, end.starts);
       const std::string firings =
           summary.contains("firings") ? summary.at("firings").dump() : std::string("-");
-      fmt::print("{:<{}}  {:>6}  {:>7.1f} s  {:>10}  {}\n", name_of(number), std::max<std::size_t>(width_, 7),
-                 end.starts, std::chrono::duration<double>(end.end.ran).count(), firings, end.how);
+      text += fmt::format("{:<{}}  {:>6}  {:>7.1f} s  {:>10}  {}\n", name_of(number), width, end.starts,
+                          std::chrono::duration<double>(end.end.ran).count(), firings, end.how);
     }
-    fmt::print("recordings in {}; `tessera replay --check {}` checks them together\n", folder_.string(),
-               shell_line({folder_.string()}));
-    std::fflush(stdout);
+    return text + fmt::format("recordings in {}; `tessera replay --check {}` checks them together\n",
+                              folder_.string(), shell_line({folder_.string()}));
   }
 
   [[nodiscard]] int exit_code() const {
@@ -175,9 +193,11 @@ class DeployedRun final : public ProcessSetListener {
   Placement placement_;
   bool coloured_, any_failed_ = false;
   DeploymentFile file_;
+  /// Standard output and error. Pointers: their threads hold on to where they are.
+  std::unique_ptr<UnhurriedOutput> told_, said_;
   std::size_t width_ = 0;
   std::vector<End> ends_;
-  int stopped_by_ = 0;
+  int stopped_by_ = 0, asked_by_ = 0;
 };
 
 /// What a person has to start on other machines.

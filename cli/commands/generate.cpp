@@ -20,6 +20,7 @@ namespace {
 
 struct GenerateCommandOptions {
   std::string spec = ".", output, json, systemd;
+  std::vector<std::string> sources;
   bool stubs = false, build = false;
   VerificationGate gate;
 };
@@ -29,7 +30,8 @@ Generated generate_alone(const Verified& verified, const GenerateCommandOptions&
       options.output.empty()
           ? take_build_lock(state_folder(verified.specification.project), terminal(), nullptr)
           : std::nullopt;
-  return generate(verified, {options.stubs, options.output});
+  return generate(verified,
+                  {options.stubs, options.output, {options.sources.begin(), options.sources.end()}});
 }
 
 int generate_command(const GenerateCommandOptions& options) {
@@ -75,6 +77,10 @@ void add_generate(CommandLine& app, int& exit_code) {
   declare_specification(command, options->spec);
   command.option("-o,--output", options->output,
                  "Folder for the generated files (default: .tessera/generated)");
+  command
+      .option("--sources", options->sources,
+              "A source with transition functions, instead of all in src/ (for builds of your own)")
+      .repeated();
   command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
   command
       .flag("--build", options->build,

@@ -32,8 +32,8 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
   return controller.send(project::line_of(command, question));
 }
 
-/// What the controller answers: what is wrong; nullopt: nothing.
-std::optional<Problem> answer_of(RunningController& controller) {
+/// nullopt: it has ended, or does not answer.
+std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
   // Beside answers it sends what it does, several times a second: lines come as long as it lives.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
@@ -41,26 +41,62 @@ std::optional<Problem> answer_of(RunningController& controller) {
     if (!said) break;
     std::optional<project::ControlLine> line = project::read_control_line(*said);
     auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
-    if (answer != nullptr && answer->id == question)
-      return answer->error.empty() ? std::nullopt : std::optional(Problem{std::move(answer->error)});
+    if (answer != nullptr && answer->id == question) return std::move(*answer);
   }
-  return Problem{controller.name() + " has ended, or does not answer"};
+  return std::nullopt;
 }
 
-std::optional<Problem> ask(RunningController& controller, const project::ControlCommand& command) {
-  tell(controller, command);
-  return answer_of(controller);
+/// What is wrong; nullopt: nothing.
+std::optional<Problem> problem_of(const RunningController& controller,
+                                  const std::optional<project::CommandAnswer>& answer) {
+  if (!answer) return Problem{controller.name() + " has ended, or does not answer"};
+  return answer->error.empty() ? std::nullopt : std::optional(Problem{answer->error});
+}
+
+/// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty after the
+/// reason has been printed why there is none, or why they are not meant together.
+std::vector<SeenController> find_system(const std::string& which) {
+  std::vector<SeenController> seen = first_look(find_controllers(which));
+  if (seen.size() <= 1 || common_deployment(seen)) return seen;
+  complain_of_several(seen);
+  return {};
+}
+
+/// Each process that has the parameter takes its value. Returns the exit code.
+int set_in_all(std::vector<SeenController>& processes, const project::command::Set& command) {
+  for (SeenController& one : processes) tell(one.controller, command);
+  bool taken = false, silent = false;
+  std::string unknown;
+  int code = ok;
+  for (SeenController& one : processes) {
+    const std::optional<project::CommandAnswer> answer = answer_of(one.controller);
+    const std::string name = one.snapshot ? one.snapshot->name.value_or("") : one.controller.name();
+    if (!answer) {
+      silent = true;
+      code = complain(name + " has ended, or does not answer: nobody knows whether it takes " + command.path +
+                      "=" + command.value);
+    } else if (answer->elsewhere) {
+      if (unknown.empty() || answer->error.size() > unknown.size()) unknown = answer->error;  // with a hint
+    } else if (answer->error.empty()) {
+      taken = true;
+      if (processes.size() > 1) fmt::print("{}: {}={}\n", name, command.path, command.value);
+    } else {
+      taken = true;
+      code = complain(processes.size() > 1 ? name + ": " + answer->error : answer->error);
+    }
+  }
+  if (!taken && !silent) code = complain(unknown);
+  return code;
 }
 
 int set_command(const OperateOptions& options) {
-  std::optional<RunningController> controller = find_controller(options.which);
-  if (!controller) return failed;
+  std::vector<SeenController> processes = find_system(options.which);
+  if (processes.empty()) return failed;
   int code = ok;
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
-    const project::command::Set command{one.substr(0, equals), one.substr(equals + 1)};
-    if (const std::optional<Problem> wrong = ask(*controller, command)) code = complain(wrong->text);
+    if (set_in_all(processes, {one.substr(0, equals), one.substr(equals + 1)}) != ok) code = failed;
   }
   return code;
 }
@@ -73,7 +109,7 @@ int emergency_stop_command(const OperateOptions& options) {
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
   for (RunningController& one : controllers) {
-    if (const std::optional<Problem> wrong = answer_of(one); !wrong)
+    if (const std::optional<Problem> wrong = problem_of(one, answer_of(one)); !wrong)
       fmt::print("{}: emergency stop\n", one.name());
     else
       code = complain(wrong->text + ": nobody knows whether its devices are safe");
@@ -81,10 +117,43 @@ int emergency_stop_command(const OperateOptions& options) {
   return code;
 }
 
+/// The processes of a deployed system that have an emergency stop. To move devices again is nothing that
+/// should happen to a system that was not named.
+int reset_processes(std::vector<SeenController>& processes, const std::string& system) {
+  std::vector<SeenController*> stopped;
+  int code = ok;
+  for (SeenController& one : processes) {
+    if (!one.snapshot)
+      code = complain(one.controller.name() + " says nothing: nobody knows whether it has an emergency stop");
+    else if (one.snapshot->emergency)
+      stopped.push_back(&one);
+  }
+  if (stopped.empty() && code == ok)
+    return complain("no process of " + system + " on this machine has an emergency stop");
+  for (SeenController* one : stopped) tell(one->controller, project::command::Reset{});
+  for (SeenController* one : stopped) {
+    if (const std::optional<Problem> wrong = problem_of(one->controller, answer_of(one->controller)))
+      code = complain(one->snapshot->name.value_or("") + ": " + wrong->text);
+    else
+      fmt::print("{}: the emergency stop is over ({})\n", one->snapshot->name.value_or(""),
+                 *one->snapshot->emergency);
+  }
+  return code;
+}
+
 int reset_command(const OperateOptions& options) {
-  std::optional<RunningController> controller = find_controller(options.which);
-  if (!controller) return failed;
-  const std::optional<Problem> wrong = ask(*controller, project::command::Reset{});
+  std::vector<SeenController> seen = first_look(find_controllers(options.which));
+  if (seen.empty()) return failed;
+  const std::optional<std::string> system = common_deployment(seen);
+  if (system && options.which == *system) return reset_processes(seen, *system);
+  if (seen.size() > 1) {
+    complain_of_several(seen);
+    if (system) fmt::print(stderr, "hint: `tessera reset {}` resets all of them\n", *system);
+    return failed;
+  }
+  tell(seen.front().controller, project::command::Reset{});
+  const std::optional<Problem> wrong =
+      problem_of(seen.front().controller, answer_of(seen.front().controller));
   return wrong ? complain(wrong->text) : ok;
 }
 
@@ -104,7 +173,8 @@ void add_set(CommandLine& app, int& exit_code) {
   declare_controller(command, *options);
   command.footer(
       "A value that does not fit the parameter's type and range is refused. A subsystem takes the new value\n"
-      "just before it calls a transition function, and the recording says when.\n"
+      "just before it calls a transition function, and the recording says when. In a system of several\n"
+      "processes, each one on this machine that has the parameter takes it and is named.\n"
       "Example: tessera set v=0.15 robot.control.w=1");
   command.callback([options, &exit_code] { exit_code = set_command(*options); });
 }
@@ -126,7 +196,11 @@ void add_reset(CommandLine& app, int& exit_code) {
   Subcommand command =
       app.add("reset", "End the emergency stop of a running controller: its devices move again");
   auto options = std::make_shared<OperateOptions>();
-  declare_controller(command, *options);
+  command.option("controller,--controller", options->which,
+                 "Its system, its process (cart[0]) or its process number; needed if several run");
+  command.footer(
+      "Of a system of several processes, name the system: all its processes on this machine that have an\n"
+      "emergency stop are reset.");
   command.callback([options, &exit_code] { exit_code = reset_command(*options); });
 }
 

@@ -226,10 +226,10 @@ bool known_values(const Recording& recording, const std::string& wanted) {
   return false;
 }
 
-/// The last run of this project, wherever its files are kept.
-std::string last_recording() {
-  const fs::path kept = state_folder(fs::canonical(".")) / "last";
-  for (const fs::path& last : {fs::path(usual_recording).parent_path(), kept}) {
+/// The last run of the project in this folder, wherever its files are kept.
+std::string last_recording(const fs::path& project = ".") {
+  const fs::path kept = state_folder(fs::canonical(project)) / "last";
+  for (const fs::path& last : {(project / usual_recording).parent_path().lexically_normal(), kept}) {
     if (fs::exists(last / file_names::recording)) return (last / file_names::recording).string();
     if (fs::exists(last / file_names::deployment)) return last.string();
   }
@@ -296,6 +296,8 @@ std::vector<std::string> all_recordings(const std::vector<std::string>& given) {
 
 int replay_command(ReplayOptions options) {
   if (options.recordings.empty()) options.recordings.push_back(last_recording());
+  for (std::string& given : options.recordings)
+    if (fs::exists(fs::path(given) / "spec.yaml")) given = last_recording(given);
   options.recordings = all_recordings(options.recordings);
   if (options.recordings.empty()) return complain("there is no recording in this folder"), failed;
   options.recording = options.recordings.front();
@@ -344,7 +346,7 @@ void add_replay(CommandLine& app, int& exit_code) {
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
   auto options = std::make_shared<ReplayOptions>();
   command.option("recording", options->recordings,
-                 std::string("Recording of a run (default: ") + usual_recording +
+                 std::string("Recording of a run, or a project: its last one (default: ") + usual_recording +
                      "); several with --coverage, or with --check those of a deployed system");
   command.flag("--check", options->check,
                "Play it on the net of its specification: is it a legal firing sequence?");

@@ -29,7 +29,7 @@ namespace {
 constexpr int most_jobs = 4096;
 
 struct SimulateOptions : LaunchOptions {
-  std::string json, report, scenario, from, coverage;
+  std::string json, report, scenario, from, coverage, ros2_clock;
   bool realtime = false, interleave = false;
   ScheduleOptions schedules;
   std::uint64_t steps = PlayOptions{}.steps;
@@ -41,19 +41,12 @@ struct RunCommandOptions : LaunchOptions {
   DeployOptions deploy;
 };
 
-int print_debugger(const Command& command) {
-  Command line{"gdb", "--args"};
-  line.insert(line.end(), command.begin(), command.end());
-  fmt::print("{}\n", shell_line(line));
-  return ok;
-}
-
 // Even a run that failed writes a summary, which says why. Only a controller that
 // could not start leaves none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
            const Command& command, const std::string& json, const std::string& report_folder,
            const std::string& coverage = {}) {
-  if (options.debug) return print_debugger(command);
+  if (options.debug) return print_debugger_line(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
   const Exit exit = run(with_death_note(command, note));
@@ -106,7 +99,7 @@ int run_again(const Controller& controller, const SimulateOptions& options) {
                   "--summary",
                   files.summary.string()};
   for (const std::string& value : options.set) command.insert(command.end(), {"--set", value});
-  if (options.debug) return print_debugger(command);
+  if (options.debug) return print_debugger_line(command);
   const Exit exit = run(command);
   if (!options.json.empty() && std::filesystem::exists(files.summary))
     write_output(options.json, nlohmann::json::parse(std::ifstream(files.summary)).dump(2) + "\n");
@@ -162,6 +155,10 @@ int simulate_command(SimulateOptions options) {
   Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
   if (options.interleave) command.push_back("--interleave");
   if (options.realtime) command.push_back("--realtime");
+  if (!options.ros2_clock.empty()) {
+    command.emplace_back("--ros2-clock");
+    command.push_back(options.ros2_clock);
+  }
   if (!options.scenario.empty()) {
     command.emplace_back("--scenario");
     command.push_back(std::filesystem::absolute(options.scenario).string());
@@ -238,6 +235,12 @@ void add_simulate(CommandLine& app, int& exit_code) {
       "--interleave", options->interleave,
       "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
   command.flag("--realtime", options->realtime, "Not faster than the wall clock");
+  command
+      .option(
+          "--ros2-clock", options->ros2_clock,
+          "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
+          "then not faster than the wall clock (docs/ros2.md)")
+      .excludes(schedules);
   command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
       .shows_default();
   command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
@@ -247,9 +250,9 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.option("--network", options->network,
                  "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
                  "duplicate=0.01,reorder=0.05 (docs/fleets.md)");
-  for (const char* other :
-       {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit", "--track", "--start",
-        "--scenario", "--schedules", "--coverage", "--interleave", "--realtime", "--report", "--hardware"})
+  for (const char* other : {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit",
+                            "--track", "--start", "--scenario", "--schedules", "--coverage", "--interleave",
+                            "--realtime", "--report", "--hardware", "--ros2-clock"})
     from.excludes(command.declared(other));
   for (const char* other : {"--schedules", "--scenario"})
     command.declared("--hardware").excludes(command.declared(other));

@@ -59,14 +59,18 @@ void open_browser(const std::string& url) {
 }
 
 int studio_command(const StudioCommandOptions& options) {
-  const fs::path given = project::spec_file(options.spec);
-  if (fs::is_directory(given) || !fs::exists(given))
-    return complain(fmt::format(
-        "there is no specification {}; `tessera new NAME` makes a project",
-        fs::is_directory(given) ? (given / project::file_names::specification).string() : given.string()));
+  fs::path given = project::spec_file(options.spec);
+  if (fs::is_directory(given)) given /= project::file_names::specification;
+  const bool is_there = fs::exists(given);
+  // Only a name that was meant for a specification is one to begin: others are most likely mistyped.
+  const bool can_begin = given.extension() == ".yaml" || given.extension() == ".yml";
+  const fs::path folder = fs::absolute(given).parent_path();
+  if (!is_there && !(can_begin && fs::is_directory(folder)))
+    return complain(
+        fmt::format("there is no specification {}; `tessera new NAME` makes a project", given.string()));
   const project::Installation installation = project::Installation::find();
   server::StudioOptions studio;
-  studio.spec = fs::canonical(given);
+  studio.spec = is_there ? fs::canonical(given) : fs::canonical(folder) / given.filename();
   studio.port = options.port;
   studio.page = installation.share / "studio";  // in the build tree: a link to the output of Vite
   studio.share = installation.share;
@@ -78,6 +82,7 @@ int studio_command(const StudioCommandOptions& options) {
   fmt::print("{}\n", running.url());
   std::fflush(stdout);
   fmt::print(stderr, "studio of {}; Ctrl-C ends it\n", studio.spec.string());
+  if (!is_there) fmt::print(stderr, "this file does not exist yet; the page offers ways to begin\n");
   if (!options.no_browser) open_browser(running.url());
   signals.wait();
   return ok;

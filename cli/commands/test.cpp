@@ -1,26 +1,31 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/commands/commands.hpp"
+#include "cli/coverage.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "project/build/controller.hpp"
+#include "project/build/line_coverage.hpp"
 #include "project/process/process.hpp"
 
 namespace tessera::cli {
 
 using namespace project;
+namespace fs = std::filesystem;
 
 namespace {
 
 struct TestOptions {
   std::string spec = ".", filter;
-  bool debug = false;
+  bool debug = false, coverage = false;
   VerificationGate gate;
 };
 
@@ -52,6 +57,49 @@ int complain_of_no_tests(const std::string& program, const std::string& filter) 
   return complain(fmt::format("no test matches --filter {}; there are {}", filter, list));
 }
 
+/// Says which lines of the user's functions the tests have not reached, and which parts of the net their
+/// simulations have not.
+void report_reached(const Specification& specification, const fs::path& recordings) {
+  std::size_t all = 0, missed = 0;
+  fmt::print("\nlines of src/ that the tests have reached:\n");
+  for (const LineCoverage& one : line_coverage(specification)) {
+    all += one.lines;
+    missed += one.missed.size();
+    fmt::print("  {:<32} {:>4} of {}{}\n", one.file.string(), one.lines - one.missed.size(), one.lines,
+               one.missed.empty() ? "" : ", not " + ranges_of(one.missed));
+  }
+  fmt::print("  {:<32} {:>4} of {}\n", "all", all - missed, all);
+  CoverageInput input(specification);
+  bool any = false;
+  for (const auto& entry : fs::directory_iterator(recordings)) {
+    input.add_file(entry.path().string());
+    any = true;
+  }
+  if (!any) {
+    fmt::print("\nno test runs the system (docs/testing.md), so nothing is said about the net\n");
+    return;
+  }
+  fmt::print("\nthe net, in the runs of the tests:\n");
+  report_coverage(input, shown_only, true);
+}
+
+/// Runs the tests of a project, and deletes the recordings of their runs.
+int run_with_coverage(const Specification& specification, const Command& command) {
+  std::string folder = (fs::temp_directory_path() / "tessera-coverage-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) return complain("cannot make a folder in " + folder);
+  setenv("TESSERA_TEST_RECORDINGS", folder.c_str(), 1);
+  clear_line_coverage(specification);
+  const int code = run(command).code;
+  try {
+    report_reached(specification, folder);
+  } catch (...) {
+    fs::remove_all(folder);
+    throw;
+  }
+  fs::remove_all(folder);
+  return code == 0 ? ok : failed;
+}
+
 int test_command(const TestOptions& options) {
   std::error_code ignored;
   const std::filesystem::path given(options.spec);
@@ -59,12 +107,15 @@ int test_command(const TestOptions& options) {
   if (!std::filesystem::exists(project / "test", ignored))
     return complain(fmt::format("{} has no test/ folder: put GoogleTest files there",
                                 std::filesystem::absolute(project).string()));
-  const std::optional<Controller> tests =
-      make_controller(options.spec, {options.debug, "tests", options.gate}, terminal());
+  const std::optional<Controller> tests = make_controller(
+      options.spec,
+      {.debug = options.debug, .target = "tests", .gate = options.gate, .coverage = options.coverage},
+      terminal());
   if (!tests) return exit_code_without_net();
   Command command{tests->program.string()};
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
   if (names_of_tests(command).empty()) return complain_of_no_tests(tests->program.string(), options.filter);
+  if (options.coverage) return run_with_coverage(tests->specification, command);
   return run(command).code == 0 ? ok : failed;
 }
 
@@ -76,6 +127,10 @@ void add_test(CommandLine& app, int& exit_code) {
   declare_specification(command, options->spec);
   command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
   command.flag("--debug", options->debug, "Build the tests for gdb");
+  command
+      .flag("--coverage", options->coverage,
+            "Show which lines of src/, and which parts of the net, the tests have not reached")
+      .excludes(command.declared("--debug"));
   declare_verification_gate(command, options->gate);
   command.footer("Example: tessera test --filter 'Follow.*'");
   command.callback([options, &exit_code] { exit_code = test_command(*options); });

@@ -10,7 +10,7 @@
 namespace tessera::dds {
 
 /// Of the messages that carry values, states and signs of life. Those of another version are never read.
-inline constexpr std::uint32_t wire_version = 1;
+inline constexpr std::uint32_t wire_version = 2;
 
 /// What each process says of itself to all others of its domain.
 struct Announcement {

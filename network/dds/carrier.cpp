@@ -35,6 +35,23 @@ ReceivedState fields(const tessera_wire_State& sample) {
           .taken = sample.taken};
 }
 
+ReceivedAlive fields(const tessera_wire_Alive& sample) {
+  return {.process = sample.process,
+          .incarnation = sample.incarnation,
+          .number = sample.number,
+          .sent_ns = sample.sent_ns,
+          .wall_ns = sample.wall_ns,
+          .echo_process = sample.echo_process,
+          .echo_incarnation = sample.echo_incarnation,
+          .echo_ns = sample.echo_ns,
+          .held_ns = sample.held_ns};
+}
+
+std::chrono::nanoseconds wall_time() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::system_clock::now().time_since_epoch());
+}
+
 Announcement fields(const tessera_wire_Announcement& sample) {
   return {.incarnation = sample.incarnation,
           .system = sample.system,
@@ -62,6 +79,10 @@ class Attentive final : public network::Carrier::Listener {
     told_ = true;
     listener_.reachable(process, is_there);
   }
+  // It changes nothing that anybody waits for.
+  void alive(ProcessNumber process, const network::SignsOfLife& signs) override {
+    listener_.alive(process, signs);
+  }
   void complaint(std::string_view text) override {
     told_ = true;
     listener_.complaint(text);
@@ -84,6 +105,7 @@ DdsCarrier::DdsCarrier(const network::CarrierSetup& setup)
     : deployment_(deployment_of(setup)),
       presence_(deployment_),
       announcements_(deployment_),
+      signs_(deployment_),
       endpoints_(deployment_, setup.domain, locate(setup.interface, setup.peers)),
       // One byte more than the longest, so that a longer one is noticed.
       room_(deployment_.longest_received_bytes() + 1) {}
@@ -153,7 +175,16 @@ void DdsCarrier::give_sign_of_life(Clock::time_point now) {
   if (now < next_sign_of_life_) return;
   next_sign_of_life_ = now + sign_of_life_period;
   if (endpoints_.alive_writer() == 0) return;
-  const tessera_wire_Alive sample{.process = deployment_.process, .incarnation = deployment_.incarnation};
+  const ReceivedAlive sign = signs_.next(now.time_since_epoch(), wall_time());
+  const tessera_wire_Alive sample{.process = sign.process,
+                                  .incarnation = sign.incarnation,
+                                  .number = sign.number,
+                                  .sent_ns = sign.sent_ns,
+                                  .wall_ns = sign.wall_ns,
+                                  .echo_process = sign.echo_process,
+                                  .echo_incarnation = sign.echo_incarnation,
+                                  .echo_ns = sign.echo_ns,
+                                  .held_ns = sign.held_ns};
   dds_write(endpoints_.alive_writer(), &sample);
 }
 
@@ -218,15 +249,22 @@ void DdsCarrier::take_alive(Listener& listener, Clock::time_point now) {
   dds_sample_info_t info{};
   for (int taken = 0; taken < most_at_once && dds_take(endpoints_.alive(), &pointer, &info, 1, 1) == 1;
        ++taken) {
-    const ReceivedAlive alive{.process = sample.process, .incarnation = sample.incarnation};
+    const ReceivedAlive alive = fields(sample);
     const Refusal refusal = check(alive, deployment_);
     if (refusal != Refusal::none)
       dropped_.add([&] { return description(refusal, alive, deployment_); });
     else if (info.instance_state == DDS_IST_ALIVE)
-      presence_.heard(alive.process, alive.incarnation, now, listener);
+      hear(alive, info.valid_data, listener, now);
     else
       presence_.left(alive.process, alive.incarnation, listener);
   }
+}
+
+void DdsCarrier::hear(const ReceivedAlive& alive, bool whole, Listener& listener, Clock::time_point now) {
+  presence_.heard(alive.process, alive.incarnation, now, listener);
+  if (!whole) return;  // the middleware tells only that it is there
+  if (const auto signs = signs_.hear(alive, Clock::now().time_since_epoch(), wall_time()))
+    listener.alive(alive.process, *signs);
 }
 
 void DdsCarrier::take_announcements(Listener& listener) {

@@ -9,6 +9,8 @@
 #include "network/dds/dropped.hpp"
 #include "network/dds/endpoints.hpp"
 #include "network/dds/presence.hpp"
+#include "network/dds/received.hpp"
+#include "network/dds/signs_of_life.hpp"
 #include "wire.h"
 
 namespace tessera::dds {
@@ -40,6 +42,7 @@ class DdsCarrier final : public network::Carrier {
   void take_announcements(Listener& listener);
   void hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now);
   void hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now);
+  void hear(const ReceivedAlive& alive, bool whole, Listener& listener, Clock::time_point now);
   void give_sign_of_life(Clock::time_point now);
   [[nodiscard]] Clock::time_point next_event() const;
   void count_unsent(dds_return_t result, const Channel& channel);
@@ -47,6 +50,7 @@ class DdsCarrier final : public network::Carrier {
   Deployment deployment_;
   Presence presence_;
   Announcements announcements_;
+  SignsOfLife signs_;
   Dropped dropped_{"dropped"}, unsent_{"could not send"};
   Endpoints endpoints_;
   Clock::time_point next_sign_of_life_ = Clock::time_point::min();

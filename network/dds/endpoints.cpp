@@ -35,7 +35,7 @@ Qos qos_of_data() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_VOLAT
 Qos qos_of_state() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL); }
 Qos qos_of_alive() { return newest(DDS_RELIABILITY_BEST_EFFORT, DDS_DURABILITY_VOLATILE); }
 
-/// "tessera/1/line/0a1b/2c3d/data". Other versions, systems, nets and lists of processes do not match.
+/// "tessera/2/line/0a1b/2c3d/data". Other versions, systems, nets and lists of processes do not match.
 std::string topic_name(const Deployment& deployment, const char* what) {
   std::string name = "tessera/" + std::to_string(wire_version) + "/" + deployment.system + "/" +
                      deployment.net_hash + "/" + deployment.processes_hash + "/" + what;

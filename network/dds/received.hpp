@@ -24,6 +24,11 @@ struct ReceivedState {
 struct ReceivedAlive {
   std::uint32_t process = 0;
   std::uint64_t incarnation = 0;
+  std::uint64_t number = 0;
+  std::int64_t sent_ns = 0, wall_ns = 0;
+  std::uint32_t echo_process = 0;
+  std::uint64_t echo_incarnation = 0;
+  std::int64_t echo_ns = 0, held_ns = 0;
 };
 
 /// Why a message is dropped. No process of the deployment sends one like it.

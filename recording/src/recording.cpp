@@ -91,11 +91,10 @@ void read_run(const nlohmann::json& header, Recording& recording) {
     read_run(header, recording);
     if (!read_deployment(header, recording)) return false;
     if (header.contains("scene") && !read_scene(header.at("scene"), recording)) return false;
-    if (header.contains("values")) return read_buffers(header.at("values"), recording);
+    return !header.contains("values") || read_buffers(header.at("values"), recording);
   } catch (const nlohmann::json::exception&) {
     return false;
   }
-  return true;
 }
 
 constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 1;
@@ -129,6 +128,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::safe:
     case Event::Kind::parameter:
     case Event::Kind::peer:
+    case Event::Kind::process:
       return true;
     case Event::Kind::call:
       return event.instance() < recording.behaviours.size() &&

@@ -157,6 +157,13 @@ std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
   return value.empty() ? std::optional(std::move(parts)) : std::nullopt;
 }
 
+/// As the buffer has it: unsigned, and little-endian.
+void put_number(std::uint64_t number, const Plan::Block& block, std::vector<std::byte>& value) {
+  const std::size_t first = value.size(), size = size_of(block.primitive);
+  value.resize(first + size);
+  std::memcpy(value.data() + first, &number, size);
+}
+
 class MessageWriter {
  public:
   MessageWriter(CdrWriter writer, std::vector<std::span<const std::byte>> parts,
@@ -266,7 +273,15 @@ class MessageWriter {
 
 }  // namespace
 
-Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value) const {
+std::optional<std::uint64_t> Plan::own_value(std::size_t block, std::span<const std::uint64_t> own) const {
+  const auto field = std::ranges::find(own_, std::optional(block));
+  if (field == own_.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(field - own_.begin());
+  return index < own.size() ? own[index] : 0;
+}
+
+Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value,
+                           std::span<const std::uint64_t> own) const {
   // The data may be padded to four bytes. More than that belongs to another definition of the message.
   constexpr std::size_t most_padding = 3;
   auto reader = CdrReader::open(message);
@@ -283,11 +298,37 @@ Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::
   }
   ValueWriter writer(*reader);
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    if (const auto number = own_value(block, own)) {
+      put_number(*number, blocks_[block], writer.value());
+      continue;
+    }
     const Outcome outcome = writer.add(finder.blocks()[block], blocks_[block], order, finder.names().count);
     if (outcome != Outcome::good) return outcome;
   }
   value = std::move(writer.value());
   return Outcome::good;
+}
+
+std::vector<std::byte> Plan::empty_value(std::span<const std::uint64_t> own) const {
+  std::vector<std::byte> value;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    if (const auto number = own_value(block, own)) {
+      put_number(*number, blocks_[block], value);
+      continue;
+    }
+    const bool text = blocks_[block].primitive == Primitive::string;
+    const std::size_t one = text ? sizeof(std::uint32_t) : size_of(blocks_[block].primitive);
+    value.resize(value.size() + one * blocks_[block].count);
+  }
+  return value;
+}
+
+std::uint64_t Plan::own_number(std::span<const std::byte> value, std::size_t field) const {
+  const auto parts = parts_of_value(value, blocks_);
+  if (!own_[field] || !parts) return 0;
+  std::uint64_t number = 0;
+  std::memcpy(&number, (*parts)[*own_[field]].data(), size_of(blocks_[*own_[field]].primitive));
+  return number;
 }
 
 bool Plan::encode(std::span<const std::byte> value, const Stamp& stamp,

@@ -17,6 +17,14 @@ namespace tessera::ros2 {
 
 enum class Direction : std::uint8_t { receive, send };
 
+/// A number of the buffer that the driver gives or takes, because no message has it.
+struct OwnField {
+  std::string name;
+  std::vector<Primitive> types;  ///< any of these
+  bool needed = true;
+  std::string meaning{};  ///< "the number of the call", for complaints
+};
+
 /// How a message and a real buffer correspond.
 struct Mapping {
   /// Field of the message -> field of the buffer: {"linear.x", "v"}. An empty field of the buffer is all of
@@ -28,6 +36,8 @@ struct Mapping {
   std::vector<std::string> names{};
   /// What is sent as `header.frame_id`.
   std::string frame_id{};
+  /// Fields of the buffer that are no part of the message.
+  std::vector<OwnField> own{};
 };
 
 /// What is wrong with a mapping.
@@ -64,7 +74,17 @@ class Plan {
     other_names    ///< one of Mapping::names is missing, or is there twice
   };
   /// The value is unchanged unless the outcome is good. Reads any bytes safely.
-  [[nodiscard]] Outcome decode(std::span<const std::byte> message, std::vector<std::byte>& value) const;
+  ///
+  /// own: values of Mapping::own; those that are missing are 0.
+  [[nodiscard]] Outcome decode(std::span<const std::byte> message, std::vector<std::byte>& value,
+                               std::span<const std::uint64_t> own = {}) const;
+  /// A value without a message: numbers are 0 and strings empty, except for its own fields.
+  [[nodiscard]] std::vector<std::byte> empty_value(std::span<const std::uint64_t> own) const;
+  /// The number in an own field of a value; 0: the buffer has no such field, or the value is none of its
+  /// type.
+  [[nodiscard]] std::uint64_t own_number(std::span<const std::byte> value, std::size_t field) const;
+  /// Whether the buffer has that field of Mapping::own.
+  [[nodiscard]] bool has_own(std::size_t field) const { return own_[field].has_value(); }
 
   /// false: the value has not the bytes of its type. The message replaces what is in `message`.
   [[nodiscard]] bool encode(std::span<const std::byte> value, const Stamp& stamp,
@@ -90,9 +110,13 @@ class Plan {
  private:
   friend class Planner;
   Plan() = default;
+  /// What a block has that is an own field; nullopt: it is none.
+  [[nodiscard]] std::optional<std::uint64_t> own_value(std::size_t block,
+                                                       std::span<const std::uint64_t> own) const;
   std::shared_ptr<const Structure> message_;
   std::vector<Step> steps_;
   std::vector<Block> blocks_;
+  std::vector<std::optional<std::size_t>> own_;  ///< the block of each own field
   std::vector<std::string> names_;
   std::string frame_id_;
 };

@@ -63,7 +63,7 @@ class Planner {
       wrong("the buffer has too many structures", "use arrays of numbers");
       return std::nullopt;
     }
-    if (!refuse_wide_strings(*plan_.message_) || !check_fills()) return std::nullopt;
+    if (!refuse_wide_strings(*plan_.message_) || !check_fills() || !take_own_fields()) return std::nullopt;
     mapping_.fields.empty() ? map_by_names() : map_as_told();
     if (problems_.size() == before) complain_of_rest();
     if (problems_.size() != before) return std::nullopt;
@@ -153,6 +153,32 @@ class Planner {
       if (sec->type.primitive == Primitive::int32) sec->fill = Plan::Fill::stamp_sec;
     if (Plan::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
       if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
+  }
+
+  /// Fields that the driver fills or takes are no part of the message.
+  bool take_own_fields() {
+    bool good = true;
+    for (const OwnField& own : mapping_.own) {
+      const ValueType::Member* const member = value_.count == 0 ? value_.find(own.name) : nullptr;
+      plan_.own_.emplace_back();
+      if (member == nullptr && !own.needed) continue;
+      if (member == nullptr || member->type.count != 0 ||
+          std::ranges::find(own.types, member->type.primitive) == own.types.end()) {
+        const std::string type = name_of(own.types.front());
+        wrong(member == nullptr
+                  ? "the buffer needs a field " + in_quotes(own.name) + ", " + own.meaning
+                  : shown(own.name) + ", " + own.meaning + ", cannot be of type " + member->type.text(),
+              "give it a structure with a field " + own.name + ": " + type);
+        good = false;
+        continue;
+      }
+      plan_.own_.back() = block_of_.at(own.name);
+      used_.insert(*plan_.own_.back());
+    }
+    return good;
+  }
+  [[nodiscard]] bool is_own(const std::string& name) const {
+    return std::ranges::find(mapping_.own, name, &OwnField::name) != mapping_.own.end();
   }
 
   bool use_names() {
@@ -245,6 +271,7 @@ class Planner {
   void match_members(const ValueType& value, const std::string& value_path, std::vector<Plan::Step>& steps,
                      const Structure& structure, const std::string& message_path) {
     for (const ValueType::Member& member : value.members) {
+      if (value_path.empty() && is_own(member.name)) continue;
       if (Plan::Step* const step = find_step(steps, structure, member.name))
         match(member.type, member_path(value_path, member.name), *step,
               member_path(message_path, member.name));

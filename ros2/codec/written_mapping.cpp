@@ -16,6 +16,14 @@ std::vector<std::string> parts_of_list(std::string_view list) {
   return parts;
 }
 
+std::vector<OwnField> own_fields_of_service(bool has_outcome) {
+  std::vector<OwnField> fields{
+      {"call", {Primitive::uint32, Primitive::uint64}, /*needed=*/true, "the number of the call"}};
+  if (has_outcome)
+    fields.push_back({"outcome", {Primitive::uint8}, /*needed=*/false, "what became of the call"});
+  return fields;
+}
+
 Mapping written_mapping(std::string_view fields, std::string_view names, std::string frame_id) {
   Mapping mapping;
   for (const std::string& part : parts_of_list(fields)) {

@@ -172,8 +172,7 @@ dds_return_t write_blob(dds_entity_t writer, const BlobTopic& topic, std::span<c
   return dds_writecdr(writer, blob);
 }
 
-void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void*, std::span<const std::byte>),
-                void* context) {
+void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void*, const TakenBlob&), void* context) {
   constexpr std::uint32_t at_once = 16;
   for (std::size_t taken = 0; taken < most;) {
     std::array<ddsi_serdata*, at_once> samples{};
@@ -182,7 +181,8 @@ void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void*, std::s
     const dds_return_t count = dds_takecdr(reader, samples.data(), wanted, infos.data(), DDS_ANY_STATE);
     if (count <= 0) return;
     for (std::size_t index = 0; index < static_cast<std::size_t>(count); ++index) {
-      if (infos[index].valid_data) use(context, blob_of(samples[index]).bytes);
+      if (infos[index].valid_data)
+        use(context, {blob_of(samples[index]).bytes, infos[index].publication_handle});
       ddsi_serdata_unref(samples[index]);
     }
     taken += static_cast<std::size_t>(count);

@@ -26,8 +26,13 @@ struct BlobTopic {
 [[nodiscard]] dds_return_t write_blob(dds_entity_t writer, const BlobTopic& topic,
                                       std::span<const std::byte> message);
 
+/// A message that came, and the instance handle of its writer.
+struct TakenBlob {
+  std::span<const std::byte> message;
+  dds_instance_handle_t writer = 0;
+};
 /// Takes the messages that have come, the oldest first, and gives each to `use`; at most `most`.
-void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void* context, std::span<const std::byte>),
+void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void* context, const TakenBlob& blob),
                 void* context);
 
 }  // namespace tessera::ros2

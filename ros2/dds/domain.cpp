@@ -157,6 +157,16 @@ void Participant::remove(dds_entity_t endpoint) {
   announce();
 }
 
+std::string Participant::new_service_identity() {
+  const std::lock_guard lock(mutex_);
+  dds_guid_t guid{};
+  static_cast<void>(dds_get_guid(participant_, &guid));
+  std::string identity;
+  for (const unsigned char byte : guid.v)
+    for (const unsigned half : {byte / 16U, byte % 16U}) identity += "0123456789abcdef"[half];
+  return identity + "." + std::to_string(++services_);
+}
+
 /// rmw_dds_common/msg/ParticipantEntitiesInfo.
 void Participant::announce() {
   std::map<std::string, std::vector<const Endpoint*>> nodes;

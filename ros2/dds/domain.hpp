@@ -42,6 +42,8 @@ class Participant {
   [[nodiscard]] dds_entity_t entity() const { return participant_; }
   void add(const std::string& node, dds_entity_t endpoint, bool writes);
   void remove(dds_entity_t endpoint);
+  /// A text for both endpoints of a client or server of a service, which tells that they belong together.
+  [[nodiscard]] std::string new_service_identity();
 
  private:
   struct Endpoint {
@@ -58,6 +60,7 @@ class Participant {
   struct Announcing;
   std::unique_ptr<Announcing> announcing_;
   std::vector<Endpoint> endpoints_;
+  std::uint32_t services_ = 0;
 };
 
 }  // namespace tessera::ros2

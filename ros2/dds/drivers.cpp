@@ -1,6 +1,5 @@
 #include "ros2/dds/drivers.hpp"
 
-#include <time.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,70 +9,15 @@
 #include <thread>
 #include <utility>
 
-#include "ros2/codec/plan.hpp"
-#include "ros2/codec/written_mapping.hpp"
-#include "ros2/dds/endpoint.hpp"
-#include "ros2/definitions/resolver.hpp"
+#include "ros2/dds/clock.hpp"
+#include "ros2/dds/prepared.hpp"
+#include "ros2/dds/service_drivers.hpp"
 
 namespace tessera::ros2 {
 namespace {
 
 constexpr Duration longest_receipt = std::chrono::milliseconds(500);
 constexpr Duration guardian_finds_within = std::chrono::seconds(4);
-
-/// What receptors and effectors have in common. Throws std::runtime_error: the binding is wrong.
-struct Prepared {
-  Plan plan;
-  EndpointSetup endpoint;
-  const ValueEncoding* encoding;
-  Duration wait;
-};
-
-template <class T>
-T given(std::optional<T> value, const std::string& error) {
-  if (!value) throw std::runtime_error(error);
-  return *std::move(value);
-}
-
-Plan plan_of(const Ros2Binding& binding, Direction direction) {
-  if (binding.encoding == nullptr)
-    throw std::runtime_error("its real buffer has a type without a fixed form");
-  std::vector<Mistake> mistakes;
-  const auto message = resolve(binding.type, DefinitionBundle(binding.type, binding.definition), mistakes);
-  if (message == nullptr)
-    throw std::runtime_error(mistakes.empty() ? "no definition of " + binding.type
-                                              : mistakes.front().shown());
-  const auto value = parse_value_type(binding.encoding->type());
-  if (!value) throw std::runtime_error("its real buffer has a type that no message has");
-  std::vector<MappingProblem> problems;
-  auto plan = Plan::make(message, *value, written_mapping(binding.fields, binding.names, binding.frame_id),
-                         direction, problems);
-  return given(std::move(plan), problems.empty() ? "no mapping" : problems.front().text);
-}
-
-Prepared prepare(const Ros2Binding& binding, Direction direction) {
-  std::string error;
-  Prepared prepared{plan_of(binding, direction), {}, binding.encoding, binding.wait};
-  EndpointSetup& endpoint = prepared.endpoint;
-  endpoint.path = binding.path;
-  endpoint.type = binding.type;
-  endpoint.topic = full_topic_name(binding.topic, error);
-  if (endpoint.topic.empty()) throw std::runtime_error(error);
-  endpoint.qos = given(parse_qos(binding.qos, error), error);
-  endpoint.node =
-      binding.node.empty() ? node_name_of(binding.path.substr(0, binding.path.find('.'))) : binding.node;
-  if (!is_node_name(endpoint.node)) throw std::runtime_error("'" + endpoint.node + "' is no name of a node");
-  endpoint.network = {binding.domain ? *binding.domain : domain_of_environment(), binding.interface,
-                      binding.peers};
-  static_cast<void>(configuration_of(endpoint.network));  // so that mistakes are found before anything opens
-  return prepared;
-}
-
-/// Whether the n-th of a kind of event is told.
-bool is_told(std::uint64_t count) {
-  while (count % 10 == 0 && count > 0) count /= 10;
-  return count == 1;
-}
 
 void await_other_side(const Endpoint& endpoint, const Prepared& prepared, const char* other) {
   if (prepared.wait > Duration::zero() && !endpoint.await_other_side(prepared.wait))
@@ -94,8 +38,7 @@ class Subscriber final : public RealReceptor {
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     fresh_ = false;
     endpoint_->take(
-        [](void* self, std::span<const std::byte> message) { static_cast<Subscriber*>(self)->note(message); },
-        this);
+        [](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); }, this);
     return fresh_ && prepared_.encoding->take(value.data(), newest_);
   }
 
@@ -125,12 +68,6 @@ class Subscriber final : public RealReceptor {
   std::uint64_t dropped_ = 0;
 };
 
-Stamp now() {
-  timespec time{};
-  clock_gettime(CLOCK_REALTIME, &time);
-  return {static_cast<std::int32_t>(time.tv_sec), static_cast<std::uint32_t>(time.tv_nsec)};
-}
-
 class Publisher final : public RealEffector {
  public:
   explicit Publisher(Prepared prepared)
@@ -150,7 +87,7 @@ class Publisher final : public RealEffector {
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
     sink_.clear();
     prepared_.encoding->put(value.data(), sink_);
-    if (!prepared_.plan.encode(sink_.bytes(), now(), message_)) return false;
+    if (!prepared_.plan.encode(sink_.bytes(), stamp_now(), message_)) return false;
     return is_guardian() ? write_until_received() : endpoint_->write(message_);
   }
 
@@ -192,10 +129,12 @@ std::unique_ptr<Driver> made(const Ros2Binding& binding, Direction direction, st
 }  // namespace
 
 std::unique_ptr<RealReceptor> make_receptor(const Ros2Binding& binding, std::string& error) {
+  if (!binding.role.empty()) return make_service_receptor(binding, error);
   return made<Subscriber>(binding, Direction::receive, error);
 }
 
 std::unique_ptr<RealEffector> make_effector(const Ros2Binding& binding, std::string& error) {
+  if (!binding.role.empty()) return make_service_effector(binding, error);
   return made<Publisher>(binding, Direction::send, error);
 }
 

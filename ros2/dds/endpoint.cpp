@@ -1,5 +1,7 @@
 #include "ros2/dds/endpoint.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <stdexcept>
@@ -30,7 +32,7 @@ const char* name_of_policy(std::uint32_t policy) {
   }
 }
 
-dds_qos_t* new_qos(const Qos& qos) {
+dds_qos_t* new_qos(const Qos& qos, const std::string& user_data) {
   dds_qos_t* const made = dds_create_qos();
   constexpr dds_duration_t longest_block = DDS_MSECS(100);
   dds_qset_reliability(made, qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
@@ -38,7 +40,17 @@ dds_qos_t* new_qos(const Qos& qos) {
   dds_qset_durability(made, qos.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(made, DDS_HISTORY_KEEP_LAST, qos.depth);
   dds_qset_writer_data_lifecycle(made, false);
+  if (!user_data.empty()) dds_qset_userdata(made, user_data.data(), user_data.size());
   return made;
+}
+
+std::string user_data_in(const dds_builtintopic_endpoint_t& known) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds_qget_userdata(known.qos, &data, &size)) return {};
+  std::string text(static_cast<const char*>(data), size);
+  dds_free(data);
+  return text;
 }
 
 }  // namespace
@@ -53,14 +65,13 @@ void Endpoint::tell_of_qos(const Told& told, std::uint32_t policy) {
 
 Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     : participant_(Participant::of(setup.network)),
-      told_(new Told{setup.path, setup.topic, writes}),
+      told_(new Told{setup.path, setup.topic, writes, !writes && !setup.user_data.empty()}),
       writes_(writes),
       depth_(static_cast<std::size_t>(setup.qos.depth)) {
-  topic_ = create_blob_topic(participant_->entity(), dds_topic_name(setup.topic).c_str(),
-                             dds_type_name(setup.type).c_str());
+  topic_ = create_blob_topic(participant_->entity(), setup.dds_topic.c_str(), setup.dds_type.c_str());
   if (topic_.entity < 0)
     throw std::runtime_error("cannot make the topic " + setup.topic + ": " + dds_strretcode(topic_.entity));
-  dds_qos_t* const qos = new_qos(setup.qos);
+  dds_qos_t* const qos = new_qos(setup.qos, setup.user_data);
   dds_listener_t* const listener = dds_create_listener(told_.get());
   dds_lset_offered_incompatible_qos(
       listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* told) {
@@ -70,6 +81,12 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
       listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* told) {
         tell_of_qos(*static_cast<const Told*>(told), status.last_policy_id);
       });
+  if (told_->remembers)
+    dds_lset_subscription_matched(
+        listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* told) {
+          if (status.current_count_change > 0)
+            remember(reader, status.last_publication_handle, *static_cast<Told*>(told));
+        });
   entity_ = writes ? dds_create_writer(participant_->entity(), topic_.entity, qos, listener)
                    : dds_create_reader(participant_->entity(), topic_.entity, qos, listener);
   dds_delete_listener(listener);
@@ -111,7 +128,50 @@ bool Endpoint::await_receipt(Duration timeout) const {
   return dds_wait_for_acks(entity_, dds_time_of(timeout)) == DDS_RETCODE_OK;
 }
 
-void Endpoint::take(void (*use)(void*, std::span<const std::byte>), void* context) const {
+void Endpoint::remember(dds_entity_t reader, dds_instance_handle_t writer, Told& told) {
+  constexpr std::size_t most_writers = 4096;
+  dds_builtintopic_endpoint_t* const known = dds_get_matched_publication_data(reader, writer);
+  if (known == nullptr) return;
+  const std::lock_guard lock(told.mutex);
+  if (told.found.size() >= most_writers) told.found.clear();  // those that are there are found in `others`
+  told.found[writer] = user_data_in(*known);
+  dds_builtintopic_free_endpoint(known);
+}
+
+std::optional<std::string> Endpoint::user_data_of(dds_instance_handle_t writer) const {
+  {
+    const std::lock_guard lock(told_->mutex);
+    if (const auto known = told_->found.find(writer); known != told_->found.end()) return known->second;
+  }
+  for (const Other& one : others())
+    if (one.handle == writer) return one.user_data;
+  return std::nullopt;
+}
+
+std::vector<Endpoint::Other> Endpoint::others() const {
+  constexpr std::size_t most = 64;
+  std::array<dds_instance_handle_t, most> handles{};
+  const dds_return_t count = writes_ ? dds_get_matched_subscriptions(entity_, handles.data(), most)
+                                     : dds_get_matched_publications(entity_, handles.data(), most);
+  std::vector<Other> others;
+  for (std::size_t index = 0; index < std::min(most, static_cast<std::size_t>(std::max(count, 0))); ++index) {
+    dds_builtintopic_endpoint_t* const known =
+        writes_ ? dds_get_matched_subscription_data(entity_, handles[index])
+                : dds_get_matched_publication_data(entity_, handles[index]);
+    if (known == nullptr) continue;
+    others.push_back({handles[index], user_data_in(*known)});
+    dds_builtintopic_free_endpoint(known);
+  }
+  return others;
+}
+
+std::uint64_t Endpoint::identity() const {
+  dds_instance_handle_t handle = 0;
+  static_cast<void>(dds_get_instance_handle(entity_, &handle));
+  return handle;
+}
+
+void Endpoint::take(void (*use)(void*, const TakenBlob&), void* context) const {
   take_blobs(entity_, depth_, use, context);
 }
 

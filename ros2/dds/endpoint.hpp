@@ -1,6 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,9 +17,10 @@ namespace tessera::ros2 {
 
 /// What an endpoint of a topic is made of.
 struct EndpointSetup {
-  std::string path;   ///< of the driver, for messages
-  std::string topic;  ///< "/cmd_vel"
-  std::string type;   ///< "geometry_msgs/msg/Twist"
+  std::string path;                 ///< of the driver, for messages
+  std::string topic;                ///< "/cmd_vel"
+  std::string dds_topic, dds_type;  ///< as DDS names them
+  std::string user_data{};          ///< what the other side is told of the endpoint
   std::string node;
   Qos qos;
   Network network;
@@ -41,14 +45,30 @@ class Endpoint {
   /// Of a reliable writer: whether all that are there have got everything within this time.
   [[nodiscard]] bool await_receipt(Duration timeout) const;
   /// Of a reader: gives the messages that came since the last call, the oldest first.
-  void take(void (*use)(void* context, std::span<const std::byte>), void* context) const;
+  void take(void (*use)(void* context, const TakenBlob& blob), void* context) const;
+
+  /// A matched endpoint of the other side. Its DDS calls tell nothing of one that has gone meanwhile.
+  struct Other {
+    dds_instance_handle_t handle = 0;
+    std::string user_data;
+  };
+  [[nodiscard]] std::vector<Other> others() const;
+  /// Of a reader: the user data of a writer that it knows, or has known. A message may be read after its
+  /// writer has gone. nullopt: it was never found.
+  [[nodiscard]] std::optional<std::string> user_data_of(dds_instance_handle_t writer) const;
+  /// A number that no other writer or reader has.
+  [[nodiscard]] std::uint64_t identity() const;
 
  private:
   /// What listeners need; it does not move.
   struct Told {
     std::string path, topic;
     bool writes;
+    bool remembers;  ///< the writers that were found
+    std::mutex mutex{};
+    std::map<dds_instance_handle_t, std::string> found{};
   };
+  static void remember(dds_entity_t reader, dds_instance_handle_t writer, Told& told);
   static void tell_of_qos(const Told& told, std::uint32_t policy);
 
   std::shared_ptr<Participant> participant_;

@@ -1,4 +1,5 @@
 // What the library exports. Controllers load it at run time, so that they need no DDS to build.
+#include "ros2/dds/clock.hpp"
 #include "ros2/dds/drivers.hpp"
 
 // Both sides of the call are C++; only the names are those of C.
@@ -8,13 +9,18 @@
 
 extern "C" {
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_1(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_2(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_receptor(binding, error);
 }
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_1(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_2(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_effector(binding, error);
+}
+
+__attribute__((visibility("default"))) std::unique_ptr<tessera::Ros2Clock> tessera_ros2_clock_2(
+    const std::string& interface, std::string& error) {
+  return tessera::ros2::make_clock(interface, error);
 }
 }

@@ -38,31 +38,57 @@ class Resolver {
     const auto text = definitions_.find(name);
     if (!text) return unknown(name, used_by);
     auto parsed = parse_message(name, text->text, text->file, mistakes_);
-    if (!parsed) return nullptr;
+    return parsed ? complete(name, std::move(*parsed), text->file) : nullptr;
+  }
+
+  std::optional<ResolvedService> resolve_service(const std::string& name) {
+    const auto text = definitions_.find(name);
+    if (!text) {
+      unknown(name, "");
+      return std::nullopt;
+    }
+    auto parsed = parse_service(name, text->text, text->file, mistakes_);
+    if (!parsed) return std::nullopt;
+    ResolvedService service{complete(request_type(name), std::move(parsed->request), text->file),
+                            complete(response_type(name), std::move(parsed->response), text->file)};
+    if (service.request == nullptr || service.response == nullptr) return std::nullopt;
+    return service;
+  }
+
+ private:
+  /// Looks up the messages that it uses.
+  std::shared_ptr<const Structure> complete(const std::string& name, Structure parsed,
+                                            const std::string& file) {
     open_.push_back(name);
     bool whole = true;
-    for (Field& field : parsed->fields) {
+    for (Field& field : parsed.fields) {
       if (field.type.primitive != Primitive::structure) continue;
-      field.type.structure = resolve(field.type.refers, text->file);
+      field.type.structure = resolve(field.type.refers, file);
       whole = whole && field.type.structure != nullptr;
     }
     open_.pop_back();
     if (!whole) return nullptr;
-    return known_[name] = std::make_shared<const Structure>(std::move(*parsed));
+    return known_[name] = std::make_shared<const Structure>(std::move(parsed));
   }
 
- private:
   std::shared_ptr<const Structure> wrong(std::string file, std::string text, std::string hint = {}) {
     mistakes_.push_back({std::move(file), 0, std::move(text), std::move(hint)});
     return nullptr;
   }
 
   std::shared_ptr<const Structure> unknown(const std::string& name, const std::string& used_by) {
+    const bool service = is_service_type(name);
     std::vector<std::string> names;
-    for (const std::string& one : definitions_.names()) names.push_back(short_name(one));
+    for (const std::string& one : definitions_.names())
+      if (is_service_type(one) == service) names.push_back(short_name(one));
     std::string hint = did_you_mean(short_name(name), names);
-    if (hint.empty()) hint = "write its definition into msg/" + name + ".msg beside the specification";
-    return wrong(used_by, "there is no message '" + short_name(name) + "'", hint);
+    if (hint.empty())
+      hint =
+          "write its definition into msg/" + name + (service ? ".srv" : ".msg") + " beside the specification";
+    return wrong(
+        used_by,
+        std::string("there is no ") + (service ? "service" : "message") + " '" + short_name(name) + "'",
+        hint);
   }
 
   const Definitions& definitions_;
@@ -75,7 +101,7 @@ class Resolver {
 
 std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string& name) const {
   for (const fs::path& folder : folders_) {
-    const fs::path file = folder / (name + ".msg");
+    const fs::path file = folder / (name + (is_service_type(name) ? ".srv" : ".msg"));
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) continue;
     std::ifstream stream(file, std::ios::binary);
@@ -89,9 +115,10 @@ std::vector<std::string> DefinitionFolders::names() const {
   std::error_code ignored;
   for (const fs::path& folder : folders_)
     for (const auto& package : fs::directory_iterator(folder, ignored))
-      for (const auto& file : fs::directory_iterator(package.path() / "msg", ignored))
-        if (file.path().extension() == ".msg")
-          found.insert(package.path().filename().string() + "/msg/" + file.path().stem().string());
+      for (const std::string kind : {"msg", "srv"})
+        for (const auto& file : fs::directory_iterator(package.path() / kind, ignored))
+          if (file.path().extension() == "." + kind)
+            found.insert(package.path().filename().string() + "/" + kind + "/" + file.path().stem().string());
   return {found.begin(), found.end()};
 }
 
@@ -125,6 +152,11 @@ std::vector<std::string> DefinitionBundle::names() const {
 std::shared_ptr<const Structure> resolve(const std::string& name, const Definitions& definitions,
                                          std::vector<Mistake>& mistakes) {
   return Resolver(definitions, mistakes).resolve(name, "");
+}
+
+std::optional<ResolvedService> resolve_service(const std::string& name, const Definitions& definitions,
+                                               std::vector<Mistake>& mistakes) {
+  return Resolver(definitions, mistakes).resolve_service(name);
 }
 
 std::string bundle_of(const Structure& message) {

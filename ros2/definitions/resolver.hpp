@@ -19,13 +19,13 @@ class Definitions {
     std::string text, file;
   };
   virtual ~Definitions() = default;
-  /// name: "geometry_msgs/msg/Twist". nullopt: there is no such message.
+  /// name: "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool". nullopt: there is no such definition.
   [[nodiscard]] virtual std::optional<Text> find(const std::string& name) const = 0;
   /// All names, for hints.
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
 };
 
-/// Folders with PACKAGE/msg/NAME.msg; the first folder that has a message counts.
+/// Folders with PACKAGE/msg/NAME.msg and PACKAGE/srv/NAME.srv; the first folder that has one counts.
 class DefinitionFolders : public Definitions {
  public:
   explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
@@ -53,6 +53,15 @@ class DefinitionBundle : public Definitions {
 [[nodiscard]] std::shared_ptr<const Structure> resolve(const std::string& name,
                                                        const Definitions& definitions,
                                                        std::vector<Mistake>& mistakes);
+
+/// Both messages of a service.
+struct ResolvedService {
+  std::shared_ptr<const Structure> request, response;
+};
+/// The same for a service, "std_srvs/srv/SetBool".
+[[nodiscard]] std::optional<ResolvedService> resolve_service(const std::string& name,
+                                                             const Definitions& definitions,
+                                                             std::vector<Mistake>& mistakes);
 
 /// The text of DefinitionBundle.
 [[nodiscard]] std::string bundle_of(const Structure& message);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::size_t longest_dds_name = 256;
 constexpr int deepest_history = 10000;
+constexpr std::string_view service_folder = "/srv/";
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -16,6 +17,12 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_token(std::string_view token) {
   return !token.empty() && !is_digit(token[0]) && token.find("__") == std::string_view::npos &&
          std::ranges::all_of(token, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+}
+
+/// Of a package or a type.
+bool is_name(std::string_view part) {
+  return !part.empty() &&
+         std::ranges::all_of(part, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
 std::string_view without_blanks(std::string_view text) {
@@ -79,12 +86,23 @@ std::string dds_type_name(std::string_view message) {
   return name;
 }
 
+std::string dds_request_name(std::string_view service) { return "rq" + std::string(service) + "Request"; }
+std::string dds_reply_name(std::string_view service) { return "rr" + std::string(service) + "Reply"; }
+
+std::string request_type(std::string_view service_type) { return std::string(service_type) + "_Request"; }
+std::string response_type(std::string_view service_type) { return std::string(service_type) + "_Response"; }
+
+bool is_service_type(std::string_view type) { return type.find(service_folder) != std::string_view::npos; }
+
+std::optional<std::string> full_service_name(std::string_view written) {
+  const std::size_t folder = written.find(service_folder);
+  if (folder == std::string_view::npos || !is_name(written.substr(0, folder)) ||
+      !is_name(written.substr(folder + service_folder.size())))
+    return std::nullopt;
+  return std::string(written);
+}
+
 std::optional<std::string> full_message_name(std::string_view written) {
-  const auto is_name = [](std::string_view part) {
-    return !part.empty() && std::ranges::all_of(part, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    });
-  };
   const std::size_t slash = written.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
   const std::string_view package = written.substr(0, slash);

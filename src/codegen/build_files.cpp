@@ -19,6 +19,15 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 find_package(tessera REQUIRED CONFIG)
+# The header of fmt asks for some optimisation even here. By what g++ tells of that, gdb would stop before the arguments
+# of a function can be read.
+add_compile_options($<$<AND:$<CONFIG:Debug>,$<CXX_COMPILER_ID:GNU>>:-fno-var-tracking>)
+
+# Yours, if you have one: libraries and flags for all that the project compiles.
+add_library(project INTERFACE)
+if(EXISTS "${{TESSERA_PROJECT_DIR}}/project.cmake")
+  include("${{TESSERA_PROJECT_DIR}}/project.cmake")
+endif()
 
 # What CMake takes for a pattern is part of a name here.
 string(REGEX REPLACE "([*?])" "[\\1]" project_pattern "${{TESSERA_PROJECT_DIR}}")
@@ -34,7 +43,7 @@ endfunction()
 
 add_library(headers INTERFACE)
 target_include_directories(headers INTERFACE "${{CMAKE_CURRENT_SOURCE_DIR}}" "${{TESSERA_PROJECT_DIR}}/src")
-target_link_libraries(headers INTERFACE tessera::runtime)
+target_link_libraries(headers INTERFACE tessera::runtime project)
 
 # Yours: the transition functions, in every source of src/. Object files, not an archive: of a function that is there
 # twice, the linker would take one out of an archive and say nothing.
@@ -45,11 +54,17 @@ endif()
 add_library(functions OBJECT ${{user_sources}})
 target_compile_options(functions PRIVATE -Wall -Wextra -Wno-unused-parameter)
 target_link_libraries(functions PUBLIC headers)
+if(TESSERA_COVERAGE)
+  target_compile_options(functions PRIVATE --coverage)
+  target_link_options(headers INTERFACE --coverage)
+endif()
 
 # Tessera's: the net and what binds it to the functions.
 add_library(system STATIC
   system.cpp{})
 target_compile_options(system PRIVATE -Wall -Wextra -Werror)
+# Nearly all the time of each source goes into the same headers.
+set_target_properties(system PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
 target_link_libraries(system PUBLIC headers)
 
 add_executable(controller main.cpp)

@@ -23,6 +23,7 @@ std::vector<File> generate(const verify::VerifiedNet& net, const spec::Model& mo
   }
   files.push_back(system_header(project));
   files.push_back(system_source(project, nets.of_channel));
+  files.push_back(testing_header(project));
   files.push_back(main_source(project));
   for (File& file : files)
     if (file.path.ends_with("pp")) file.text = keep_formatter_off_long_lines(std::move(file.text));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "codegen/cpp_text.hpp"
+#include "spec/conditions/tokens.hpp"
 #include "spec/model/endings.hpp"
 
 namespace tessera::codegen {
@@ -26,14 +27,20 @@ std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
 /// The expression at its column in the specification; further lines of a block text at the same one.
 std::string at_column(const spec::Expression& expression) {
   const std::string indent(std::max(expression.span.column, 1U) - 1, ' ');
+  const std::string text = spec::with_cpp_durations(expression.text);
   std::string out;
-  for (std::size_t begin = 0; begin <= expression.text.size();) {
-    const std::size_t end = std::min(expression.text.find('\n', begin), expression.text.size());
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (begin > 0) out += '\n';
-    if (end > begin) out += indent + expression.text.substr(begin, end - begin);
+    if (end > begin) out += indent + text.substr(begin, end - begin);
     begin = end + 1;
   }
   return out;
+}
+
+bool names(const spec::Expression& expression, spec::Reference::Kind kind) {
+  return std::ranges::any_of(references(expression),
+                             [&](const spec::Reference& one) { return one.kind == kind; });
 }
 
 }  // namespace
@@ -181,12 +188,20 @@ std::string Conditions::asks(std::size_t behaviour, std::size_t entry) const {
   return {};
 }
 
+bool Conditions::name(spec::Reference::Kind kind) const {
+  return std::ranges::any_of(functions_,
+                             [&](const Function& function) { return names(*function.expression, kind); });
+}
+
 std::string Conditions::members() const {
   if (functions_.empty()) return {};
   std::string held;
   for (const Function& function : functions_)
     if (function.remembered) held += fmt::format("    bool {} = false;\n", function.name);
-  const std::string conditions = "  yours::tessera_Conditions conditions_{in, out, memory, parameters};\n";
+  const std::string conditions =
+      fmt::format("  yours::tessera_Conditions conditions_{{in, out, memory, parameters{}{}}};\n",
+                  name(spec::Reference::Kind::elapsed) ? ", context_.in_behaviour" : "",
+                  name(spec::Reference::Kind::index) ? ", context_.index" : "");
   if (held.empty()) return conditions;
   return fmt::format(R"({}
   /// The named conditions that held when the iteration was decided; `route` asks for them.
@@ -212,14 +227,16 @@ struct tessera_Conditions {{
   const Outputs& out;
   const Memory& memory;
   const Parameters& parameters;
-
+{2}{3}
 {1}}};
 
 }}  // namespace
 }}  // namespace {0}
 
 )",
-                     unit_namespace(project_.model, unit_), functions);
+                     unit_namespace(project_.model, unit_), functions,
+                     name(spec::Reference::Kind::elapsed) ? "  const tessera::Duration& elapsed;\n" : "",
+                     name(spec::Reference::Kind::index) ? "  const std::uint32_t& index;\n" : "");
 }
 
 std::string Conditions::definitions() const {

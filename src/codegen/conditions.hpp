@@ -42,6 +42,8 @@ class Conditions {
     std::vector<std::size_t> next;  ///< per entry; only meaningful for expressions
   };
 
+  /// Whether some condition names such a thing.
+  [[nodiscard]] bool name(spec::Reference::Kind kind) const;
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
   std::vector<std::size_t> add_all(const spec::Behaviour& behaviour, const spec::Condition& condition,
                                    std::string_view kind);

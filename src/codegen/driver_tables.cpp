@@ -65,16 +65,20 @@ class Writer {
         reads ? make + ", nullptr" : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, device));
   }
 
-  /// Those that write can be given to the guardian process.
+  /// Those that write can be given to the guardian process, except for replies: their clients asked a process
+  /// that has died.
   std::string topic_row(const std::string& path, const spec::Driver& driver, bool reads) {
     headers_.insert(quoted("tessera/ros2.hpp"));
     spec::Driver with_topic = driver;
     with_topic.options["topic"] = spec::DriverOption{driver.target(), ""};
     const std::string make =
         fmt::format("tessera::ros2_{}<{}>", reads ? "receptor" : "effector", value(driver));
+    const auto role = driver.options.find("role");
+    const bool is_server = role != driver.options.end() &&
+                           role->second.value == decltype(role->second.value)(std::string("server"));
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2",
                        quoted(project_.at(driver.span)), options(with_topic),
-                       reads ? make + ", nullptr" : "nullptr, " + make + ", true");
+                       reads ? make + ", nullptr" : "nullptr, " + make + (is_server ? "" : ", true"));
   }
 
   /// The type that the driver reads or writes.

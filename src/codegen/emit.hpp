@@ -15,6 +15,7 @@ namespace tessera::codegen {
 [[nodiscard]] File subsystems_header(const Project& project);
 [[nodiscard]] File system_header(const Project& project);
 [[nodiscard]] File system_source(const Project& project, const std::vector<ChannelPorts>& ports);
+[[nodiscard]] File testing_header(const Project& project);
 [[nodiscard]] File main_source(const Project& project);
 [[nodiscard]] File cmake_lists(const Project& project);
 [[nodiscard]] File format_style();

@@ -250,9 +250,11 @@ const tessera::System& system() {{ return whole; }}
 }
 
 File main_source(const Project& project) {
-  return {"main.cpp", fmt::format(R"({}#include <tessera/controller.hpp>
+  return {"main.cpp", fmt::format(R"({}#include <tessera/main.hpp>
 
-#include "system.hpp"
+namespace tessera_generated {{
+[[nodiscard]] const tessera::System& system();
+}}  // namespace tessera_generated
 
 int main(int argc, char** argv) {{ return tessera::controller_main(tessera_generated::system(), argc, argv); }}
 )",

@@ -145,9 +145,15 @@ void DeploymentFile::write() const {
   }
   const json all{{"system", system_}, {"net_hash", net_hash_}, {"processes", std::move(processes)}};
   const fs::path beside = file_.string() + ".new";
-  std::ofstream(beside) << all.dump(2) << '\n';
-  std::error_code ignored;  // a full disk must not stop the processes
-  fs::rename(beside, file_, ignored);
+  std::ofstream stream(beside);
+  stream << all.dump(2) << '\n';
+  stream.close();
+  // A full disk must not stop the processes. The file that is there is older, but whole.
+  std::error_code ignored;
+  if (stream)
+    fs::rename(beside, file_, ignored);
+  else
+    fs::remove(beside, ignored);
 }
 
 }  // namespace tessera::project

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <fstream>
@@ -35,32 +34,6 @@ fs::path asset(const std::string& name, const fs::path& project, const std::stri
     throw std::runtime_error(
         fmt::format("there is no {} in {} nor among the shipped {}", name, project.string(), folder));
   return *found;
-}
-
-void flatten_parameters(const YAML::Node& node, const std::string& path, std::vector<std::string>& out) {
-  if (node.IsMap()) {
-    for (const auto& entry : node)
-      flatten_parameters(entry.second,
-                         path.empty() ? entry.first.Scalar() : path + "." + entry.first.Scalar(), out);
-  } else if (node.IsScalar()) {
-    out.push_back(path + "=" + node.Scalar());
-  } else if (!node.IsNull()) {
-    throw std::runtime_error(path + " is not a value");
-  }
-}
-
-// PATH=VALUE of every entry; nested maps and dotted paths mean the same.
-std::vector<std::string> parameters_of(const Specification& specification, const LaunchOptions& options) {
-  const fs::path file = options.parameters.empty() ? specification.project / file_names::parameters
-                                                   : fs::path(options.parameters);
-  if (options.parameters.empty() && !fs::exists(file)) return {};
-  std::vector<std::string> values;
-  try {
-    flatten_parameters(YAML::LoadFile(file.string()), "", values);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
-  }
-  return values;
 }
 
 void append(Command& command, std::initializer_list<std::string> words) {
@@ -190,13 +163,27 @@ std::optional<Floor> floor_of(const Specification& specification, const LaunchOp
   return floor;
 }
 
+std::vector<GivenParameter> given_parameters(const Specification& specification,
+                                             const LaunchOptions& options) {
+  const fs::path file = options.parameters.empty() ? specification.project / file_names::parameters
+                                                   : fs::path(options.parameters);
+  std::vector<GivenParameter> given;
+  if (!options.parameters.empty() || fs::exists(file)) given = read_parameter_file(file);
+  for (const std::string& assignment : options.set) given.push_back(read_assignment(assignment));
+  for (GivenParameter& one : given) {
+    try {
+      one.value = without_unit(specification.model, one.path, one.value);
+    } catch (const std::runtime_error& problem) {
+      throw std::runtime_error(one.where + problem.what());
+    }
+  }
+  return given;
+}
+
 std::vector<std::string> parameter_values(const Specification& specification, const LaunchOptions& options) {
-  std::vector<std::string> values = parameters_of(specification, options);
-  values.insert(values.end(), options.set.begin(), options.set.end());
-  for (std::string& value : values)
-    if (const std::size_t equals = value.find('='); equals != std::string::npos)
-      value.replace(equals + 1, std::string::npos,
-                    without_unit(specification.model, value.substr(0, equals), value.substr(equals + 1)));
+  std::vector<std::string> values;
+  for (const GivenParameter& one : given_parameters(specification, options))
+    values.push_back(one.path + "=" + one.value);
   return values;
 }
 

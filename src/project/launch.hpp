@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "project/build/controller.hpp"
+#include "project/parameter_file.hpp"
 #include "project/process/process.hpp"
 
 /// Starts a controller that has been built.
@@ -48,8 +49,12 @@ struct Floor {
 /// nullopt: there is no track. Throws std::runtime_error if the file does not exist.
 [[nodiscard]] std::optional<Floor> floor_of(const Specification& specification, const LaunchOptions& options);
 
-/// PATH=VALUE of every parameter that a run changes: first those of the file, then those of the command
-/// line. Throws std::runtime_error if the file cannot be read.
+/// Every parameter that a run changes: first those of the file, then those of the command line. Throws
+/// std::runtime_error, with file and line, if the file cannot be read or a value has a wrong unit.
+[[nodiscard]] std::vector<GivenParameter> given_parameters(const Specification& specification,
+                                                           const LaunchOptions& options);
+
+/// The same as PATH=VALUE.
 [[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
                                                         const LaunchOptions& options);
 

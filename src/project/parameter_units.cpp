@@ -35,8 +35,9 @@ std::vector<const spec::Parameter*> parameters_at(const spec::Model& model, std:
   };
   add_of(model.parameters);
   for (spec::Index index = 0; index < model.instances.size(); ++index)
-    if (dot == std::string_view::npos ||
-        without_indices(model.instance_path(index)) == without_indices(path.substr(0, dot)))
+    if (const std::string own = without_indices(model.instance_path(index)),
+        given = without_indices(path.substr(0, dot));
+        dot == std::string_view::npos || given == own || given == own.substr(0, own.rfind('.')))
       add_of(model.subsystem(index).parameters);
   return found;
 }
@@ -56,7 +57,34 @@ std::runtime_error refusal(std::string_view path, const std::string& value, cons
 
 }  // namespace
 
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+/// Of each element of "[5 cm, 3 cm]".
+std::string elements_without_unit(const spec::Model& model, std::string_view path, std::string_view inside) {
+  std::string text;
+  for (std::size_t end = 0; end != std::string_view::npos;) {
+    end = inside.find(',');
+    text += (text.empty() ? "" : ", ") + without_unit(model, path, trimmed(inside.substr(0, end)));
+    if (end != std::string_view::npos) inside.remove_prefix(end + 1);
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
 std::string without_unit(const spec::Model& model, std::string_view path, const std::string& value) {
+  const bool is_list = value.starts_with('[') && value.ends_with(']');
+  const bool is_array = std::ranges::any_of(parameters_at(model, path),
+                                            [](const spec::Parameter* one) { return one->type.extent > 0; });
+  if (is_array && (is_list || value.find(',') != std::string::npos))
+    return elements_without_unit(model, path,
+                                 is_list ? std::string_view(value).substr(1, value.size() - 2) : value);
   const auto given = spec::split_quantity(value);
   if (!given || given->unit.empty()) return value;
   for (const spec::Parameter* parameter : parameters_at(model, path)) {

@@ -8,7 +8,7 @@
 namespace tessera::project {
 
 /// The value of a parameter as the controller takes it, without a unit: "5 cm" of a parameter in m is "0.05".
-/// What is no quantity, or of a parameter that is no number, stays as it is.
+/// The same for each element of "[5 cm, 3 cm]" of an array. What is no quantity, or of a parameter that is no number, stays as it is.
 ///
 /// path: "v", "robot.control.v", "robot[1].control.v".
 /// Throws std::runtime_error, with the number to write, if the unit is not of the parameter's quantity.

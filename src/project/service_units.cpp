@@ -18,16 +18,6 @@ namespace {
 
 constexpr const char* first_line = "# Made by Tessera; a changed copy belongs somewhere else.";
 
-/// "cart[0]" is no name for a unit: "cart-0".
-std::string unit_name(const std::string& name) {
-  std::string plain;
-  for (const char one : name) {
-    const bool fits = std::isalnum(static_cast<unsigned char>(one)) != 0 || one == '_' || one == '-';
-    if (fits || (!plain.empty() && plain.back() != '-' && one != ']')) plain += fits ? one : '-';
-  }
-  return plain;
-}
-
 constexpr const char* unit_text = R"({first_line}
 [Unit]
 Description={description}
@@ -37,7 +27,7 @@ Description={description}
 Type=notify
 {library}ExecStart=/opt/{system}/controller run{process} --record /var/lib/{system}/{unit}.tsr --record-limit 500MB
 StateDirectory={system}
-# A subsystem that stalls for so long ends the service (with `watchdog` in the specification).
+{user}# A subsystem that stalls for so long ends the service (with `watchdog` in the specification).
 WatchdogSec=2
 TimeoutStopSec=10
 # A robot that drives on by itself after a crash surprises people. With `on-failure` the process begins again
@@ -59,26 +49,56 @@ std::string filled(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-ServiceUnit unit_of(const std::string& system, const spec::Process* process) {
-  const std::string plain = unit_name(system);
-  const std::string unit = process == nullptr ? plain : plain + "-" + unit_name(process->name);
-  const std::string options = process == nullptr ? "" : fmt::format(" --process \"{}\"", process->name);
+/// Names of users have small letters, and no more than 31 of them.
+std::string user_name(const std::string& system) {
+  constexpr std::size_t longest = 31;
+  std::string name = "tessera-";
+  for (const char one : system) name += static_cast<char>(std::tolower(static_cast<unsigned char>(one)));
+  return name.substr(0, longest);
+}
+
+/// The user who runs the unit, if it is not root.
+std::string user_lines(const std::string& system, const ServiceOptions& options) {
+  if (!options.own_user) return "";
+  std::string lines =
+      "# A user of its own, which all units of the system share while they run. `User=root` in place of "
+      "both\n"
+      "# lines if a driver needs more than groups.\n"
+      "DynamicUser=yes\nUser=" +
+      user_name(system) +
+      "\n# Of the control sockets: `sudo env XDG_RUNTIME_DIR=/run/{system} tessera emergency-stop`.\n"
+      "RuntimeDirectory={system}\nRuntimeDirectoryMode=0700\nRuntimeDirectoryPreserve=yes\n"
+      "Environment=XDG_RUNTIME_DIR=/run/{system}\n";
+  if (!options.groups.empty()) {
+    lines += "# Who may open the devices.\nSupplementaryGroups=";
+    for (const std::string& group : options.groups)
+      lines += group + (&group == &options.groups.back() ? "\n" : " ");
+  }
+  return lines;
+}
+
+ServiceUnit unit_of(const std::string& system, const spec::Process* process, const ServiceOptions& given) {
+  const std::string plain = plain_name(system);
+  const std::string unit = process == nullptr ? plain : plain + "-" + plain_name(process->name);
+  std::string options = process == nullptr ? "" : fmt::format(" --process \"{}\"", process->name);
+  if (given.parameters) options += " --parameters /opt/{system}/parameters";
   const std::string description = process == nullptr ? system : process->name + " of " + system;
   const std::string after = process == nullptr
                                 ? ""
                                 : "# The other processes are found over the "
                                   "network.\nAfter=network-online.target\nWants=network-online.target\n";
+  std::string library = process == nullptr ? "" : "# With libtessera_dds.so beside the controller.\n";
+  if (given.own_libraries) library += "Environment=LD_LIBRARY_PATH=/opt/{system}\n";
   return {.host = process == nullptr ? "" : process->host,
           .file = unit + ".service",
-          .text = filled(
-              unit_text,
-              {{"{first_line}", first_line},
-               {"{description}", description},
-               {"{after}", after},
-               {"{process}", options},
-               {"{library}", process == nullptr ? "" : "# With libtessera_dds.so beside the controller.\n"},
-               {"{unit}", unit},
-               {"{system}", plain}})};
+          .text = filled(unit_text, {{"{first_line}", first_line},
+                                     {"{description}", description},
+                                     {"{after}", after},
+                                     {"{process}", options},
+                                     {"{library}", library},
+                                     {"{user}", user_lines(plain, given)},
+                                     {"{unit}", unit},
+                                     {"{system}", plain}})};
 }
 
 void write_unit(const fs::path& file, const std::string& text) {
@@ -95,11 +115,20 @@ void write_unit(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
-std::vector<ServiceUnit> service_units(const spec::Model& model) {
-  if (!model.deployment) return {unit_of(model.system, nullptr)};
+std::string plain_name(const std::string& name) {
+  std::string plain;
+  for (const char one : name) {
+    const bool fits = std::isalnum(static_cast<unsigned char>(one)) != 0 || one == '_' || one == '-';
+    if (fits || (!plain.empty() && plain.back() != '-' && one != ']')) plain += fits ? one : '-';
+  }
+  return plain;
+}
+
+std::vector<ServiceUnit> service_units(const spec::Model& model, const ServiceOptions& options) {
+  if (!model.deployment) return {unit_of(model.system, nullptr, options)};
   std::vector<ServiceUnit> units;
   for (const spec::Process& process : model.deployment->processes)
-    units.push_back(unit_of(model.system, &process));
+    units.push_back(unit_of(model.system, &process, options));
   return units;
 }
 

@@ -42,6 +42,8 @@ const char* kind_of(const Event& event) {
       return "poses";
     case Event::Kind::peer:
       return "peer";
+    case Event::Kind::process:
+      return "process";
   }
   return "";
 }
@@ -66,6 +68,12 @@ std::string text_of(const Recording& recording, const Entry& entry) {
       const std::string start = entry.text.substr(std::min(line + 1, entry.text.size()));
       return fmt::format("{}: hears start {} of the other process", entry.text.substr(0, line), start);
     }
+    case Event::Kind::process: {
+      const std::size_t line = std::min(entry.text.find('\n'), entry.text.size());
+      const std::string start = entry.text.substr(std::min(line + 1, entry.text.size()));
+      return fmt::format("process {} {} (start {})", entry.text.substr(0, line),
+                         event.version == 0 ? "has died" : "begins again", start);
+    }
     case Event::Kind::call:
       return fmt::format("{}, iteration {}", recording.behaviours[event.instance()][event.subject],
                          event.version);
@@ -85,6 +93,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::safe:
     case Event::Kind::poses:
     case Event::Kind::peer:
+    case Event::Kind::process:
       return "";
     case Event::Kind::stop:
       return "stop: ";

@@ -13,6 +13,7 @@
 #include "replay/joint_play.hpp"
 #include "replay/joint_source.hpp"
 #include "replay/net_play.hpp"
+#include "replay/process_starts.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -384,6 +385,9 @@ class JointOrder {
 
 Legality check_joint(std::span<const Recording> recordings, const net::Net& net,
                      const ProcessMap& processes) {
+  const Recording& first = recordings.front();
+  if (recordings.size() == 1 && !first.process && first.segment.value_or(0) == 0 && has_deaths(first))
+    return check_joint(recordings_of_starts(first, DeployedNet(net, processes), processes), net, processes);
   JointOrder order(recordings, net, processes);
   auto [verdict, why] = order.judge();
   return {.verdict = verdict, .why = std::move(why), .firings = order.firings(), .marking = {}};

@@ -26,6 +26,8 @@ namespace tessera::replay {
 /// between processes is written before it is read, and its read has ended before its sender fires that it
 /// knows. Any order that keeps these is as good as another. Times of different recordings are not compared.
 ///
+/// A simulated run in which processes die is judged as if each of their starts had a recording of its own.
+///
 /// incomplete: a recording is cut off, has lost events, or is not given. Then all that is given was checked as
 /// far as possible. The marking is empty: nobody records what happens between the processes.
 ///

@@ -14,6 +14,7 @@
 #include "net/net.hpp"
 #include "net/property.hpp"
 #include "reduce/reduce.hpp"
+#include "verify/subsystem_at_end.hpp"
 
 namespace tessera::verify {
 
@@ -33,8 +34,9 @@ struct PropertyResult {
   /// violated: a run that shows it, if one was found: transitions of abstract_net()
   /// (verify/communication/abstraction.hpp).
   std::vector<net::TransitionId> trace = {};
-  bool has_trace = false;               ///< a trace may be empty: the initial marking is a violation
-  std::vector<std::string> waits = {};  ///< violated: who waits for whom at the end of the run
+  bool has_trace = false;  ///< a trace may be empty: the initial marking is a violation
+  /// violated: who waits for whom at the end of the run, or of one that there is but was not found.
+  std::vector<SubsystemAtEnd> waits = {};
   struct Behaviour {
     std::string path;        ///< "robot.control.stop"
     std::uint32_t line = 0;  ///< of the specification

@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "project/verification/run_files.hpp"
 #include "project/verification/verdicts.hpp"
 #include "server/analysis/views.hpp"
+#include "server/analysis/waits.hpp"
 #include "server/http/answer.hpp"
 #include "server/http/guard.hpp"
 #include "server/runs/controller_link.hpp"
@@ -60,11 +62,15 @@ std::uint64_t number_in(const httplib::Request& request) {
 }  // namespace
 
 Api::Api(const StudioOptions& options, Parts parts)
-    : options_(options), parts_(parts), server_start_(random_token()) {}
+    : options_(options),
+      parts_(parts),
+      server_start_(random_token()),
+      language_(options.share / "spec.schema.json") {}
 
 void Api::serve_on(HttpServer& server) {
   serve_files(server);
   serve_work(server);
+  serve_sources(server);
   server.Get("/api/events",
              [this, &server](const Request&, Response& response) { stream_events(server, response); });
 }
@@ -75,6 +81,8 @@ void Api::serve_files(HttpServer& server) {
   server.Put("/api/spec",
              [this](const Request& request, Response& response) { put_spec(request, response); });
   server.Post("/api/check", [this](const Request& request, Response& response) { check(request, response); });
+  server.Post("/api/language",
+              [this](const Request& request, Response& response) { language_.handle(request, response); });
   server.Get("/api/recordings",
              [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
   server.Get("/api/recordings/([^/]+)",
@@ -99,6 +107,8 @@ void Api::serve_work(HttpServer& server) {
              [this](const Request& request, Response& response) { get_verify(request, response); });
   server.Delete("/api/verify/(\\d+)",
                 [this](const Request& request, Response& response) { stop_verify(request, response); });
+  server.Post("/api/waits",
+              [this](const Request& request, Response& response) { get_waits(request, response); });
   server.Post("/api/runs",
               [this](const Request& request, Response& response) { start_run(request, response); });
   server.Get("/api/runs",
@@ -126,10 +136,14 @@ void Api::get_project(Response& response) {
                {"version", options_.version},
                {"worlds", worlds},
                {"simulation", nullptr},
+               {"processes", json::array()},
                {"server_start", server_start_},
                {"examples_hint", (options_.share / "examples").string()}};
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
   if (analysis->model) project["name"] = analysis->model->system;
+  if (analysis->model && analysis->model->deployment)
+    for (const spec::Process& process : analysis->model->deployment->processes)
+      project["processes"].push_back(process.name);
   if (analysis->model && analysis->model->simulation && analysis->model->simulation->has_world()) {
     const spec::Simulation& simulation = *analysis->model->simulation;
     project["simulation"] = {{"world", simulation.coppelia ? "CoppeliaSim" : simulation.world},
@@ -199,6 +213,16 @@ void Api::get_verify(const Request& request, Response& response) {
   answer(response, std::move(*state));
 }
 
+void Api::get_waits(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text");
+  const std::vector<std::uint32_t> marked = body.indices("marking", "place");
+  if (!body.good()) return;
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+  if (!analysis->net) return answer_error(response, 422, "a specification with errors has no net");
+  answer(response, text_of(json{{"at_end", project::at_end_json(waits_in(*analysis->net, marked))}}));
+}
+
 void Api::stop_verify(const Request& request, Response& response) {
   if (!parts_.jobs.stop(number_in(request))) return answer_error(response, 404, "there is no such job");
   answer(response, "{}");
@@ -212,9 +236,10 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   RequestBody body(request, response);
   RunRequest wanted;
   const std::string kind = body.text_or("kind", "simulate");
-  wanted.kind = kind == "run"      ? RunRequest::Kind::run
-                : kind == "attach" ? RunRequest::Kind::attach
-                                   : RunRequest::Kind::simulate;
+  wanted.kind = kind == "run"          ? RunRequest::Kind::run
+                : kind == "attach"     ? RunRequest::Kind::attach
+                : kind == "deployment" ? RunRequest::Kind::deployment
+                                       : RunRequest::Kind::simulate;
   wanted.socket = body.text_or("socket", "");
   wanted.world = body.text_or("world", "");
   wanted.track = body.text_or("track", "");
@@ -224,8 +249,8 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   wanted.paused = body.flag("paused");
   wanted.records_all = body.text_or("values", "small") == "all";
   if (!body.good()) return std::nullopt;
-  if (kind != "simulate" && kind != "run" && kind != "attach")
-    return refuse("a run is of kind simulate, run or attach");
+  if (kind != "simulate" && kind != "run" && kind != "attach" && kind != "deployment")
+    return refuse("a run is of kind simulate, run, attach or deployment");
   if (kind == "attach" && std::ranges::count(listening_sockets(), wanted.socket) == 0)
     return refuse("nobody listens at " + wanted.socket, "/api/controllers names those who do");
   if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
@@ -266,6 +291,8 @@ void Api::control_run(const Request& request, Response& response) {
   const RunControl wanted{.command = body.text("command"),
                           .subsystem = body.text_or("subsystem", ""),
                           .speed = body.number("value"),
+                          .path = body.text_or("path", ""),
+                          .text = body.text_or("text", ""),
                           .places = body.indices("breakpoints", "place"),
                           .transitions = body.indices("breakpoints", "transition"),
                           .conditions = body.indices("breakpoints", "condition")};

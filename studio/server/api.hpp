@@ -3,6 +3,7 @@
 #include <string>
 
 #include "server/analysis/analysis.hpp"
+#include "server/analysis/language_answers.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/http/events.hpp"
@@ -37,6 +38,7 @@ class Api {
   void check(const Request& request, Response& response);
   void start_verify(const Request& request, Response& response);
   void get_verify(const Request& request, Response& response);
+  void get_waits(const Request& request, Response& response);
   void stop_verify(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
   void get_run(const Request& request, Response& response);
@@ -54,11 +56,14 @@ class Api {
   [[nodiscard]] std::optional<RunRequest> run_request(const Request& request, Response& response) const;
   void serve_files(HttpServer& server);
   void serve_work(HttpServer& server);
+  /// The C++ beside the specification, and examples to begin with.
+  void serve_sources(HttpServer& server);
   void stream_events(HttpServer& server, Response& response);
 
   const StudioOptions& options_;
   Parts parts_;
   std::string server_start_;
+  LanguageAnswers language_;
 };
 
 }  // namespace tessera::server

@@ -44,7 +44,7 @@ struct Studio::Parts {
   explicit Parts(const StudioOptions& given)
       : options(given),
         file(given.spec),
-        analyses(file.path().filename().string()),
+        analyses(file.path()),
         jobs(analyses, events),
         runs(file, analyses, events),
         recordings(file, analyses),

@@ -1,7 +1,19 @@
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <csignal>
+#include <cstdlib>
 #include <utility>
 
+#include "../eventually.hpp"
+#include "../schema/judge.hpp"
+#include "cli/commands/joint_check.hpp"
 #include "command.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
 namespace {
@@ -36,6 +48,20 @@ class Deploy : public Command {
     for (std::size_t process = 0; process < 3; ++process)
       if (kill(pid_of(process), 0) == 0) return true;
     return false;
+  }
+  /// Whether the processes of a run have started that is not over.
+  [[nodiscard]] bool all_run() const {
+    const nlohmann::json now = deployment();
+    if (!now.is_object()) return false;
+    for (const nlohmann::json& process : now.at("processes")) {
+      const nlohmann::json& starts = process.at("starts");
+      const std::string said = "process-" + process.at("name").get<std::string>() + ".tsr";
+      if (starts.empty() || starts.back().contains("ended")) return false;
+      std::error_code missing;
+      const auto bytes = fs::file_size(project_ / ".tessera/last" / said, missing);
+      if (missing || bytes == 0) return false;
+    }
+    return true;
   }
   /// Runs it, and kills rover[0] when that has said something.
   project::Exit run_and_kill(const std::string& options) const {
@@ -100,6 +126,223 @@ TEST_F(Deploy, OneThatIsKilledIsToldOfAndStopsTheOthersOrStartsAgain) {
   const project::Exit both = tessera(checked);
   EXPECT_EQ(both.code, 3) << both.text;
   EXPECT_NE(both.text.find("in 4 recordings"), std::string::npos) << both.text;
+}
+
+/// What a robot gets, in a folder that has nothing else, without the environment of this machine.
+TEST_F(Deploy, PackagesRunWhereThereIsNothingElse) {
+  for (const char* format : {"deb", "archive"})
+    for (const char* folder : {"one", "two"}) {
+      const project::Exit made =
+          tessera(std::string("package 11_crossing_apart --set robot[0].control.speed=0.5 --format ") +
+                  format + " --release 1.2 --output " + folder);
+      ASSERT_EQ(made.code, 0) << made.text;
+      EXPECT_NE(made.text.find("gate, rover[0], rover[1]"), std::string::npos) << made.text;
+    }
+  const std::string deb = "tessera-crossroads_1.2_$(dpkg --print-architecture).deb";
+  const project::Exit same = shell("cmp one/" + deb + " two/" + deb + " && cmp one/*.gz two/*.gz");
+  EXPECT_EQ(same.code, 0) << "the same bytes each time: " << same.text;
+  ASSERT_EQ(shell("mkdir archive && tar -C archive -xf one/*.gz && dpkg-deb -x one/" + deb + " robot").code,
+            0);
+  EXPECT_EQ(shell("dpkg-deb -e one/" + deb + " control && ls control | sort | tr '\\n' ' '").text,
+            "conffiles control prerm ");
+  EXPECT_NE(content_of(folder_ / "control/control").find("libddsc0debian"), std::string::npos);
+  EXPECT_NE(content_of(folder_ / "robot/usr/lib/systemd/system/crossroads-rover-0.service")
+                .find("run --process \"rover[0]\" --parameters /opt/crossroads/parameters"),
+            std::string::npos);
+  for (const char* unpacked : {"robot/opt/crossroads", "archive/crossroads"})
+    EXPECT_NE(content_of(folder_ / unpacked / "parameters").find("robot[0].control.speed = 0.5"),
+              std::string::npos)
+        << unpacked;
+
+  fs::rename(kept(), folder_ / "away");  // so that nothing of the project is found
+  const std::string run =
+      "for p in gate 'rover[0]' 'rover[1]'; do env -i LD_DEBUG=files LD_DEBUG_OUTPUT=\"$PWD/loaded\" "
+      "robot/opt/crossroads/controller run --process $p --parameters robot/opt/crossroads/parameters --for "
+      "3s "
+      "--record $p.tsr" +
+      domain_ + " & all=\"$all $!\"; done; for one in $all; do wait $one || exit 1; done";
+  const project::Exit ran = shell(run);
+  fs::rename(folder_ / "away", kept());
+  EXPECT_EQ(ran.code, 0) << ran.text;
+  EXPECT_EQ(shell("grep -ho 'calling init: .*libtessera_dds.so' loaded.* | sort -u").text,
+            "calling init: " + (folder_ / "robot/opt/crossroads/libtessera_dds.so").string() + "\n");
+  const project::Exit joint =
+      tessera("replay --spec 11_crossing_apart --check gate.tsr 'rover[0].tsr' 'rover[1].tsr'");
+  EXPECT_EQ(joint.code, 0) << joint.text;
+}
+
+TEST_F(Deploy, ASimulatedRunInWhichProcessesDieIsJudged) {
+  const auto simulated = [&](const char* file) {
+    return tessera(std::string("simulate 11_crossing_apart --for 12s --network loss=0.1 --record ") + file +
+                   " --inject 'process:gate:restart=1s@3s' --inject 'process:rover[1]:restart=500ms@6s'");
+  };
+  const project::Exit run = simulated("once.tsr");
+  EXPECT_NE(run.text.find("gate  warning: injected: the process begins again (start 2)"), std::string::npos)
+      << run.text;
+  static_cast<void>(simulated("again.tsr"));
+  EXPECT_EQ(content_of(folder_ / "once.tsr"), content_of(folder_ / "again.tsr"));
+  const project::Exit legal = tessera("replay --spec 11_crossing_apart --check once.tsr");
+  EXPECT_EQ(legal.code, 0) << legal.text;
+  const project::Exit events = tessera("replay --spec 11_crossing_apart --print once.tsr");
+  EXPECT_NE(events.text.find("process rover[1] has died (start 1)"), std::string::npos)
+      << events.text.substr(0, 500);
+
+  // The gate, begun again, reads a value that nobody has written.
+  std::string error;
+  std::optional<Recording> recording = read_recording((folder_ / "once.tsr").string(), error);
+  ASSERT_TRUE(recording) << error;
+  for (auto entry = recording->entries.rbegin(); entry != recording->entries.rend(); ++entry) {
+    if (entry->event.kind() != Event::Kind::firing || entry->event.version == 0) continue;
+    if (!recording->transitions[entry->event.subject].name.starts_with("crossing.control.watch.rcv"))
+      continue;
+    entry->event.version += 5;
+    break;
+  }
+  const auto judged = cli::check_against(kept().string(), {*recording});
+  ASSERT_TRUE(judged);
+  EXPECT_EQ(judged->verdict, replay::Legality::Verdict::illegal) << judged->why;
+}
+
+/// Three machines in network namespaces, one scenario; TESSERA_SCENARIOS says how many (16 s each).
+TEST_F(Deploy, MachinesThatAreCutOffAndKilledGoOn) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root may make network namespaces";
+  const char* const given = std::getenv("TESSERA_SCENARIOS");
+  const project::Exit done =
+      shell("'" TESSERA_SOURCE_DIR "/tests/namespaces/crossing' '" TESSERA_BINARY_DIR "/tessera' '" +
+            kept().string() + "' scenarios " + (given == nullptr ? "1" : given));
+  if (done.code == 77) GTEST_SKIP() << done.text;
+  EXPECT_EQ(done.code, 0) << done.text;
+}
+
+TEST_F(Deploy, APackageSaysWhatIsWrongBeforeAnythingIsBuilt) {
+  const project::Exit version = tessera("package 11_crossing_apart --release beta");
+  EXPECT_EQ(version.code, 2);
+  EXPECT_NE(version.text.find("'beta' is no version"), std::string::npos) << version.text;
+  const project::Exit host = tessera("package 11_crossing_apart --host cart.local");
+  EXPECT_EQ(host.code, 2);
+  EXPECT_NE(host.text.find("names no host"), std::string::npos) << host.text;
+}
+
+TEST_F(Deploy, AllAreWatchedSetAndResetTogetherAndAWatcherThatDiesDisturbsNone) {
+  fs::create_directories(folder_ / "runtime");
+  fs::permissions(folder_ / "runtime", fs::perms::owner_all);
+  const project::Exit done = shell(
+      "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) +
+      "/tessera; await() { for i in $(seq 600); do if \"$@\"; then return; fi; sleep 0.05; done; echo WAITED "
+      "IN VAIN: "
+      "$*; }; "
+      "shows() { $T top crossroads --once 2>>none.txt | tr '\\n' ' ' | grep -q \"$1\"; }; "
+      "$T run 11_crossing_apart --deploy --on-failure go-on --for 120s" +
+      domain_ +
+      " >run.txt 2>&1 & R=$!; await shows '3 of 3 processes run'; await shows 'gate <- rover.0. *reachable.* "
+      "ms'; "
+      "$T top --once --json >lines.json; $T top crossroads >watched.txt & await test -s watched.txt; "
+      "$T set speed=0.5; $T set lane=99; $T set spead=1; echo set code $?; "
+      "$T emergency-stop --why smoke; await shows 'EMERGENCY STOP of gate, rover.0., rover.1.: smoke'; "
+      "$T reset; echo reset code $?; $T reset crossroads; $T reset crossroads; kill -KILL $!; "
+      "G=$($T top --once --json --controller gate | sed 's/.*\"pid\":\\([0-9]*\\).*/\\1/'); kill -KILL $G; "
+      "await shows 'waits for crossing.control: no value.* process gate is gone.*gate  *GONE'; "
+      "await shows 'rover.1. <- gate *DISCONNECTED'; "
+      "kill -INT $R; wait $R; echo run code $?");
+  for (const char* part :
+       {"rover[0]: speed=0.5", "rover[1]: speed=0.5", "rover[1]: parameter lane = 99: 99 is out of range",
+        "unknown parameter 'spead'; did you mean 'speed'?", "set code 1", "several controllers are running",
+        "`tessera reset crossroads` resets all of them", "reset code 1",
+        "gate: the emergency stop is over (smoke)", "rover[1]: the emergency stop is over (smoke)",
+        "no process of crossroads on this machine has an emergency", "run code 1"})
+    EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
+  EXPECT_EQ(done.text.find("WAITED IN VAIN"), std::string::npos)
+      << done.text << content_of(folder_ / "run.txt");
+  std::ifstream lines(folder_ / "lines.json");
+  std::size_t judged = 0;
+  for (std::string line; std::getline(lines, line); ++judged) {
+    const nlohmann::json said = nlohmann::json::parse(line, nullptr, false);
+    ASSERT_TRUE(said.is_object()) << line;
+    schema_test::judge_line(said);
+    EXPECT_FALSE(said.at("links").empty()) << line;
+  }
+  EXPECT_EQ(judged, 3U);
+  const project::Exit joint = tessera(checked);
+  EXPECT_EQ(joint.code, 3) << joint.text;
+  EXPECT_NE(joint.text.find("the recording of gate is cut off"), std::string::npos) << joint.text;
+}
+
+/// `tessera run --deploy` with its output where the test wants it.
+class Started {
+ public:
+  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal) : pid_(fork()) {
+    if (pid_ != 0) return;
+    if (as_terminal) {
+      setsid();
+      ioctl(output, TIOCSCTTY, 0);
+      dup2(output, STDIN_FILENO);
+    }
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    for (int other = 3; other < 64; ++other) close(other);
+    const std::string line = "cd '" + folder.string() + "' && exec " + TESSERA_BINARY_DIR +
+                             "/tessera run 11_crossing_apart --deploy --for 120s" + domain;
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  [[nodiscard]] pid_t pid() const { return pid_; }
+  /// Its exit code.
+  [[nodiscard]] int wait() const {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_;
+};
+
+TEST_F(Deploy, ItGoesOnWithoutAReaderAndOnAFullDisk) {
+  const project::Exit unread = shell("bash -c '" + std::string(TESSERA_BINARY_DIR) +
+                                     "/tessera run 11_crossing_apart --deploy --for 2s" + domain_ +
+                                     " | head -1; echo code ${PIPESTATUS[0]}'");
+  EXPECT_NE(unread.text.find("cannot write to standard output: Broken pipe; the processes go on"),
+            std::string::npos)
+      << unread.text;
+  EXPECT_NE(unread.text.find("code 0"), std::string::npos) << unread.text;
+  const project::Exit full = tessera("run 11_crossing_apart --deploy --for 2s >/dev/full" + domain_);
+  EXPECT_EQ(full.code, 0) << full.text;
+  EXPECT_NE(full.text.find("No space left on device; the processes go on"), std::string::npos) << full.text;
+  for (const nlohmann::json& process : deployment().at("processes"))
+    EXPECT_EQ(process.at("starts").back().at("ended"), "ended: duration");
+}
+
+TEST_F(Deploy, ATerminalThatTakesNothingHoldsUpNoStop) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+  fcntl(ends[1], F_SETFL, O_NONBLOCK);
+  const std::string some(4096, '.');
+  while (::write(ends[1], some.data(), some.size()) > 0) continue;
+  fcntl(ends[1], F_SETFL, 0);
+  const Started run(folder_, domain_, ends[1], /*as_terminal=*/false);
+  close(ends[1]);
+  ASSERT_TRUE(eventually([&] { return all_run(); }));
+  kill(run.pid(), SIGINT);
+  EXPECT_TRUE(eventually([&] { return !any_is_left(); })) << "it waits for the terminal";
+  std::string left(4096, ' ');
+  while (read(ends[0], left.data(), left.size()) > 0) continue;
+  close(ends[0]);
+  EXPECT_EQ(run.wait(), 128 + SIGINT);
+}
+
+TEST_F(Deploy, ATerminalThatIsClosedStopsAllSafely) {
+  int terminal = -1, other_side = -1;
+  ASSERT_EQ(openpty(&terminal, &other_side, nullptr, nullptr, nullptr), 0);
+  const Started run(folder_, domain_, other_side, /*as_terminal=*/true);
+  close(other_side);
+  ASSERT_TRUE(eventually([&] { return all_run(); }));
+  close(terminal);
+  EXPECT_EQ(run.wait(), 128 + SIGHUP)
+      << deployment() << content_of(project_ / ".tessera/last/process-gate.json")
+      << content_of(project_ / ".tessera/last/process-rover[1].json");
+  EXPECT_FALSE(any_is_left());
+  for (const nlohmann::json& process : deployment().at("processes"))
+    EXPECT_EQ(process.at("starts").back().at("ended"), "ended: SIGHUP") << deployment();
 }
 
 }  // namespace

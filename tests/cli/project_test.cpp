@@ -170,11 +170,11 @@ TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
 
 TEST_F(Project, CompileErrorInAConditionNamesTheLineOfTheSpecification) {
   ASSERT_EQ(tessera("new rover").code, 0);
-  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft, next: follow }");
+  replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: { terminal: in.line.lft(), next: follow }");
   const std::string spec = content_of(folder_ / "rover/spec.yaml");
   const auto line =
       1 +
-      std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft")), '\n');
+      std::count(spec.begin(), spec.begin() + static_cast<std::ptrdiff_t>(spec.find("in.line.lft()")), '\n');
   const project::Exit done = tessera("simulate rover --for 1s");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("spec.yaml:" + std::to_string(line) + ":"), std::string::npos) << done.text;
@@ -185,12 +185,18 @@ TEST_F(Project, DebugPrintsTheCommandThatDebugsTheRun) {
   ASSERT_EQ(tessera("new rover").code, 0);
   const project::Exit done = tessera("simulate rover --for 1s --debug");
   EXPECT_EQ(done.code, 0) << done.text;
-  EXPECT_NE(done.text.find("gdb --args "), std::string::npos) << done.text;
-  const std::string line = done.text.substr(done.text.find("gdb --args "));
+  ASSERT_NE(done.text.find("gdb -ix "), std::string::npos) << done.text;
+  const std::string line = done.text.substr(done.text.find("gdb -ix "));
+  // The second time, there is a value.
   const project::Exit debugged = shell(
-      "gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run -ex bt " +
+      "gdb -batch -ex 'set breakpoint pending on' -ex 'break rover::robot::control::follow' -ex run "
+      "-ex continue -ex bt -ex 'print in.line' -ex 'print in.line.middle' -ex 'print context.now' " +
       line.substr(4));
   EXPECT_NE(debugged.text.find("control.cpp"), std::string::npos) << debugged.text;
+  EXPECT_NE(debugged.text.find("= (valid, fresh, 60 ms old) = {left = true, middle = true, right = true}"),
+            std::string::npos)
+      << debugged.text;
+  EXPECT_NE(debugged.text.find("$2 = true\n$3 = 100 ms\n"), std::string::npos) << debugged.text;
 }
 
 TEST_F(Project, ACopyIsBuiltFromItsOwnSources) {
@@ -201,7 +207,8 @@ TEST_F(Project, ACopyIsBuiltFromItsOwnSources) {
         content_of(project / "src/control.cpp") + "\nint broken = \"text\";\n");
   const project::Exit built = tessera("simulate copy --for 1s");
   EXPECT_EQ(built.code, 1) << built.text;
-  EXPECT_NE(built.text.find("copy/src/control.cpp"), std::string::npos) << built.text;
+  EXPECT_NE(built.text.find("src/control.cpp:"), std::string::npos) << built.text;
+  EXPECT_NE(built.text.find("copy/.tessera/build/release/compiler.log"), std::string::npos) << built.text;
 }
 
 }  // namespace tessera::cli_test

@@ -90,7 +90,7 @@ TEST_F(Several, CommandsAtOnceAreAllRight) {
   for (const std::string& one : printed) EXPECT_TRUE(one.starts_with("0\n")) << one;
   EXPECT_NE(printed[0].find("[  PASSED  ]"), std::string::npos) << printed[0];
   const auto program = [](const std::string& text) {
-    const std::size_t begin = text.find("gdb --args '") + 12;
+    const std::size_t begin = text.find(" --args '") + 9;
     return text.substr(begin, text.find('\'', begin) - begin);
   };
   EXPECT_NE(program(printed[2]), program(printed[3]));

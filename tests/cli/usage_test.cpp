@@ -68,14 +68,45 @@ TEST_F(Usage, EveryCommandShowsAnExample) {
   }
 }
 
-TEST_F(Usage, CompletionOffersCommandsAndOptions) {
+TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
+  const std::string program = TESSERA_BINARY_DIR "/tessera";
+  const std::string example = std::string(TESSERA_SOURCE_DIR) + "/examples/05_crossing";
   write(folder_ / "complete.sh",
-        "eval \"$(" TESSERA_BINARY_DIR
-        "/tessera completion)\"\n"
-        "COMP_WORDS=(tessera simu); COMP_CWORD=1; _tessera; echo \"${COMPREPLY[@]}\"\n"
-        "COMP_WORDS=(tessera simulate --se); COMP_CWORD=2; _tessera; echo \"${COMPREPLY[@]}\"\n");
+        "eval \"$(" + program +
+            " completion bash)\"\n"
+            "try() { COMP_WORDS=(" +
+            program +
+            " \"$@\"); COMP_CWORD=$#; _tessera; (IFS='|'; echo \"${COMPREPLY[*]}\"); }\n"
+            "try simu\n"
+            "try simulate --se\n"
+            "try verify " +
+            example +
+            " --property 'one is'\n"
+            "try show " +
+            example +
+            " --page = 'robot[1].control.turn.'\n"
+            "try simulate " +
+            example +
+            " --set 'robot[1].control.s'\n"
+            "try new x --robot a\n"
+            "try check compl\n"
+            "try show nowhere --page r\n");
   const project::Exit done = shell("bash complete.sh");
-  EXPECT_EQ(done.text, "simulate\n--set --seed\n");
+  EXPECT_EQ(
+      done.text,
+      "simulate\n--set|--seed\none is inside at a time\nrobot[1].control.turn.snd|robot[1].control.turn.rcv\n"
+      "robot[1].control.stop=|robot[1].control.speed=\narm\ncomplete.sh\n\n");
+}
+
+TEST_F(Usage, UnknownCommandsAndOptionsSayWhatIsMeant) {
+  const project::Exit command = tessera("ne");
+  EXPECT_EQ(command.code, 2);
+  EXPECT_NE(command.text.find("there is no command 'ne'; did you mean 'new'?"), std::string::npos)
+      << command.text;
+  const project::Exit option = tessera("show --pag x");
+  EXPECT_EQ(option.code, 2);
+  EXPECT_NE(option.text.find("tessera show has no option '--pag'; did you mean '--page'?"), std::string::npos)
+      << option.text;
 }
 
 TEST_F(Usage, ShowDrawsCountsAndExportsTheExample) {

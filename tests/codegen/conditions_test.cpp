@@ -4,6 +4,7 @@
 #include <string>
 
 #include "generated.hpp"
+#include "spec/legal_conditions.hpp"
 #include "verify_circuits/naive_endings.hpp"
 
 namespace tessera::test {
@@ -59,10 +60,10 @@ struct Mistake {
 };
 
 const Mistake mistakes[] = {
-    {"memory.count > 3", "memory.cont > 3", "spec.yaml:10:36: error:", "memory.cont > 3"},
+    {"memory.count > 3", "std::cont > 3", "spec.yaml:10:34: error:", "std::cont > 3"},
     {"'memory.count < 0'", "'memory.count < '", "spec.yaml:11:36: error:", "memory.count < '"},
-    {"memory.count == 4", "memory.count = 4", "spec.yaml:14:46: error:", "memory.count = 4"},
-    {"memory.count > 9", "parameters.count > 9", "spec.yaml:10:66: error:", "parameters.count > 9"},
+    {"memory.count == 4", "four(memory.count)", "spec.yaml:14:33: error:", "four(memory.count)"},
+    {"memory.count > 9", "memory.count() > 9", "spec.yaml:10:67: error:", "memory.count() > 9"},
 };
 
 TEST(Conditions, AMistakeNamesTheLineAndColumnOfTheSpecification) {
@@ -77,10 +78,22 @@ TEST(Conditions, AMistakeNamesTheLineAndColumnOfTheSpecification) {
 
 TEST(Conditions, OfABlockTextKeepTheirLines) {
   const std::string block =
-      "\n            done: |\n              memory.count > 3 &&\n                memory.cont > 5\n           "
+      "\n            done: |\n              memory.count > 3 &&\n                std::cont > 5\n           "
       " tired: memory.count > 9";
   const Ran ran = compile(replaced(lonely, "{ done: memory.count > 3, tired: \"memory.count > 9\" }", block));
-  EXPECT_THAT(ran.output, HasSubstr("spec.yaml:13:24: error:"));
+  EXPECT_THAT(ran.output, HasSubstr("spec.yaml:13:22: error:"));
+}
+
+/// What `check` accepts, the compiler accepts: durations with a blank, elapsed, index.
+TEST(Conditions, ThatAreLegalCompile) {
+  std::string terminal = "{";
+  for (std::size_t at = 0; at < legal_conditions.size(); ++at)
+    terminal += (at == 0 ? " c" : ", c") + std::to_string(at) + ": " + in_quotes(legal_conditions[at]);
+  const std::string spec = with_terminal(terminal + " }");
+  const Ran ran = compile(spec, "-fsyntax-only -Wno-conversion -Wno-sign-compare");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_THAT(generate(spec)["robot.control.cpp"],
+              HasSubstr("conditions_{in, out, memory, parameters, context_.in_behaviour, context_.index};"));
 }
 
 TEST(Conditions, ErrorIsAskedBeforeTerminalAndNamedOnesAreRemembered) {
@@ -180,8 +193,8 @@ agents:
 TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {
   const std::string spec =
       "{tessera: 1, system: lonely, agents: {robot: {control: {rate: 9 Hz, memory: {n: int8}, "
-      "behaviours: {work: {terminal: memory.m > 3}}}}}}\n";
-  EXPECT_THAT(compile(spec).output, HasSubstr("spec.yaml:1:125: error:"));
+      "behaviours: {work: {terminal: std::m > 3}}}}}}\n";
+  EXPECT_THAT(compile(spec).output, HasSubstr("spec.yaml:1:123: error:"));
 }
 
 TEST(Conditions, PathsOfSpecificationsAreEscaped) {

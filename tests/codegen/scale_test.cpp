@@ -11,10 +11,12 @@
 namespace tessera::test {
 namespace {
 
+/// Of the controller; the header for tests is no part of it.
 std::size_t lines_of_cpp(const Generated& generated) {
   std::size_t lines = 0;
   for (const codegen::File& file : generated.files)
-    if (file.path.ends_with("pp")) lines += static_cast<std::size_t>(std::ranges::count(file.text, '\n'));
+    if (file.path.ends_with("pp") && file.path != "tessera_testing.hpp")
+      lines += static_cast<std::size_t>(std::ranges::count(file.text, '\n'));
   return lines;
 }
 
@@ -105,7 +107,7 @@ TEST(Scale, AgentsWrittenOutAreLinear) {
 
 TEST(Scale, AThousandAgentsOfATemplateShareTheirNet) {
   const Generated generated = timed("template x 1000", from_template(1000));
-  EXPECT_EQ(generated.files.size(), 13U);
+  EXPECT_EQ(generated.files.size(), 14U);
   EXPECT_GT(generated.net.places().size(), 50000U);
 }
 

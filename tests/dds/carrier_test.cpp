@@ -107,6 +107,24 @@ TEST(Carrier, ASenderThatStartsLateLearnsTheStateAtOnceButNoOldValue) {
   EXPECT_TRUE(office.heard.messages.empty());
 }
 
+/// Both are in one process: its clock is ahead of itself by nothing.
+TEST(Carrier, SignsOfLifeTellTheClockOfTheOtherAndHowMuchOfItIsCertain) {
+  Pair pair;
+  const auto known = [](const Station& station, network::ProcessNumber peer) {
+    const auto found = station.heard.signs.find(peer);
+    return found != station.heard.signs.end() && found->second.clock && found->second.expected >= 3;
+  };
+  ASSERT_TRUE(
+      receive_until([&] { return known(pair.office, Crossing::cart) && known(pair.cart, Crossing::office); },
+                    pair.office, pair.cart));
+  for (const network::SignsOfLife& signs :
+       {pair.office.heard.signs.at(Crossing::cart), pair.cart.heard.signs.at(Crossing::office)}) {
+    EXPECT_LE(signs.lost, signs.expected);
+    EXPECT_GE(signs.clock->uncertainty, 0ns);
+    EXPECT_LE(std::chrono::abs(signs.clock->ahead), signs.clock->uncertainty);
+  }
+}
+
 TEST(Carrier, WakeEndsTheWaitOrTheNextOne) {
   const Crossing crossing;
   DdsCarrier carrier(crossing.setup(Crossing::office, 10));

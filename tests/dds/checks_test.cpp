@@ -140,7 +140,7 @@ TEST(Announcements, OnlyProcessesOfTheSameSystemThatDoNotFitAreToldOfAndOnce) {
             }),
             "");
   EXPECT_THAT(complaint([](auto& other) { other.wire_version = 9; }),
-              testing::HasSubstr("speaks version 9 of the messages, this process 1"));
+              testing::HasSubstr("speaks version 9 of the messages, this process 2"));
   EXPECT_THAT(complaint([](auto& other) { other.net_hash = "\x1b[2Jx"; }),
               testing::HasSubstr("executes another net of system crossing (?[2Jx, this process 00c0ffee)"));
   EXPECT_THAT(complaint([](auto& other) { other.process_name = "tram"; }),
@@ -154,7 +154,7 @@ TEST(Announcements, OnlyProcessesOfTheSameSystemThatDoNotFitAreToldOfAndOnce) {
 TEST(Announcements, StrangersCannotFillTheMemory) {
   dds::Announcements announcements(deployment());
   dds::Announcement other = dds::announcement_of(deployment(Crossing::cart, 20));
-  other.wire_version = 2;
+  ++other.wire_version;
   int told = 0;
   for (std::uint64_t start = 1; start < 5000; ++start) {
     other.incarnation = start;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Heard final : network::Carrier::Listener {
   std::vector<StateMessage> states;
   std::vector<Change> changes;
   std::vector<std::string> complaints;
+  std::map<network::ProcessNumber, network::SignsOfLife> signs;  ///< the newest
 
   void heard(network::ChannelNumber channel, const network::Data& data,
              const network::Value& value) override {
@@ -41,6 +43,9 @@ struct Heard final : network::Carrier::Listener {
   }
   void reachable(network::ProcessNumber process, bool is_there) override {
     changes.push_back({process, is_there});
+  }
+  void alive(network::ProcessNumber process, const network::SignsOfLife& its) override {
+    signs[process] = its;
   }
   void complaint(std::string_view text) override { complaints.emplace_back(text); }
 

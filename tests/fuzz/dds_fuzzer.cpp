@@ -10,6 +10,7 @@
 #include "network/dds/dropped.hpp"
 #include "network/dds/presence.hpp"
 #include "network/dds/received.hpp"
+#include "network/dds/signs_of_life.hpp"
 #include "tests/dds/crossing.hpp"
 
 /// Whatever the fields of messages are, they are dropped with a text that can be shown, or fit the deployment.
@@ -73,7 +74,10 @@ struct Reader final : network::Carrier::Listener {
 
 struct Station {
   explicit Station(const dds::Deployment& its_deployment)
-      : deployment(its_deployment), presence(its_deployment), announcements(its_deployment) {}
+      : deployment(its_deployment),
+        presence(its_deployment),
+        signs(its_deployment),
+        announcements(its_deployment) {}
 
   void hear_data(Bytes& bytes) {
     dds::ReceivedData data;
@@ -106,11 +110,24 @@ struct Station {
     presence.heard(state.process, state.from, now, reader);
   }
   void hear_alive(Bytes& bytes, bool leaves) {
-    const dds::ReceivedAlive alive{.process = bytes.take_index(), .incarnation = bytes.take<std::uint64_t>()};
+    dds::ReceivedAlive alive;
+    alive.process = bytes.take_index();
+    alive.incarnation = bytes.take<std::uint64_t>();
     const dds::Refusal refusal = dds::check(alive, deployment);
     if (refusal != dds::Refusal::none) return drop(refusal, alive);
     if (leaves) return presence.left(alive.process, alive.incarnation, reader);
     presence.heard(alive.process, alive.incarnation, now, reader);
+    alive.number = bytes.take<std::uint64_t>();
+    alive.sent_ns = bytes.take<std::int64_t>();
+    alive.wall_ns = bytes.take<std::int64_t>();
+    alive.echo_process = deployment.process;
+    alive.echo_incarnation = deployment.incarnation;
+    alive.echo_ns = bytes.take<std::int64_t>();
+    alive.held_ns = bytes.take<std::int64_t>();
+    const auto heard = signs.hear(alive, now.time_since_epoch(), now.time_since_epoch());
+    if (heard) require(heard->expected > 0 && heard->expected <= 64 && heard->lost < heard->expected);
+    if (heard && heard->clock) require(heard->clock->uncertainty.count() >= 0);
+    static_cast<void>(signs.next(now.time_since_epoch(), now.time_since_epoch()));
   }
   void hear_announcement(Bytes& bytes) {
     dds::Announcement other = dds::announcement_of(deployment);
@@ -133,6 +150,7 @@ struct Station {
 
   const dds::Deployment& deployment;
   dds::Presence presence;
+  dds::SignsOfLife signs;
   dds::Announcements announcements;
   dds::Dropped dropped{"dropped"};
   Reader reader;

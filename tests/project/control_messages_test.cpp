@@ -41,10 +41,11 @@ TEST(ControlMessages, ASnapshotIsReadWholeAndPassedOnAsItCame) {
                          {"call_s", 0.001},
                          {"longest_call_s", 0.002}}};
   const json channels{{{"name", "a->b"}, {"marked", {"full"}}}};
-  json line{{"system", "arm"}, {"pid", 4711},          {"net_hash", "abc"},
-            {"time_s", 2.5},   {"emergency", "why"},   {"recording", "/a.tsr"},
-            {"paused", true},  {"pauses", 4},          {"speed", 0.1},
-            {"broke_at", "p"}, {"channels", channels}, {"subsystems", subsystems}};
+  json line{{"system", "arm"},       {"pid", 4711},          {"net_hash", "abc"},
+            {"time_s", 2.5},         {"emergency", "why"},   {"recording", "/a.tsr"},
+            {"paused", true},        {"pauses", 4},          {"speed", 0.1},
+            {"broke_at", "p"},       {"channels", channels}, {"subsystems", subsystems},
+            {"waits", json::array()}};
   schema_test::judge_line(line);
   line["of_a_newer_version"] = 1;
   const std::optional<ControlLine> read = read_control_line(line.dump());

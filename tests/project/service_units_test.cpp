@@ -50,7 +50,20 @@ TEST_F(UnitFolder, HasAUnitPerProcessInAFolderPerHost) {
 
 TEST_F(UnitFolder, IsAcceptedBySystemd) {
   if (!fs::exists("/usr/bin/systemd-analyze")) GTEST_SKIP() << "systemd is not installed";
-  for (ServiceUnit unit : service_units(deployed_model())) {
+  std::vector<ServiceUnit> units = service_units(deployed_model());
+  // As packages have them.
+  for (ServiceUnit& packed : service_units(
+           deployed_model(),
+           {.own_user = true, .groups = {"audio", "dialout"}, .parameters = true, .own_libraries = true})) {
+    EXPECT_NE(packed.text.find("\nDynamicUser=yes\nUser=tessera-yard\n"), std::string::npos);
+    EXPECT_NE(packed.text.find("\nEnvironment=XDG_RUNTIME_DIR=/run/yard\n"), std::string::npos)
+        << "one folder, so that one emergency stop reaches all";
+    EXPECT_NE(packed.text.find("\nSupplementaryGroups=audio dialout\n"), std::string::npos);
+    units.push_back(std::move(packed));
+  }
+  EXPECT_NE(units.back().text.find("--record /var/lib/yard/yard-cart-1.tsr"), std::string::npos);
+  for (ServiceUnit& unit : units) {
+    EXPECT_EQ(unit.text.find('{'), std::string::npos) << unit.text;
     // It asks for the program, too.
     const std::string program = "/opt/yard/controller";
     unit.text.replace(unit.text.find(program), program.size(), "/bin/true");

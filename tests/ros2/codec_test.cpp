@@ -9,6 +9,7 @@
 
 #include "ros2/codec/cdr.hpp"
 #include "ros2/codec/plan.hpp"
+#include "ros2/codec/request_header.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
@@ -152,6 +153,51 @@ TEST(Codec, PutsJointsInTheOrderOfTheirNames) {
   EXPECT_EQ(value, bytes_of(2.0, 1.0, 4.0, 3.0));
   other.names = "left, middle";
   EXPECT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::other_names);
+}
+
+TEST(Codec, PutsTheHeaderOfServicesBeforeTheData) {
+  const RequestHeader header{0x0102030405060708, 5};
+  Bytes message = from_hex("000100000100000000000000");
+  const Bytes alone = message;
+  put_header(header, message);
+  EXPECT_EQ(hex(message), "00010000080706050403020105000000000000000100000000000000");
+  EXPECT_EQ(take_header(message), header);
+  EXPECT_EQ(message, alone);
+  Bytes big = from_hex("000000000102030405060708000000000000000501");
+  EXPECT_EQ(take_header(big), header);
+  EXPECT_EQ(hex(big), "0000000001");
+  for (std::size_t size = 0; size < 20; ++size) {
+    Bytes cut = from_hex("0001000008070605040302010500000000000000");
+    cut.resize(size);
+    const Bytes before = cut;
+    EXPECT_FALSE(take_header(cut).has_value()) << size;
+    EXPECT_EQ(cut, before);
+  }
+}
+
+TEST(Codec, GivesAndTakesFieldsThatNoMessageHas) {
+  Mapping mapping;
+  mapping.own = own_fields_of_service(/*has_outcome=*/true);
+  std::vector<MappingProblem> problems;
+  const auto value = parse_value_type("{word: string(4), call: uint32, data: bool, outcome: uint8}");
+  const auto message = message_of("bool data\nstring word");
+  const auto plan = Plan::make(message, *value, mapping, Direction::receive, problems);
+  ASSERT_TRUE(plan.has_value()) << problems.front().text;
+  Bytes got;
+  ASSERT_EQ(plan->decode(from_hex("000100000100000003000000686900"), got, std::array<std::uint64_t, 2>{7, 1}),
+            Plan::Outcome::good);
+  EXPECT_EQ(hex(got), "020000006869070000000101");
+  EXPECT_EQ(plan->own_number(got, call_field), 7U);
+  EXPECT_EQ(plan->own_number(got, outcome_field), 1U);
+  EXPECT_EQ(plan->own_number(std::span(got).first(5), call_field), 0U) << "no such value";
+  EXPECT_EQ(hex(plan->empty_value(std::array<std::uint64_t, 2>{9, 3})), "00000000090000000003");
+  const auto back = Plan::make(message, *value, mapping, Direction::send, problems);
+  ASSERT_TRUE(back.has_value());
+  Bytes sent;
+  ASSERT_TRUE(back->encode(got, {}, sent));
+  EXPECT_EQ(hex(sent),
+            "0001000101000000030000006869"
+            "0000");
 }
 
 TEST(Codec, RefusesWhatIsNoSuchMessage) {

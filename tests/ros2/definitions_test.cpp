@@ -97,6 +97,10 @@ TEST(Definitions, ThatComeWithTesseraAreWhole) {
   EXPECT_GT(names.size(), 80U);
   for (const std::string& name : names) {
     std::vector<Mistake> mistakes;
+    if (is_service_type(name)) {
+      EXPECT_TRUE(resolve_service(name, folders, mistakes).has_value()) << name;
+      continue;
+    }
     const auto message = resolve(name, folders, mistakes);
     for (const Mistake& one : mistakes) ADD_FAILURE() << one.shown();
     ASSERT_NE(message, nullptr) << name;
@@ -112,6 +116,9 @@ TEST(Definitions, ThatDoNotExistOrContainThemselvesAreRefused) {
   EXPECT_EQ(resolve("geometry_msgs/msg/Twits", folders, mistakes), nullptr);
   EXPECT_EQ(mistakes.back().shown(),
             "there is no message 'geometry_msgs/Twits'; did you mean 'geometry_msgs/Twist'?");
+  EXPECT_FALSE(resolve_service("std_srvs/srv/Triger", folders, mistakes).has_value());
+  EXPECT_EQ(mistakes.back().shown(),
+            "there is no service 'std_srvs/srv/Triger'; did you mean 'std_srvs/srv/Trigger'?");
   const DefinitionBundle loop("a/msg/A", "B b\n" + std::string(80, '=') + "\nMSG: a/B\nA[] a\n");
   EXPECT_EQ(resolve("a/msg/A", loop, mistakes), nullptr);
   EXPECT_EQ(mistakes.back().shown(), "a/A contains itself");
@@ -127,6 +134,13 @@ TEST(Names, AreThoseOfRos2) {
   EXPECT_EQ(dds_topic_name("/a/b"), "rt/a/b");
   EXPECT_EQ(dds_type_name("geometry_msgs/msg/Twist"), "geometry_msgs::msg::dds_::Twist_");
   EXPECT_EQ(node_name_of("robot[3]"), "robot_3");
+  EXPECT_EQ(dds_request_name("/a/enable"), "rq/a/enableRequest");
+  EXPECT_EQ(dds_reply_name("/a/enable"), "rr/a/enableReply");
+  EXPECT_EQ(dds_type_name(request_type("std_srvs/srv/SetBool")), "std_srvs::srv::dds_::SetBool_Request_");
+  EXPECT_EQ(dds_type_name(response_type("std_srvs/srv/SetBool")), "std_srvs::srv::dds_::SetBool_Response_");
+  EXPECT_TRUE(full_service_name("std_srvs/srv/SetBool").has_value());
+  for (const char* wrong : {"std_srvs/SetBool", "/srv/SetBool", "std_srvs/srv/", "a/msg/B", "a/srv/B/c"})
+    EXPECT_FALSE(full_service_name(wrong).has_value()) << wrong;
   const auto qos = parse_qos("sensor, depth 2, transient_local", error);
   ASSERT_TRUE(qos.has_value());
   EXPECT_FALSE(qos->reliable);

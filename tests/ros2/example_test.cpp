@@ -2,13 +2,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <memory>
 #include <string>
+
+#include "fast_peer.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -46,6 +50,34 @@ TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   EXPECT_GT(commands, 10);
   EXPECT_GT(driven_m, 0.05);
   EXPECT_EQ(last_v, 0) << "the safe command";
+
+  // Once more in a simulated run, whose clock others follow.
+  fast::Peer follower(static_cast<std::uint32_t>(std::stoi(domain)));
+  auto* const clocks = follower.reader<fast::Clock>("rt/clock");
+  const std::unique_ptr<FILE, int (*)(FILE*)> again(popen(base.c_str(), "r"), pclose);
+  const std::string simulate = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera simulate " +
+                               project.string() +
+                               " --hardware robot.laser --hardware robot.wheels --hardware robot.base"
+                               " --ros2-clock lo --for 2s >> " +
+                               (project / "run.log").string() + " 2>&1";
+  std::future<int> result = std::async(std::launch::async, [&] { return std::system(simulate.c_str()); });
+  double last_s = -1;
+  int ticks = 0;
+  const auto follow = [&] {
+    while (const auto tick = fast::Peer::take<fast::Clock>(*clocks)) {
+      const double now_s = tick->sec + 1e-9 * tick->nanosec;
+      EXPECT_GE(now_s, last_s);
+      last_s = now_s;
+      ++ticks;
+    }
+  };
+  while (result.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) follow();
+  follow();
+  EXPECT_EQ(result.get(), 0) << std::string(
+      std::istreambuf_iterator<char>(std::ifstream(project / "run.log").rdbuf()), {});
+  EXPECT_GT(ticks, 50);
+  EXPECT_GT(last_s, 1);
+  EXPECT_LE(last_s, 2.0);
   fs::remove_all(project);
 }
 

@@ -43,8 +43,10 @@ dds::Topic* Peer::topic(dds::TypeSupport& type, const std::string& name) {
   return participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
 }
 
-dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& name, bool reliable) {
+dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& name, bool reliable,
+                                   const std::string& user_data) {
   dds::DataWriterQos qos;
+  qos.user_data().data_vec({user_data.begin(), user_data.end()});
   qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
@@ -53,8 +55,10 @@ dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& nam
   return publisher_->create_datawriter(topic(type, name), qos);
 }
 
-dds::DataReader* Peer::make_reader(dds::TypeSupport type, const std::string& name, bool transient_local) {
+dds::DataReader* Peer::make_reader(dds::TypeSupport type, const std::string& name, bool transient_local,
+                                   const std::string& user_data) {
   dds::DataReaderQos qos;
+  qos.user_data().data_vec({user_data.begin(), user_data.end()});
   qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
   qos.durability().kind =
       transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;

@@ -32,6 +32,15 @@ struct Header {
     all(sec, nanosec, frame_id);
   }
 };
+struct Clock {
+  static constexpr const char* name = "rosgraph_msgs::msg::dds_::Clock_";
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(sec, nanosec);
+  }
+};
 struct Text {
   static constexpr const char* name = "std_msgs::msg::dds_::String_";
   std::string data;
@@ -96,6 +105,38 @@ struct Float64MultiArray {
   template <class Archive>
   void fields(Archive& all) {
     all(dimensions, data_offset, data);
+  }
+};
+
+/// The two messages of std_srvs/srv/SetBool, with the header of rmw_cyclonedds_cpp.
+struct SetBoolRequest {
+  static constexpr const char* name = "std_srvs::srv::dds_::SetBool_Request_";
+  std::uint64_t client = 0;
+  std::int64_t sequence = 0;
+  bool data = false;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(client, sequence, data);
+  }
+};
+struct SetBoolResponse {
+  static constexpr const char* name = "std_srvs::srv::dds_::SetBool_Response_";
+  std::uint64_t client = 0;
+  std::int64_t sequence = 0;
+  bool success = false;
+  std::string message;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(client, sequence, success, message);
+  }
+};
+/// A request of an implementation that puts nothing before the data.
+struct BareSetBoolRequest {
+  static constexpr const char* name = SetBoolRequest::name;
+  bool data = false;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(data);
   }
 };
 
@@ -166,12 +207,15 @@ class Peer {
 
   /// topic: "rt/cmd_vel".
   template <class Message>
-  eprosima::fastdds::dds::DataWriter* writer(const std::string& topic, bool reliable = true) {
-    return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable);
+  eprosima::fastdds::dds::DataWriter* writer(const std::string& topic, bool reliable = true,
+                                             const std::string& user_data = "") {
+    return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable, user_data);
   }
   template <class Message>
-  eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool transient_local = false) {
-    return make_reader(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, transient_local);
+  eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool transient_local = false,
+                                             const std::string& user_data = "") {
+    return make_reader(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, transient_local,
+                       user_data);
   }
   /// The next message; nullopt: there is none now.
   template <class Message>
@@ -188,9 +232,11 @@ class Peer {
 
  private:
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::TypeSupport type,
-                                                  const std::string& topic, bool reliable);
+                                                  const std::string& topic, bool reliable,
+                                                  const std::string& user_data);
   eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::TypeSupport type,
-                                                  const std::string& topic, bool transient_local);
+                                                  const std::string& topic, bool transient_local,
+                                                  const std::string& user_data);
   eprosima::fastdds::dds::Topic* topic(eprosima::fastdds::dds::TypeSupport& type, const std::string& name);
 
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;

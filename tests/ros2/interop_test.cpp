@@ -12,6 +12,7 @@
 
 #include "eventually.hpp"
 #include "fast_peer.hpp"
+#include "ros2/dds/clock.hpp"
 #include "ros2/dds/drivers.hpp"
 #include "ros2/definitions/resolver.hpp"
 #include "tessera/bounded_string.hpp"
@@ -273,6 +274,29 @@ TEST_F(WithFastDds, TellsOfAPublisherWithAnotherReliability) {
   told += testing::internal::GetCapturedStderr();
   BoundedString<16> heard;
   EXPECT_FALSE(read(*ear, heard));
+}
+
+TEST_F(WithFastDds, PublishesTheTimeOfASimulatedRunAndStampsItsMessagesWithIt) {
+  setenv("ROS_DOMAIN_ID", std::to_string(test_domain()).c_str(), 1);
+  EXPECT_GT(stamp_now().sec, 1'600'000'000) << "the system clock";
+  auto* const clocks = peer.reader<fast::Clock>("rt/clock");
+  std::string error;
+  auto clock = make_clock("lo", error);
+  ASSERT_NE(clock, nullptr) << error;
+  std::optional<fast::Clock> got;
+  ASSERT_TRUE(eventually([&] {
+    clock->publish(std::chrono::milliseconds(2750));
+    return (got = fast::Peer::take<fast::Clock>(*clocks)).has_value();
+  }));
+  EXPECT_EQ(got->sec, 2);
+  EXPECT_EQ(got->nanosec, 750'000'000U);
+  clock->set(std::chrono::milliseconds(3001));
+  EXPECT_EQ(stamp_now().sec, 3);
+  EXPECT_EQ(stamp_now().nanosec, 1'000'000U);
+  clock.reset();
+  EXPECT_GT(stamp_now().sec, 1'600'000'000);
+  EXPECT_EQ(make_clock("no such", error), nullptr);
+  EXPECT_EQ(error, "'no such' is no name and no address of a network interface");
 }
 
 TEST_F(WithFastDds, WaitsForTheOtherSideIfAsked) {

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include "project/files/ros2_messages.hpp"
@@ -65,6 +67,45 @@ spec.yaml:11:92: error E321: the buffer's 'omega' of type float64 does not fit '
 hint: map its fields one by one, or give the buffer a structure
 2 errors
 )");
+}
+
+std::string text_in(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+const fs::path goldens = fs::path(TESSERA_SOURCE_DIR) / "tests/golden/ros2";
+
+/// What looking up messages says of a specification that is right in itself.
+std::string report_of_golden(const fs::path& file, bool expected) {
+  diagnostics::Diagnostics out(file.filename().string(), text_in(file));
+  auto model = spec::parse(out);
+  EXPECT_TRUE(model.has_value()) << render(out);
+  if (!model) return "";
+  EXPECT_EQ(project::find_messages_in(*model, {goldens / "msg", shipped}, out), expected);
+  std::string report = render(out);
+  for (std::size_t at = 0; (at = report.find(goldens.string() + "/")) != std::string::npos;)
+    report.erase(at, goldens.string().size() + 1);
+  return report;
+}
+
+/// TESSERA_UPDATE_GOLDEN=1 writes what is said now; read the difference before you keep it.
+TEST(Specification, WithWrongMessagesOrServicesIsRefused) {
+  const std::string catalogue = text_in(fs::path(TESSERA_SOURCE_DIR) / "docs/diagnostics.md");
+  for (const auto& file : fs::directory_iterator(goldens / "wrong")) {
+    if (file.path().extension() != ".yaml") continue;
+    const std::string report = report_of_golden(file, false);
+    const fs::path expected = fs::path(file).replace_extension(".expected");
+    if (std::getenv("TESSERA_UPDATE_GOLDEN") != nullptr) std::ofstream(expected) << report;
+    EXPECT_EQ(report, text_in(expected));
+  }
+  for (const std::string code : {"E320", "E321", "E322"})
+    EXPECT_NE(catalogue.find("| " + code + " |"), std::string::npos) << code;
+}
+
+TEST(Specification, WithServicesHasTheirDefinitions) {
+  for (const auto& file : fs::directory_iterator(goldens / "valid"))
+    EXPECT_EQ(report_of_golden(file, true), "");
 }
 
 TEST(Specification, SeesTheMistakesOfItsOwnMessages) {

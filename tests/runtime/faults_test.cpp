@@ -276,7 +276,7 @@ TEST(Inject, SaysWhatIsWrong) {
            Case{"robot.a.frist:throw@1s", "unknown 'robot.a.frist'; did you mean 'robot.a.first'?"},
            Case{"robot.a:trow@1s",
                 "unknown fault 'trow'; there are throw, stall=TIME, nan, inf, and the prefixes device:, "
-                "silent:, signal:, link:; did you mean 'throw'?"},
+                "silent:, signal:, link:, process:; did you mean 'throw'?"},
            Case{"robot.a:stall@1s", "stall needs a time, for example stall=200ms"},
            Case{"robot.a:nan=3@1s", "'nan' takes no value"},
            Case{"robot.a:throw@soon", "'soon' is no time such as 2.5s or 200ms"},

@@ -1,5 +1,6 @@
 #include "watch/monitor_protocol.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -84,16 +85,41 @@ TEST(MonitorProtocol, WritesASnapshotInOneLine) {
   Snapshot::Subsystem& subsystem = snapshot.subsystems.emplace_back();
   subsystem.path = "robot.a";
   subsystem.iterations = 2;
-  snapshot.channels.push_back({.name = "x", .marked = {"full"}});
+  snapshot.channels.push_back({.name = "x", .marked = {"full"}, .sending_since_s = {}});
   EXPECT_EQ(to_line(snapshot),
             R"({"channels":[{"marked":["full"],"name":"x"}],"net_hash":"ab","pid":12,"subsystems":[)"
             R"({"behaviour":null,"call_s":0.0,"called_at_s":0.0,"calling":false,"ended":false,"errors":0,)"
             R"("firings":0,"iterations":2,"longest_call_s":0.0,"overruns":0,"path":"robot.a",)"
-            R"("period_s":0.0}],"system":"line","time_s":1.5})"
+            R"("period_s":0.0}],"system":"line","time_s":1.5,"waits":[]})"
             "\n");
   snapshot.recording = "r\xff";
   snapshot.simulation = {.paused = true, .pauses = 1, .speed = 0, .broke_at = ""};
   EXPECT_NE(to_line(snapshot).find(R"("paused":true,"pauses":1,"pid":12,"recording":"r)"), std::string::npos);
+}
+
+TEST(MonitorProtocol, AProcessOfADeploymentTellsItsLinksAndWhoWaits) {
+  Snapshot snapshot;
+  snapshot.channels.push_back({.name = "x", .marked = {"sent"}, .sending_since_s = 1.25});
+  snapshot.waits.push_back({.subsystem = "robot.control",
+                            .waits_for = "gate.control",
+                            .channel = "x",
+                            .for_answer = true,
+                            .process = "gate",
+                            .since_s = 1.25});
+  snapshot.process = {.name = "robot", .host = "here", .incarnation = 18'446'744'073'709'551'615U};
+  Snapshot::Link& link = snapshot.links.emplace_back();
+  link.process = "gate";
+  EXPECT_THAT(to_line(snapshot),
+              ::testing::AllOf(::testing::HasSubstr(R"("sending_since_s":1.25)"),
+                               ::testing::HasSubstr(R"("what":"answer")"),
+                               ::testing::HasSubstr(R"("incarnation":"18446744073709551615")"),
+                               ::testing::Not(::testing::HasSubstr("heard_s")),
+                               ::testing::Not(::testing::HasSubstr("clock"))));
+  link.heard_s = 2;
+  link.clock_ahead_s = -0.5;
+  EXPECT_THAT(to_line(snapshot), ::testing::AllOf(::testing::HasSubstr(R"("heard_s":2.0)"),
+                                                  ::testing::HasSubstr(R"("clock_ahead_s":-0.5)"),
+                                                  ::testing::HasSubstr(R"("clock_uncertainty_s":0.0)")));
 }
 
 TEST(MonitorProtocol, WritesAnswersAndPieces) {

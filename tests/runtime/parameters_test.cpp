@@ -47,6 +47,32 @@ TEST_F(Parameters, PathsReachEverySubsystemTheyMatch) {
   EXPECT_EQ(gains(), (std::vector<double>{1, 2, 2}));
 }
 
+TEST_F(Parameters, APathMayNameAnAgent) {
+  EXPECT_EQ(set({{"robot[1].gain", "2"}}), "");
+  EXPECT_EQ(gains(), (std::vector<double>{1, 2, 2}));
+  EXPECT_EQ(set({{"robot[*].gain", "2"}}), "");
+  EXPECT_EQ(gains(), (std::vector<double>{2, 2, 2}));
+  EXPECT_EQ(set({{"robot[2].gain", "2"}}),
+            "unknown parameter 'robot[2].gain'; did you mean 'robot[0].a.gain'?");
+}
+
+TEST_F(Parameters, OfArraysAreLists) {
+  using Points = std::array<double, 3>;
+  EXPECT_EQ(set({{"points", "[0.5, 1e1,7]"}}), "");
+  EXPECT_EQ(seen.at(0).points, (Points{0.5, 10, 7}));
+  EXPECT_EQ(set({{"points", " 4, 5, 6"}}), "");
+  EXPECT_EQ(seen.at(0).points, (Points{4, 5, 6}));
+  EXPECT_EQ(set({{"points", "[1, 2]"}}),
+            "parameter points = [1, 2]: [1, 2] has 2 elements, and the parameter has 3: write [1, 2, 3]");
+  EXPECT_EQ(
+      set({{"points", "[1, 2, x]"}}),
+      "parameter points = [1, 2, x]: [1, 2, x] is wrong: element 2 (x) is no number (write it without a "
+      "unit)");
+  EXPECT_EQ(set({{"points", "[1, -2, 3]"}}),
+            "parameter points = [1, -2, 3]: [1, -2, 3] is wrong: element 1 (-2) is out of range 0 to inf");
+  EXPECT_NE(set({{"points", ""}}), "");
+}
+
 TEST_F(Parameters, TheLastOneCounts) {
   EXPECT_EQ(set({{"gain", "2"}, {"gain", "0.5"}}), "");
   EXPECT_EQ(gains(), (std::vector<double>{0.5, 0.5, 0.5}));

@@ -41,6 +41,27 @@ TEST(SimulatedRun, GridSurvivesAChangeOfBehaviour) {
   EXPECT_EQ(times, (std::vector<Duration>{0ms, 10ms, 20ms, 30ms}));
 }
 
+/// Also if the behaviour follows itself, and in conditions as in transition functions.
+TEST(SimulatedRun, TimeInABehaviourBeginsWithItsFirstCall) {
+  TestSystem system;
+  std::vector<Duration> called, decided;
+  std::vector<std::uint32_t> indices;
+  Script script;
+  script.call = [&](ScriptState& state) {
+    called.push_back(state.context.in_behaviour);
+    indices.push_back(state.context.index);
+  };
+  script.decide = [&](const ScriptState& state) {
+    decided.push_back(state.context.in_behaviour);
+    return state.context.in_behaviour >= 20ms ? Outcome::terminal : Outcome::go_on;
+  };
+  system.add("robot[7].a", nets::two_behaviours, script, 10ms);
+  EXPECT_FALSE(run(system, simulated(75ms)).failed);
+  EXPECT_EQ(called, (std::vector<Duration>{0ms, 10ms, 20ms, 0ms, 10ms, 20ms, 0ms, 10ms}));
+  EXPECT_EQ(decided, called);
+  EXPECT_EQ(indices, std::vector<std::uint32_t>(8, 7));
+}
+
 TEST(SimulatedRun, EndsWhenTheNetEnds) {
   TestSystem system;
   Script script;

@@ -38,6 +38,7 @@ class ScriptSubsystem final : public Subsystem {
     bindings.parameter("level", state_.level);
     bindings.parameter("flag", state_.flag);
     bindings.parameter("label", state_.label);
+    bindings.parameter("points", state_.points, 0);
   }
   void call(std::uint16_t behaviour) override {
     state_.behaviour = behaviour;

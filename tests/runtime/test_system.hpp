@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,6 +23,7 @@ struct ScriptState {
   std::int32_t level = 3;
   bool flag = false;
   BoundedString<8> label;
+  std::array<double, 3> points{1, 2, 3};
   Context context;
   std::uint16_t behaviour = 0;
 };

@@ -49,7 +49,7 @@ function judgeExchange({ method, target, status, body, answer }) {
   const name = requestNamed(method, path);
   if (status === 503 && answer === '') return ''; // too busy for words
   if (status >= 400) {
-    const isConflict = name === 'PUT /api/spec' && status === 409;
+    const isConflict = name?.startsWith('PUT ') && status === 409;
     return wrongWith(parsed(answer), 'studio', '$defs', isConflict ? 'Conflict' : 'Refusal');
   }
   if (!name) return 'the schema does not know this request';

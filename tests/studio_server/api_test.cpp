@@ -57,6 +57,33 @@ TEST_F(Api, ABrokenFileHasItsDiagnosticsAndWhatIsKnownOfIt) {
   EXPECT_EQ(analysis.at("structure").at("agents")[0].at("path"), "robot");
 }
 
+TEST_F(Api, MessagesOfRos2AreLookedUp) {
+  serve();
+  std::string text = content_of(spec());
+  text.insert(text.find("\nsimulation:"), R"(
+drivers:
+  robot.sensor.left:   { ros2: /left, type: my_robot/Light }
+  robot.sensor.middle: { ros2: /middle, type: std_msgs/Float65 }
+)");
+  const auto told = [&] {
+    std::vector<std::string> all;
+    const json analysis = post("/api/check", {{"text", text}}).json();
+    for (const json& one : analysis.at("diagnostics"))
+      all.push_back(one.at("code").get<std::string>() + " " + one.at("hint").get<std::string>());
+    EXPECT_FALSE(analysis.at("net").is_null()) << "the drivers are not in the net";
+    return all;
+  };
+  EXPECT_EQ(told(), (std::vector<std::string>{
+                        "E320 write its definition into msg/my_robot/msg/Light.msg beside the specification",
+                        "E320 did you mean 'std_msgs/Float64'?"}));
+  const fs::path folder = spec().parent_path() / "msg/my_robot/msg";
+  fs::create_directories(folder);
+  write(folder / "Light.msg", "float64 brightness\n");
+  EXPECT_EQ(told(), (std::vector<std::string>{"E320 did you mean 'std_msgs/Float64'?"}))
+      << "the text is the same, but not the definition";
+  fs::remove_all(spec().parent_path() / "msg");
+}
+
 TEST_F(Api, ColumnsCountAsBrowsersDo) {
   serve();
   const json analysis =
@@ -76,6 +103,28 @@ TEST_F(Api, TextThatIsNotYamlStillAnswers) {
     EXPECT_EQ(reply.status, 200) << text;
     EXPECT_FALSE(reply.json().at("diagnostics").empty()) << text;
   }
+}
+
+TEST_F(Api, LanguageCompletesExplainsAndFinds) {
+  serve();
+  const std::string text = content_of(spec());
+  const auto before = text.substr(0, text.find("next: follow") + 6);
+  const auto line = std::count(before.begin(), before.end(), '\n');
+  const auto character = before.size() - before.rfind('\n') - 1;
+  json question{{"text", text}, {"line", line}, {"character", character}, {"ask", "completion"}};
+  const json proposals = post("/api/language", question).json().at("proposals");
+  ASSERT_EQ(proposals.size(), 3U);
+  EXPECT_EQ(proposals[1].at("label"), "follow");
+  EXPECT_EQ(proposals[1].at("from").at("character"), character);
+  question["ask"] = "meaning";
+  EXPECT_THAT(post("/api/language", question).json().at("meaning").at("text").get<std::string>(),
+              HasSubstr("robot.control.follow"));
+  question["ask"] = "definition";
+  EXPECT_EQ(post("/api/language", question).json().at("definition").at("line"), line + 1);
+  question["ask"] = "weather";
+  EXPECT_EQ(post("/api/language", question).status, 400);
+  question["line"] = -1;
+  EXPECT_EQ(post("/api/language", question).status, 400);
 }
 
 TEST_F(Api, CheckDoesNotSave) {

@@ -57,6 +57,46 @@ TEST_F(VerifyJob, AViolationHasStepsOfTheNetAndIsToldInWords) {
   EXPECT_THAT(property.at("narrative").get<std::string>(), testing::HasSubstr("robot.motor"));
 }
 
+constexpr const char* greeting = R"(tessera: 1
+system: greeting
+agents:
+  left: { control: { inputs: { heard: bool }, outputs: { said: bool }, behaviours: { talk: {} } } }
+  right: { control: { inputs: { heard: bool }, outputs: { said: bool }, behaviours: { talk: {} } } }
+channels:
+  - { from: left.control.said, to: right.control.heard, send: blocking, receive: blocking }
+  - { from: right.control.said, to: left.control.heard, send: blocking, receive: blocking }
+)";
+
+TEST_F(VerifyJob, WhoIsStuckIsData) {
+  serve();
+  const json done = verify({{"text", greeting}, {"properties", {"goes_on"}}});
+  const json& property = done.at("result").at("properties")[0];
+  ASSERT_EQ(property.at("verdict"), "violated") << property;
+  const json& at_end = property.at("at_end");
+  ASSERT_EQ(at_end.size(), 2U) << at_end;
+  for (const json& one : at_end) {
+    EXPECT_EQ(one.at("state"), "waits");
+    const bool left = one.at("path") == "left.control";
+    EXPECT_EQ(one.at("from"), json::array({left ? "right.control" : "left.control"}));
+  }
+  // The same is found in the marking at the end of the run.
+  const json analysis = post("/api/check", {{"text", greeting}}).json();
+  const json& flat = analysis.at("net").at("flat");
+  std::vector<int> tokens;
+  for (const json& place : flat.at("places")) tokens.push_back(place.value("tokens", 0));
+  for (const json& step : property.at("steps")) {
+    const json& transition = flat.at("transitions")[step.get<std::size_t>()];
+    for (const json& arc : transition.at("inputs")) --tokens[arc.at("place").get<std::size_t>()];
+    for (const json& arc : transition.at("outputs")) ++tokens[arc.at("place").get<std::size_t>()];
+  }
+  json marking = json::array();
+  for (std::size_t place = 0; place < tokens.size(); ++place)
+    if (tokens[place] > 0) marking.push_back({{"place", place}});
+  const Reply waits = post("/api/waits", {{"text", greeting}, {"marking", marking}});
+  EXPECT_EQ(waits.json().at("at_end"), at_end) << waits.body;
+  EXPECT_EQ(post("/api/waits", {{"text", "tessera: 1"}, {"marking", json::array()}}).status, 422);
+}
+
 TEST_F(VerifyJob, RefusesWhatHasNoNetAndWhatNobodyKnows) {
   serve();
   EXPECT_EQ(post("/api/verify", {{"text", "tessera: 1"}}).status, 422);

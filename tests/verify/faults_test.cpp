@@ -35,7 +35,7 @@ TEST(Faults, OneStuckAgentIsNoDeadlock) {
   EXPECT_EQ(fleet_of_51["deadlock_free"].verdict, Verdict::holds);
   EXPECT_EQ(fleet_of_51["goes_on"].verdict, Verdict::violated);
   EXPECT_THAT(
-      fleet_of_51["goes_on"].waits,
+      texts_of(fleet_of_51["goes_on"]),
       testing::Contains(testing::HasSubstr("odd.control waits for a value of odd.eye.y->odd.control.x")));
 }
 

@@ -76,7 +76,7 @@ void expect_known(const Known& known, const fs::path& file) {
   const PropertyResult& result = all[known.property];
   EXPECT_EQ(result.verdict, known.verdict) << result.method << ": " << result.why;
   if (known.verdict == holds || !known.waits.empty()) {
-    EXPECT_THAT(result.waits, testing::UnorderedElementsAreArray(known.waits));
+    EXPECT_THAT(texts_of(result), testing::UnorderedElementsAreArray(known.waits));
   }
 }
 
@@ -151,7 +151,7 @@ TEST(KnownVerdicts, RunsToWhatNeverFollowsGoOnUntilAllWhoAreWaitedForAreStuck) {
     SCOPED_TRACE(property);
     const PropertyResult& result = all[property];
     EXPECT_EQ(result.verdict, violated);
-    EXPECT_THAT(result.waits,
+    EXPECT_THAT(texts_of(result),
                 testing::Contains(
                     "a.control waits for the acknowledgement of a.control.first->a.control.i from itself"));
   }

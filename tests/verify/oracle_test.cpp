@@ -240,7 +240,7 @@ class Comparison {
     const auto can_fire = that_can_fire(after);
     if (!can_fire) return;
     const RunEnd end(after, *can_fire);
-    for (const std::string& wait : property.waits) end.expect_true(wait);
+    for (const SubsystemAtEnd& wait : property.waits) end.expect_true(wait.text);
     if (property.name == "deadlock_free") {
       EXPECT_TRUE(can_fire->empty()) << "the run ends in no dead marking";
     }
@@ -249,7 +249,7 @@ class Comparison {
       if (property.name == "goes_on") {  // the one that is named, not another that gets stuck too
         EXPECT_FALSE(end.moves(property.why.substr(0, property.why.find(' ')))) << property.why;
       }
-      EXPECT_FALSE(end.moves(property.waits.front().substr(0, property.waits.front().find(' '))));
+      EXPECT_FALSE(end.moves(property.waits.front().path));
     }
     if (property.name == "channels_flow") {
       const std::string channel = property.why.substr(0, property.why.find(' '));

@@ -38,6 +38,12 @@ Proved proved(const std::string& text) {
   return {std::move(all.net), std::move(report)};
 }
 
+std::vector<std::string> texts_of(const PropertyResult& property) {
+  std::vector<std::string> texts;
+  for (const SubsystemAtEnd& one : property.waits) texts.push_back(one.text);
+  return texts;
+}
+
 net::Net flattened(const std::string& text) { return built(text).net; }
 
 }  // namespace tessera::verify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "net/net.hpp"
 #include "verify/verify.hpp"
@@ -19,6 +20,8 @@ struct Proved {
 };
 /// Throws std::runtime_error, with the diagnostics, of a text that is no specification.
 [[nodiscard]] Proved proved(const std::string& text);
+/// Its waits in words.
+[[nodiscard]] std::vector<std::string> texts_of(const PropertyResult& property);
 [[nodiscard]] net::Net flattened(const std::string& text);
 
 }  // namespace tessera::verify

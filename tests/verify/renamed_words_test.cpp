@@ -21,7 +21,7 @@ std::string told_of(const net::Net& net, const Report& report) {
   for (const PropertyResult& property : report.properties) {
     text += property.name + " " + std::to_string(static_cast<int>(property.verdict)) + " " + property.method +
             " " + property.why + " " + property.meaning + " " + property.explanation + "\n";
-    for (const std::string& wait : property.waits) text += wait + "\n";
+    for (const SubsystemAtEnd& wait : property.waits) text += wait.text + "\n";
     for (const PropertyResult::Behaviour& behaviour : property.behaviours) text += behaviour.path + "\n";
     const Assume assume = property.exceptions ? Assume::exceptions : Assume::conditions;
     for (const Act& act : narrate(abstract_net(net, assume), property.trace))

@@ -88,6 +88,11 @@ struct Event {
     /// instance deals with from here on. Of a receiver: before it reads a value of that start; of a sender:
     /// before it learns that a value was taken by it.
     peer = 12,
+    /// Like log: "NAME\nINCARNATION": under the simulated clock, a process of the deployment begins again
+    /// (version 1) with this incarnation, or has died (version 0). Its places then hold the tokens with
+    /// which they
+    /// begin. The incarnation of a first start is 1.
+    process = 14,
     /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
     /// follows. Not counted in `sequence`, and no entry of a Recording.
     end = 15

@@ -45,6 +45,10 @@ class Context {
   Time now{};                   ///< one value for the whole iteration
   Duration period{};            ///< of the subsystem's rate; zero if it has none
   std::uint64_t iteration = 0;  ///< i of the paper: counts over all behaviours of the subsystem
+  /// Since the behaviour began, that is since the first call of its transition function. In that call zero. A
+  /// behaviour that follows itself by `next` begins again. By the clock of the run, as `now`.
+  Duration in_behaviour{};
+  std::uint32_t index = 0;  ///< of the agent in its fleet, from 0; 0 if it is in none
 
   /// Writes to the terminal and the recording, with time and path. Allocates
   /// nothing; cuts text at 512 bytes.

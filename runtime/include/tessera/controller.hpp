@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "tessera/device.hpp"
+#include "tessera/main.hpp"
 #include "tessera/tables.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
+
+class Substitutes;
 
 /// How a controller is run.
 struct RunOptions {
@@ -18,7 +21,10 @@ struct RunOptions {
     simulated,  ///< single-threaded, deterministic from the seed, as fast as the machine allows
     steady      ///< a thread per subsystem
   } clock = Clock::simulated;
-  bool realtime = false;             ///< simulated clock: never faster than the wall clock
+  bool realtime = false;  ///< simulated clock: never faster than the wall clock
+  /// Simulated clock: its time is published as /clock of ROS 2 on this network interface, and is never faster
+  /// than the wall clock. Empty: it is not.
+  std::string ros2_clock;
   std::optional<Duration> duration;  ///< unset: the run lasts until the net ends or something stops it
   std::uint64_t seed = 1;
   /// Simulated clock: subsystems that can go on at one instant take turns after every firing, and not only
@@ -77,6 +83,7 @@ struct RunOptions {
   std::string death_note;
   int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
+  Substitutes* substitutes = nullptr;  ///< of a test (tessera/testing.hpp), simulated clock; nullptr: none
 };
 
 /// The result of a run.
@@ -117,9 +124,5 @@ struct RunSummary {
 /// Threads: one run at a time per process when it handles signals.
 [[nodiscard]] std::optional<RunSummary> execute(const System& system, const RunOptions& options,
                                                 std::string& error);
-
-/// The command line of a generated controller: `controller simulate|run [options]`, see --help. Returns
-/// the exit code of the process.
-[[nodiscard]] int controller_main(const System& system, int argc, char** argv);
 
 }  // namespace tessera

@@ -322,8 +322,11 @@ template <class Base, class Value, class Class>
   if constexpr (requires { typename Class::Value; })
     static_assert(std::is_same_v<typename Class::Value, Value>,
                   "the driver has another type than its real buffer");
+  static_assert(!std::is_abstract_v<Class>,
+                "the driver lacks a function: `std::optional<T> read() override` of a receptor, or "
+                "`bool write(const T&) override` of an effector");
   constexpr bool takes_setup = std::is_constructible_v<Class, const DriverSetup&>;
-  static_assert(takes_setup || std::is_default_constructible_v<Class>,
+  static_assert(takes_setup || std::is_default_constructible_v<Class> || std::is_abstract_v<Class>,
                 "the driver needs a constructor without parameters, or one that takes a const "
                 "tessera::DriverSetup&");
   std::unique_ptr<Base> made;

@@ -25,8 +25,8 @@ struct ParameterOwner {
   std::span<const Bindings::Parameter> parameters;
 };
 
-/// Sets parameters in order. PATH is a name (every subsystem that has it), or a subsystem's path and a
-/// name; `[*]` in the path stands for any index.
+/// Sets parameters in order. PATH is a name (every subsystem that has it), or the path of an agent or a
+/// subsystem and a name; `[*]` in the path stands for any index. The value of an array is "[1, 2, 3]".
 ///
 /// Errors: a path that names nothing (with the nearest that does), a value of another kind or out of range.
 ///         Reports all, one per line, and returns false. Correct assignments take effect all the same.

@@ -11,7 +11,11 @@
 ///      "emergency": why an emergency stop stands; absent: none does,
 ///      "subsystems": [{"path", "behaviour", "calling", "ended", "iterations", "firings", "overruns",
 ///                      "errors", "period_s", "called_at_s", "call_s", "longest_call_s"}],
-///      "channels": [{"name", "marked": ["full"]}]}
+///      "channels": [{"name", "marked": ["full"], "sending_since_s"}],
+///      "waits": [{"subsystem", "waits_for": path, "channel", "what": "answer" | "value", "process", "since_s"}],
+///      "process", "host", "incarnation": only of a process of a deployed system, as is
+///      "links": [{"process", "host", "reachable", "since_s", "heard_s", "sent", "repeated", "received",
+///                 "duplicates", "signs", "signs_lost", "clock_ahead_s", "clock_uncertainty_s"}]}
 ///
 /// It never waits for a client: a client that has not taken a line does not get the next ones, and
 /// a client that takes nothing for five seconds is dropped. For a large system the lines come less
@@ -39,6 +43,9 @@
 ///     {"command": "emergency_stop", "why": text}                 gives every device its safe command, and
 ///                                                                nothing else until the reset
 ///     {"command": "reset"}                                       ends the emergency stop: the operator's
+///
+/// An answer with {"elsewhere": true} says that no subsystem of this process has such a parameter; another
+/// process of the system may have it.
 ///
 /// Under the simulated clock, only a run that was started with `--controlled` listens. It sends 25 lines a
 /// second, which also have {"paused", "pauses", "speed", "broke_at"}. It takes more commands and answers each

@@ -14,14 +14,18 @@
 
 namespace tessera {
 
-/// A real buffer that is a topic of ROS 2, with all that the library needs to know (docs/ros2.md).
+/// A real buffer that is a topic of ROS 2, or one side of a service, with all that the library needs to know
+/// (docs/ros2.md).
 struct Ros2Binding {
-  std::string path;        ///< "robot.base.velocity"
-  std::string topic;       ///< "/cmd_vel"
-  std::string type;        ///< "geometry_msgs/msg/Twist"
-  std::string definition;  ///< of the type and of all that it uses (ros2/definitions/resolver.hpp)
-  std::string fields;      ///< "linear.x=v, angular.z=omega"; empty: equal names
-  std::string names;       ///< "shoulder, elbow"; empty: none
+  std::string path;   ///< "robot.base.velocity"
+  std::string topic;  ///< "/cmd_vel", or the name of a service
+  std::string type;   ///< "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool"
+  /// Of the message, or the message of the service that the buffer has, and of all that it uses
+  /// (ros2/definitions/resolver.hpp).
+  std::string definition;
+  std::string role;    ///< of a service: "client" or "server"; empty: a topic
+  std::string fields;  ///< "linear.x=v, angular.z=omega"; empty: equal names
+  std::string names;   ///< "shoulder, elbow"; empty: none
   std::string frame_id;
   std::string qos;                      ///< "sensor, depth 1"
   std::string node;                     ///< empty: the name of the agent
@@ -29,15 +33,31 @@ struct Ros2Binding {
   std::string peers;                    ///< "10.0.0.2, cart.local"; empty: those on the interface are found
   std::optional<std::uint32_t> domain;  ///< nullopt: ROS_DOMAIN_ID, or else 0
   Duration wait{};                      ///< how long `open` waits for the other side; zero: not at all
+  Duration timeout{};                   ///< how long a call may last; zero: what is usual
   const ValueEncoding* encoding = nullptr;
+};
+
+/// Publishes the time of a simulated run as /clock, for nodes of ROS 2 with use_sim_time.
+class Ros2Clock {
+ public:
+  Ros2Clock() = default;
+  Ros2Clock(const Ros2Clock&) = delete;
+  Ros2Clock& operator=(const Ros2Clock&) = delete;
+  virtual ~Ros2Clock() = default;
+  /// Messages that drivers send from now on have this time in their headers.
+  virtual void set(Duration since_start) = 0;
+  virtual void publish(Duration since_start) = 0;
 };
 
 /// The types of the functions that the library exports. Their names have the version of this interface.
 /// nullptr and `error`: the driver cannot be made.
 using Ros2ReceptorMaker = std::unique_ptr<RealReceptor> (*)(const Ros2Binding& binding, std::string& error);
 using Ros2EffectorMaker = std::unique_ptr<RealEffector> (*)(const Ros2Binding& binding, std::string& error);
-inline constexpr const char* ros2_receptor_function = "tessera_ros2_receptor_1";
-inline constexpr const char* ros2_effector_function = "tessera_ros2_effector_1";
+inline constexpr const char* ros2_receptor_function = "tessera_ros2_receptor_2";
+inline constexpr const char* ros2_effector_function = "tessera_ros2_effector_2";
+/// interface: the network interface, by name or address. The domain is that of ROS_DOMAIN_ID, or else 0.
+using Ros2ClockMaker = std::unique_ptr<Ros2Clock> (*)(const std::string& interface, std::string& error);
+inline constexpr const char* ros2_clock_function = "tessera_ros2_clock_2";
 inline constexpr const char* ros2_library_name = "libtessera_ros2.so";
 
 /// Loads the library, which stays loaded, and makes a driver of it. The library is that of the environment

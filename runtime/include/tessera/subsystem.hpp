@@ -172,8 +172,9 @@ struct Bindings {
     ValueKind kind;
     void* value;
     std::size_t size;
-    double minimum, maximum;
+    double minimum, maximum;   ///< of each element
     std::size_t capacity = 0;  ///< of a string
+    std::size_t elements = 0;  ///< of an array of `kind`; 0: it is none
   };
   std::vector<Incoming> inputs, real_inputs;
   std::vector<Outgoing> outputs;
@@ -242,6 +243,9 @@ struct Bindings {
     static_assert(std::is_trivially_copyable_v<T>);
     if constexpr (requires { T::capacity(); })
       parameters.push_back({name, ValueKind::string, &value, sizeof(T), minimum, maximum, T::capacity()});
+    else if constexpr (requires { std::tuple_size<T>::value; })
+      parameters.push_back({name, value_kind<typename T::value_type>(), &value, sizeof(T), minimum, maximum,
+                            0, std::tuple_size_v<T>});
     else
       parameters.push_back({name, value_kind<T>(), &value, sizeof(T), minimum, maximum});
   }
@@ -285,6 +289,9 @@ class Subsystem {
   [[nodiscard]] virtual Context& context() = 0;
 };
 
+template <class Context>
+struct SubsystemData;
+
 /// The typed part: the data that the user's transition functions are given.
 template <class InputsT, class MemoryT, class OutputsT, class ParametersT, class ContextT>
 class SubsystemOf : public Subsystem {
@@ -301,6 +308,7 @@ class SubsystemOf : public Subsystem {
   ContextT context_{parameters};
 
  private:
+  friend struct SubsystemData<ContextT>;  // of tests
   OutputsT kept_{};
 };
 

@@ -26,6 +26,19 @@ namespace tessera {
 
 class Guardian;
 
+/// Makes the subsystems of a process again, as a new start of it does. Nothing that they held remains.
+class ProcessRestarts {
+ public:
+  virtual ~ProcessRestarts() = default;
+  /// The process has died: its ends of channels do nothing more. Its executors remain to be looked at.
+  virtual void kill(std::uint32_t process) = 0;
+  /// Precondition: it was killed, and its devices are closed. The new executors replace the old ones, and
+  /// their
+  /// devices are open. false and `error`: a device cannot be made or opened.
+  [[nodiscard]] virtual bool restart(std::uint32_t process, network::Incarnation incarnation,
+                                     std::string& error) = 0;
+};
+
 /// A controller ready to run: every subsystem with its plan, channels, devices and parameters.
 struct Assembly {
   Assembly(const System& its_system, const RunOptions& its_options)
@@ -66,6 +79,10 @@ struct Assembly {
   std::unique_ptr<SimulatedNetwork> network;  ///< simulated clock: the same
   std::unique_ptr<Links> links;               ///< nullptr: there is no channel to another process
   network::Incarnation incarnation{1};        ///< of this start of the process
+  std::vector<Outage> outages;                ///< simulated clock: when processes die, in this order
+  std::unique_ptr<ProcessRestarts> restarts;  ///< nullptr: none dies
+  std::vector<Words> dead_channels;           ///< of processes that have died, which may still be looked at
+  std::vector<std::unique_ptr<SubsystemExecutor>> dead;       ///< of processes that have begun again
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };
 

@@ -60,7 +60,8 @@ namespace {
   for (const Channel& channel : whole.channels)
     channels.push_back({whole.process_of[channel.from.instance], whole.process_of[channel.to.instance]});
   assembly.network = std::make_unique<SimulatedNetwork>(
-      conditions, cuts_of(assembly.faults), assembly.options.seed, clock, std::move(channels),
+      conditions, cuts_of(assembly.faults), assembly.outages, assembly.options.seed, clock,
+      std::move(channels),
       [&links = *assembly.links](network::ProcessNumber one, network::ProcessNumber other, bool are) {
         links.joined(one, other, are);
       });
@@ -92,7 +93,7 @@ void make_links(Assembly& assembly, const Clock& clock) {
 }
 
 MadeEnd make_end(Assembly& assembly, const Clock& clock, std::uint32_t index, Side side,
-                 const CarriedValue& value) {
+                 const CarriedValue& value, network::Incarnation incarnation) {
   const ProcessPart& part = assembly.part;
   const bool sends = side == Side::send;
   const LinkedChannel linked = linked_channel(*part.whole, part.channels[index], sends);
@@ -104,10 +105,9 @@ MadeEnd make_end(Assembly& assembly, const Clock& clock, std::uint32_t index, Si
   std::unique_ptr<SharedChannel>& word = sends ? words.of_sender : words.of_receiver;
   word = std::make_unique<SharedChannel>(marking, value.bytes, 1, value.type);
   if (clock.simulated()) word->set_single_threaded();
-  if (sends)
-    return {word.get(), &assembly.links->add_sender(linked, *word, *value.encoding, assembly.incarnation)};
+  if (sends) return {word.get(), &assembly.links->add_sender(linked, *word, *value.encoding, incarnation)};
   return {word.get(), &assembly.links->add_receiver(linked, *word, *value.encoding, value.bytes, value.type,
-                                                    assembly.incarnation)};
+                                                    incarnation)};
 }
 
 bool open_network(Assembly& assembly, const Clock& clock, std::string& error) {

@@ -22,7 +22,7 @@ struct MadeEnd {
   NetworkEnd* end;
 };
 [[nodiscard]] MadeEnd make_end(Assembly& assembly, const Clock& clock, std::uint32_t index, Side side,
-                               const CarriedValue& value);
+                               const CarriedValue& value, network::Incarnation incarnation);
 
 /// Opens the library of the network, or makes the network in memory. Precondition: all ends are made.
 ///

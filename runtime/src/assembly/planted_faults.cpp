@@ -37,9 +37,17 @@ bool read_faults(const RunOptions& options, const ProcessPart& part, Injections&
   for (const std::string& text : options.inject) {
     std::optional<Injection> fault = read_injection(text, *part.whole, options.seed, options.duration, error);
     if (!fault) return false;
-    const bool of_link = fault->kind == Injection::Kind::link;
+    const bool of_process = fault->kind == Injection::Kind::process;
+    const bool of_link = fault->kind == Injection::Kind::link || of_process;
     if (of_link && options.clock != RunOptions::Clock::simulated) {
-      error = "--inject " + text + ": links are cut under the simulated clock only";
+      error = "--inject " + text +
+              (of_process ? ": processes die under the simulated clock only; in real time, kill them"
+                          : ": links are cut under the simulated clock only");
+      return false;
+    }
+    if (of_process && (options.monitor || !options.hardware.empty())) {
+      error = "--inject " + text +
+              ": a run in which processes die has no hardware in the loop, and cannot be controlled";
       return false;
     }
     if (!of_link && fault->kind != Injection::Kind::signal) {
@@ -59,6 +67,25 @@ std::vector<Cut> cuts_of(const Injections& faults) {
       cuts.push_back(
           {fault->processes.first, fault->processes.second, fault->from, fault->from + fault->delay});
   return cuts;
+}
+
+bool outages_of(const Injections& faults, const System& whole, std::vector<Outage>& outages,
+                std::string& error) {
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->kind == Injection::Kind::process)
+      outages.push_back({fault->processes.first, fault->from,
+                         fault->delay == Duration::max()
+                             ? Time::max()
+                             : fault->from + std::max(fault->delay, Duration{1})});
+  std::ranges::stable_sort(outages, {}, &Outage::from);
+  for (auto one = outages.begin(); one != outages.end(); ++one)
+    for (auto other = std::next(one); other != outages.end(); ++other)
+      if (one->process == other->process && other->from <= one->until) {
+        error = "--inject: " + std::string(whole.processes[one->process].name) +
+                " dies twice without having begun again in between";
+        return false;
+      }
+  return true;
 }
 
 void plant_subsystem_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock) {

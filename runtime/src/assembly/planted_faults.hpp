@@ -23,6 +23,11 @@ namespace tessera {
 /// The links that are cut.
 [[nodiscard]] std::vector<Cut> cuts_of(const Injections& faults);
 
+/// When processes die and begin again, in the order of their deaths. false and `error`: one dies while it is
+/// dead.
+[[nodiscard]] bool outages_of(const Injections& faults, const System& whole, std::vector<Outage>& outages,
+                              std::string& error);
+
 /// Plants the faults of the transition functions. Precondition: the subsystem is made and not bound yet.
 void plant_subsystem_faults(SubsystemParts& parts, const Injections& faults, const Clock& clock);
 

@@ -116,12 +116,10 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
 }
 
 /// Gives each subsystem its recorder of values, if they are recorded.
-void record_values(const RunOptions& options, Recorder& recorder, std::span<SubsystemParts> all) {
-  if (options.values == RunOptions::Values::none) return;
+void record_values(Assembly& assembly, std::span<SubsystemParts> all) {
   std::uint32_t first = 0;
   for (SubsystemParts& parts : all) {
-    parts.values = std::make_unique<ValueRecorder>(parts.bindings, first, value_limit(options),
-                                                   *recorder.lane(parts.index));
+    record_values_of(assembly, parts, first);
     first += count_buffers(parts.bindings);
   }
 }
@@ -146,6 +144,13 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
 
 }  // namespace
 
+void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer) {
+  const RunOptions& options = assembly.options;
+  if (options.recording.empty() || options.values == RunOptions::Values::none) return;
+  parts.values = std::make_unique<ValueRecorder>(parts.bindings, first_buffer, value_limit(options),
+                                                 *assembly.recorder->lane(parts.index));
+}
+
 bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,
                     std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
                     std::string& error) {
@@ -164,7 +169,7 @@ bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,
       longest_recorded_value(options, parts, shown), options.record_limit,
       track_of(assembly, net, std::move(channels)), assembly.part.instances);
   if (assembly.recorder == nullptr) return false;
-  record_values(options, *assembly.recorder, parts);
+  record_values(assembly, parts);
   if (shown != nullptr) record_poses(assembly, clock, *shown);
   return true;
 }

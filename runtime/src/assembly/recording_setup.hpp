@@ -20,4 +20,9 @@ namespace tessera {
                                   std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
                                   std::string& error);
 
+/// Gives one subsystem its recorder of values, if values are recorded. first_buffer: the number of its first
+/// buffer
+/// in the recording.
+void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer);
+
 }  // namespace tessera

@@ -1,5 +1,7 @@
 #include "assembly/upper_layers.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace tessera {
@@ -21,6 +23,22 @@ UpperLayers::UpperLayers(const std::vector<AgentSpan>& agents, std::vector<std::
     agent_of_.resize(agents[agent].end, agent);
     left_.push_back(agents[agent].end - agents[agent].first);
   }
+  size_ = left_;
+  is_dead_.resize(agents.size());
+}
+
+bool UpperLayers::agent_died(std::uint32_t agent) {
+  const bool had_ended = left_[agent] == 0;
+  if (!had_ended) --agents_left_;
+  is_dead_[agent] = true;
+  return !had_ended;
+}
+
+void UpperLayers::agent_begins_again(std::uint32_t agent, Time now) {
+  is_dead_[agent] = false;
+  left_[agent] = size_[agent];
+  ++agents_left_;
+  fire(agent_in(numbers_[agent]), now);
 }
 
 void UpperLayers::enter(Time now) {
@@ -32,7 +50,8 @@ void UpperLayers::subsystem_ended(std::uint32_t instance, Time now) {
   const std::uint32_t agent = agent_of_[instance];
   if (--left_[agent] > 0) return;
   fire(agent_out(numbers_[agent]), now);
-  if (--agents_left_ == 0 && of_system_) fire(system_out, now);
+  const bool all = --agents_left_ == 0 && std::ranges::none_of(is_dead_, std::identity{});
+  if (all && of_system_) fire(system_out, now);
 }
 
 void UpperLayers::fire(std::uint32_t transition, Time now) {

@@ -24,6 +24,13 @@ class UpperLayers {
   /// Fires t_out of the agent if this was its last subsystem, and t_out of the system if this was
   /// the last agent.
   void subsystem_ended(std::uint32_t instance, Time now);
+  /// The process of this agent has died. If it begins again, so does the agent. Returns whether it had not
+  /// ended.
+  bool agent_died(std::uint32_t agent);
+  void agent_begins_again(std::uint32_t agent, Time now);
+  /// The agent of a subsystem.
+  [[nodiscard]] std::uint32_t agent_of(std::uint32_t instance) const { return agent_of_[instance]; }
+  /// All that have not died have ended.
   [[nodiscard]] bool ended() const { return agents_left_ == 0; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
 
@@ -34,6 +41,8 @@ class UpperLayers {
   std::vector<std::uint32_t> numbers_;   // per agent
   bool of_system_;
   std::uint32_t agents_left_;
+  std::vector<std::uint32_t> size_;  // per agent: subsystems
+  std::vector<bool> is_dead_;        // per agent
   RecordingLane* lane_;
   std::uint64_t firings_ = 0;
 };

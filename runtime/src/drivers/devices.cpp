@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "drivers/substitutes.hpp"
 #include "drivers/whole_driver.hpp"
 
 namespace tessera {
@@ -18,6 +19,7 @@ struct ReceptorKind {
   static constexpr bool effector = false;
   static constexpr auto maker = &CppDriver::receptor;
   static constexpr auto of_world = &World::receptor;
+  static constexpr auto of_test = &Substitutes::receptor;
   static const auto& buffers(const Bindings& bindings) { return bindings.real_inputs; }
   static auto& devices(SubsystemDevices& devices) { return devices.receptors; }
 };
@@ -26,6 +28,7 @@ struct EffectorKind {
   static constexpr bool effector = true;
   static constexpr auto maker = &CppDriver::effector;
   static constexpr auto of_world = &World::effector;
+  static constexpr auto of_test = &Substitutes::effector;
   static const auto& buffers(const Bindings& bindings) { return bindings.real_outputs; }
   static auto& devices(SubsystemDevices& devices) { return devices.effectors; }
 };
@@ -119,6 +122,7 @@ std::shared_ptr<WorldState> DeviceFinder::world_for(const CppDriver& driver) con
 template <class Kind>
 std::unique_ptr<typename Kind::Base> DeviceFinder::find_one(const std::string& path,
                                                             const ValueEncoding* encoding) {
+  if (options_.substitutes != nullptr) return (options_.substitutes->*Kind::of_test)(path);
   const bool hardware = is_hardware(path);
   if (!hardware || !simulates_devices(options_))
     for (DriverRequest request : options_.drivers) {
@@ -144,7 +148,7 @@ template <class Kind>
 bool DeviceFinder::find_whole(const std::string& subsystem, const Bindings& bindings,
                               SubsystemDevices& devices) {
   const CppDriver* const driver = cpp_driver(subsystem, is_hardware(subsystem));
-  if (driver == nullptr) return false;
+  if (driver == nullptr || options_.substitutes != nullptr) return false;
   std::unique_ptr<typename Kind::Base> device = make<Kind>(*driver);
   if (device == nullptr) return true;
   if (bindings.real.value == nullptr) {

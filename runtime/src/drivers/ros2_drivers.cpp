@@ -4,24 +4,32 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
+#include "drivers/ros2_library.hpp"
 #include "tessera/ros2.hpp"
 
 namespace tessera {
-namespace {
 
 namespace fs = std::filesystem;
 
-fs::path find_ros2_library(const char* folder) {
+namespace {
+
+fs::path find_ros2_library(const std::vector<fs::path>& folders) {
   if (const char* const given = std::getenv("TESSERA_ROS2_LIBRARY"); given != nullptr && *given != '\0')
     return given;
   std::error_code ignored;
-  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / ros2_library_name;
-  return fs::exists(beside, ignored) ? beside : fs::path(folder) / ros2_library_name;
+  std::vector<fs::path> places{fs::read_symlink("/proc/self/exe", ignored).parent_path()};
+  places.insert(places.end(), folders.begin(), folders.end());
+  for (const fs::path& place : places)
+    if (fs::exists(place / ros2_library_name, ignored)) return place / ros2_library_name;
+  return places.back() / ros2_library_name;
 }
 
-void* ros2_function(const char* folder, const char* name) {
-  const fs::path file = find_ros2_library(folder);
+}  // namespace
+
+void* ros2_function(const std::vector<fs::path>& folders, const char* name) {
+  const fs::path file = find_ros2_library(folders);
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)
     throw DriverError(fmt::format(
@@ -32,6 +40,8 @@ void* ros2_function(const char* folder, const char* name) {
         fmt::format("'{}' is no library of this version: it has no function {}", file.string(), name));
   return function;
 }
+
+namespace {
 
 Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) {
   Ros2Binding binding;
@@ -48,6 +58,8 @@ Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) 
   binding.peers = setup.text_or("peers", "");
   if (setup.has("domain")) binding.domain = static_cast<std::uint32_t>(setup.integer("domain"));
   binding.wait = setup.duration_or("wait", Duration::zero());
+  binding.role = setup.text_or("role", "");
+  binding.timeout = setup.duration_or("timeout", Duration::zero());
   binding.encoding = encoding;
   refuse_unknown_options(setup, true);
   return binding;
@@ -57,7 +69,7 @@ template <class Maker>
 auto make_with_library(const DriverSetup& setup, const ValueEncoding* encoding, const char* folder,
                        const char* name) {
   const Ros2Binding binding = binding_of(setup, encoding);
-  const auto maker = reinterpret_cast<Maker>(ros2_function(folder, name));
+  const auto maker = reinterpret_cast<Maker>(ros2_function({folder}, name));
   std::string error = "it cannot be made";
   auto device = maker(binding, error);
   if (device == nullptr) throw DriverError(error);

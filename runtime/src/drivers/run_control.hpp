@@ -32,7 +32,10 @@ class RunControl {
   void abandon() { abandoned_.store(true, std::memory_order_release); }
   [[nodiscard]] bool abandoned() const { return abandoned_.load(std::memory_order_acquire); }
 
-  void mark_ended(std::uint32_t instance) { ended_[instance].store(true, std::memory_order_release); }
+  /// ended: false: it begins again.
+  void mark_ended(std::uint32_t instance, bool ended = true) {
+    ended_[instance].store(ended, std::memory_order_release);
+  }
   [[nodiscard]] bool has_ended(std::uint32_t instance) const {
     return ended_[instance].load(std::memory_order_acquire);
   }

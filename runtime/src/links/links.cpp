@@ -3,18 +3,25 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace tessera {
 
 Links::Links(const Clock& clock, std::uint32_t channels, Complain complain)
-    : clock_(clock), complain_(std::move(complain)), sender_of_(channels), receiver_of_(channels) {}
+    : clock_(clock),
+      complain_(std::move(complain)),
+      sent_(channels),
+      received_(channels),
+      sender_of_(channels),
+      receiver_of_(channels) {}
 
 Links::~Links() = default;
 
 SendingEnd& Links::add_sender(const LinkedChannel& channel, SharedChannel& word,
                               const ValueEncoding& encoding, network::Incarnation incarnation) {
   senders_.push_back(std::make_unique<SendingEnd>(channel, word, encoding, incarnation, *this));
+  add_gauges(channel.receiver, channel.number, Side::send);
   return *(sender_of_[channel.number] = senders_.back().get());
 }
 
@@ -23,7 +30,36 @@ ReceivingEnd& Links::add_receiver(const LinkedChannel& channel, SharedChannel& w
                                   const ValueType* type, network::Incarnation incarnation) {
   receivers_.push_back(
       std::make_unique<ReceivingEnd>(channel, word, encoding, value_bytes, type, incarnation, *this));
+  add_gauges(channel.sender, channel.number, Side::receive);
   return *(receiver_of_[channel.number] = receivers_.back().get());
+}
+
+void Links::kill(network::ProcessNumber process) {
+  const auto bury = [&](auto& ends, auto& of_channel) {
+    for (auto& end : ends)
+      if (end->own() == process) {
+        of_channel[end->channel().number] = nullptr;
+        dead_.push_back(std::move(end));
+      }
+    std::erase(ends, nullptr);
+  };
+  bury(senders_, sender_of_);
+  bury(receivers_, receiver_of_);
+}
+
+void Links::add_gauges(network::ProcessNumber peer, std::uint32_t channel, Side side) {
+  auto at = std::ranges::lower_bound(gauges_, peer, {}, [](const auto& one) { return one->peer; });
+  if (at == gauges_.end() || (*at)->peer != peer) at = gauges_.insert(at, std::make_unique<LinkGauges>(peer));
+  (side == Side::send ? sent_ : received_)[channel].link = at->get();
+}
+
+bool Links::Newest::again(const network::Data& data) {
+  const auto age = [](const auto& one) { return std::tuple(one.from, one.number, one.recall); };
+  if (age(data) <= age(*this)) return true;
+  from = data.from;
+  number = data.number;
+  recall = data.recall;
+  return false;
 }
 
 std::vector<network::ChannelSetup> Links::carried() const {
@@ -85,12 +121,17 @@ void Links::joined(network::ProcessNumber one, network::ProcessNumber other, boo
 void Links::heard(network::ChannelNumber channel, const network::Data& data, const network::Value& value) {
   if (channel >= receiver_of_.size() || receiver_of_[channel] == nullptr) return;
   ReceivingEnd& end = *receiver_of_[channel];
-  end.hear(data, value, stamp_of(end.channel(), value.stamp), clock_.now(), *this);
+  Newest& newest = received_[channel];
+  const Time now = clock_.now();
+  newest.link->hear(now, newest.again(data));
+  end.hear(data, value, stamp_of(end.channel(), value.stamp), now, *this);
 }
 
 void Links::heard(network::ChannelNumber channel, const network::State& state) {
   if (channel >= sender_of_.size() || sender_of_[channel] == nullptr) return;
-  sender_of_[channel]->hear(state, clock_.now(), *this);
+  const Time now = clock_.now();
+  sent_[channel].link->hear(now, /*again=*/false);
+  sender_of_[channel]->hear(state, now, *this);
 }
 
 void Links::reachable(network::ProcessNumber process, bool is_there) {
@@ -99,6 +140,13 @@ void Links::reachable(network::ProcessNumber process, bool is_there) {
   };
   std::ranges::for_each(senders_, tell);
   std::ranges::for_each(receivers_, tell);
+  for (const auto& link : gauges_)
+    if (link->peer == process) link->set_reachable(is_there, clock_.now());
+}
+
+void Links::alive(network::ProcessNumber process, const network::SignsOfLife& signs) {
+  for (const auto& link : gauges_)
+    if (link->peer == process) link->set_signs(signs, clock_.now());
 }
 
 void Links::complaint(std::string_view text) { complain_(text, /*fatal=*/false); }
@@ -108,10 +156,12 @@ void Links::complaint(std::string_view text) { complain_(text, /*fatal=*/false);
 void Links::send(const LinkedChannel& channel, const network::Data& data, const network::Value& value) {
   network::Value stamped = value;
   stamped.stamp = stamp_to_send(channel, value.stamp);
+  sent_[channel.number].link->count_sent(sent_[channel.number].again(data));
   carrier_->send(channel.number, data, stamped);
 }
 
 void Links::send(const LinkedChannel& channel, const network::State& state) {
+  received_[channel.number].link->count_sent(/*again=*/false);
   carrier_->send(channel.number, state);
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "links/link_gauges.hpp"
 #include "links/receiving_end.hpp"
 #include "links/sending_end.hpp"
 #include "network/carrier.hpp"
@@ -31,6 +32,8 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
   ReceivingEnd& add_receiver(const LinkedChannel& channel, SharedChannel& word, const ValueEncoding& encoding,
                              std::size_t value_bytes, const ValueType* type,
                              network::Incarnation incarnation);
+  /// A process that runs here, too, has died: its ends do nothing more. New ones replace them.
+  void kill(network::ProcessNumber process);
   /// What a carrier has to know of the channels of all ends.
   [[nodiscard]] std::vector<network::ChannelSetup> carried() const;
   void connect(network::Carrier& carrier) { carrier_ = &carrier; }
@@ -50,6 +53,9 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
 
   /// Ends a wait of serve. Threads: any.
   void wake(std::uint32_t channel) override;
+  /// What is seen of each process with which a channel is shared, in the order of their numbers. Threads: any,
+  /// once all ends are made.
+  [[nodiscard]] const std::vector<std::unique_ptr<LinkGauges>>& gauges() const { return gauges_; }
   /// The processes can hear each other, or not any more.
   void joined(network::ProcessNumber one, network::ProcessNumber other, bool are);
 
@@ -58,6 +64,7 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
   void heard(network::ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void heard(network::ChannelNumber channel, const network::State& state) override;
   void reachable(network::ProcessNumber process, bool is_there) override;
+  void alive(network::ProcessNumber process, const network::SignsOfLife& signs) override;
   void complaint(std::string_view text) override;
   // LinkServices
   void send(const LinkedChannel& channel, const network::Data& data, const network::Value& value) override;
@@ -74,6 +81,20 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
   std::atomic<Duration> origin_{Duration{0}};
   std::vector<std::unique_ptr<SendingEnd>> senders_;
   std::vector<std::unique_ptr<ReceivingEnd>> receivers_;
+  void add_gauges(network::ProcessNumber peer, std::uint32_t channel, Side side);
+  /// The newest message of a channel, to know one that comes again.
+  struct Newest {
+    LinkGauges* link = nullptr;  ///< to the process at the other end
+    network::Incarnation from;
+    network::Number number;
+    bool recall = false;
+    /// Whether it is none that is newer.
+    bool again(const network::Data& data);
+  };
+
+  std::vector<std::unique_ptr<NetworkEnd>> dead_;  // what has died may still be looked at
+  std::vector<std::unique_ptr<LinkGauges>> gauges_;
+  std::vector<Newest> sent_, received_;     // per channel; nullptr: that end is elsewhere
   std::vector<SendingEnd*> sender_of_;      // per channel; nullptr: it is elsewhere
   std::vector<ReceivingEnd*> receiver_of_;  // the same
 };

@@ -31,4 +31,10 @@ struct Cut {
   Time from{}, until{};
 };
 
+/// A process that is dead for a while. Time::max(): it does not begin again.
+struct Outage {
+  network::ProcessNumber process = 0;
+  Time from{}, until{};
+};
+
 }  // namespace tessera

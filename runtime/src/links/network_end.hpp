@@ -54,6 +54,12 @@ class NetworkEnd {
   [[nodiscard]] bool disconnected() const { return disconnected_.load(std::memory_order_relaxed); }
   void set_disconnected(bool is) { disconnected_.store(is, std::memory_order_relaxed); }
 
+  /// Since when a value is on the way whose receiver has not answered for it, as a time of the run's clock in
+  /// nanoseconds; -1: none is. Threads: any.
+  [[nodiscard]] std::int64_t sending_since_ns() const {
+    return sending_since_ns_.load(std::memory_order_relaxed);
+  }
+
   [[nodiscard]] const LinkedChannel& channel() const { return channel_; }
   [[nodiscard]] network::ProcessNumber peer() const { return sends_ ? channel_.receiver : channel_.sender; }
   [[nodiscard]] network::ProcessNumber own() const { return sends_ ? channel_.sender : channel_.receiver; }
@@ -61,6 +67,11 @@ class NetworkEnd {
   [[nodiscard]] bool has_news() const { return news_.load(std::memory_order_acquire); }
 
  protected:
+  /// Threads: the service's.
+  void set_sending(bool is, Time now) {
+    if (is == (sending_since_ns() >= 0)) return;
+    sending_since_ns_.store(is ? now.time_since_epoch().count() : -1, std::memory_order_relaxed);
+  }
   /// What happened before is visible to the service when it takes the news.
   void tell() {
     if (!news_.exchange(true, std::memory_order_acq_rel)) service_.wake(channel_.number);
@@ -74,6 +85,7 @@ class NetworkEnd {
   const bool sends_;
   Waker& service_;
   std::atomic<bool> news_{false}, disconnected_{true};
+  std::atomic<std::int64_t> sending_since_ns_{-1};
   network::Incarnation recorded_;
 };
 

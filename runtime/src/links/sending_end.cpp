@@ -120,6 +120,7 @@ void SendingEnd::send(const network::Sender::Effects& effects, Time now, LinkSer
 }
 
 void SendingEnd::schedule(Time now) {
+  set_sending(sender_.pending(), now);
   if (!sender_.repeats()) repetition_.stop();
   const auto interval = repetition_.interval();
   due_ = interval ? now + *interval : Time::max();

@@ -1,7 +1,6 @@
 #include "links/simulated_network.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace tessera {
 namespace {
@@ -12,10 +11,11 @@ constexpr int overtaken_delays = 10;
 }  // namespace
 
 SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts,
-                                   std::uint64_t seed, const Clock& clock, std::vector<Channel> channels,
-                                   Joined joined)
+                                   std::vector<Outage> outages, std::uint64_t seed, const Clock& clock,
+                                   std::vector<Channel> channels, Joined joined)
     : conditions_(conditions),
       cuts_(std::move(cuts)),
+      outages_(std::move(outages)),
       random_(seed ^ 0x6c696e6b73U),  // not the numbers of the order of turns
       clock_(clock),
       channels_(std::move(channels)),
@@ -28,6 +28,19 @@ SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vec
   for (const Cut& cut : cuts_) {
     if (cut.until - cut.from > lease) news_.emplace(cut.from + lease, News{cut.one, cut.other, false});
     news_.emplace(cut.until, News{cut.one, cut.other, true});
+  }
+  for (const Outage& outage : outages_) tell_of(outage, pairs);
+}
+
+/// A new start of a process shows as gone, and then there, as it does on a real network.
+void SimulatedNetwork::tell_of(
+    const Outage& outage, const std::set<std::pair<network::ProcessNumber, network::ProcessNumber>>& pairs) {
+  const bool ends = outage.until != Time::max();
+  const Time back = ends ? outage.until + conditions_.delay : Time::max();
+  for (const auto& [one, other] : pairs) {
+    if (one == other || (one != outage.process && other != outage.process)) continue;
+    news_.emplace(std::min(outage.from + lease, back), News{one, other, false});
+    if (ends) news_.emplace(back, News{one, other, true});
   }
 }
 
@@ -67,6 +80,9 @@ void SimulatedNetwork::receive(Listener& listener, std::chrono::nanoseconds /*lo
   const Time now = clock_.now();
   for (; !news_.empty() && news_.begin()->first <= now; news_.erase(news_.begin())) {
     const News& news = news_.begin()->second;
+    if (news.joined &&
+        (is_dead(news.one, now) || is_dead(news.other, now) || is_cut(news.one, news.other, now)))
+      continue;  // there will be news when that is over
     joined_(news.one, news.other, news.joined);
   }
   while (!on_the_way_.empty() && on_the_way_.begin()->first <= now) {
@@ -74,6 +90,7 @@ void SimulatedNetwork::receive(Listener& listener, std::chrono::nanoseconds /*lo
     const Message& message = node.mapped();
     const Channel& channel = channels_[message.channel];
     if (is_cut(channel.sender, channel.receiver, node.key())) continue;
+    if (is_dead(message.is_state ? channel.sender : channel.receiver, node.key())) continue;
     if (message.is_state)
       listener.heard(message.channel, message.state);
     else
@@ -89,7 +106,15 @@ Time SimulatedNetwork::next() const {
 Time SimulatedNetwork::last_cut() const {
   Time last{};
   for (const Cut& cut : cuts_) last = std::max(last, cut.until);
+  for (const Outage& outage : outages_)
+    last = std::max(last, outage.until == Time::max() ? outage.from : outage.until);
   return last;
+}
+
+bool SimulatedNetwork::is_dead(network::ProcessNumber process, Time at) const {
+  return std::ranges::any_of(outages_, [&](const Outage& outage) {
+    return outage.process == process && at >= outage.from && at < outage.until;
+  });
 }
 
 bool SimulatedNetwork::is_cut(network::ProcessNumber one, network::ProcessNumber other, Time at) const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,8 +28,8 @@ class SimulatedNetwork final : public network::Carrier {
   /// joined: two processes hear each other from now on, or have not for `lease`.
   using Joined = std::function<void(network::ProcessNumber, network::ProcessNumber, bool)>;
   /// channels: by number; those within a process are left out by nobody sending on them.
-  SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts, std::uint64_t seed,
-                   const Clock& clock, std::vector<Channel> channels, Joined joined);
+  SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts, std::vector<Outage> outages,
+                   std::uint64_t seed, const Clock& clock, std::vector<Channel> channels, Joined joined);
 
   void send(network::ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void send(network::ChannelNumber channel, const network::State& state) override;
@@ -38,7 +39,7 @@ class SimulatedNetwork final : public network::Carrier {
 
   /// When the next message arrives, or a cut is noticed or over; Time::max(): never.
   [[nodiscard]] Time next() const;
-  /// When the last cut is over.
+  /// When the last cut is over, and the last process that begins again has done so.
   [[nodiscard]] Time last_cut() const;
 
   /// A process that was not heard of for so long is not connected.
@@ -62,10 +63,14 @@ class SimulatedNetwork final : public network::Carrier {
   [[nodiscard]] Time arrival(std::size_t lane);
   [[nodiscard]] bool happens(double probability);
   [[nodiscard]] bool is_cut(network::ProcessNumber one, network::ProcessNumber other, Time at) const;
+  [[nodiscard]] bool is_dead(network::ProcessNumber process, Time at) const;
   [[nodiscard]] Duration up_to(Duration most);
+  void tell_of(const Outage& outage,
+               const std::set<std::pair<network::ProcessNumber, network::ProcessNumber>>& pairs);
 
   NetworkConditions conditions_;
   std::vector<Cut> cuts_;
+  std::vector<Outage> outages_;
   std::mt19937_64 random_;
   const Clock& clock_;
   std::vector<Channel> channels_;

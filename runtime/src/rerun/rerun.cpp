@@ -62,6 +62,9 @@ class Play {
       return "it holds no values of buffers: record the run with --record-values small or all";
     if (recording_.segment.value_or(0) > 0)
       return "its beginning is gone (--record-limit), and with it what the code remembered from then";
+    if (std::ranges::any_of(recording_.entries,
+                            [](const Entry& entry) { return entry.event.kind() == Event::Kind::process; }))
+      return "a process dies in it, and forgets what its code would remember here";
     std::vector<std::uint32_t> next(recording_.instances.size());
     for (const Entry& entry : recording_.entries) {
       if (entry.event.instance() >= next.size()) continue;

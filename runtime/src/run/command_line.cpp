@@ -74,10 +74,11 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   command.add_option("--simulation", words.simulation,
                      "Devices of the world and models placed in it (JSON, docs/worlds.md)");
   command
-      .add_option("--inject", options.inject,
-                  "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
-                  "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
-                  "signal:SIGINT@2s, link:base-cart[0]:cut=2s@3s; WHEN may be `any`")
+      .add_option(
+          "--inject", options.inject,
+          "FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
+          "robot.sensor:nan@3s, device:robot.motor@1s..2s, silent:robot.sensor@1s.., "
+          "signal:SIGINT@2s, link:base-cart[0]:cut=2s@3s, process:cart[0]:restart=2s@3s; WHEN may be `any`")
       ->allow_extra_args(false);
   command
       .add_option(
@@ -262,6 +263,9 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_option("--from", line.from,
                        "Run user code again on the inputs of this recording, and compare the results");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
+  simulate->add_option("--ros2-clock", line.options.ros2_clock,
+                       "Publish the simulated time as /clock of ROS 2 on this network interface, for example "
+                       "lo; it is then not faster than the wall clock (docs/ros2.md)");
   simulate->add_flag("--controlled", words.controlled,
                      "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");
   simulate->add_flag("--paused", line.options.paused, "With --controlled: begin paused");

@@ -12,6 +12,7 @@
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
 #include "links/incarnation.hpp"
+#include "run/process_lives.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
 #include "run/world_checks.hpp"
@@ -143,7 +144,7 @@ template <class Run>
   summary.signal = ending.signal;
   summary.world_time = ending.world_time;
   summary.judgement = std::exchange(assembly.judgement, {});
-  summary.firings = upper.firings();
+  summary.firings = upper.firings() + ProcessLives::past_firings(assembly);
   for (const auto& executor : assembly.executors) {
     const Operations& operations = executor->operations();
     summary.firings += executor->firings();
@@ -262,6 +263,12 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   assembly.tally = tally;
   if (simulated) {
     SimulatedRun run(instances, options.seed);
+    try {
+      if (!options.ros2_clock.empty()) run.publish_clock(options.ros2_clock);
+    } catch (const DriverError& wrong) {
+      error = fmt::format("/clock cannot be published: {}", wrong.what());
+      return with_lost_lines(std::nullopt, assembly, session);
+    }
     return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
   }
   if (assembly.part.process && options.world)

@@ -116,6 +116,7 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
 
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
   clock_.set(time);
+  if (published_) published_->move_to(time);
   if (assembly.world == nullptr) return;
   const auto advance = [&] {
     assembly.world->advance_to(time);
@@ -134,6 +135,24 @@ void SimulatedRun::follow_emergency(Assembly& assembly) {
     EmergencyWatch::say(news, control, clock_.now(),
                         assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane());
   }
+}
+
+/// Processes die and begin again.
+void SimulatedRun::follow_processes(Assembly& assembly, UpperLayers& upper) {
+  std::string error;
+  while (const auto change = lives_.follow(assembly, upper, clock_.now(), error))
+    for (const std::uint32_t instance : change->instances) {
+      has_ended_[instance] = change->died;
+      if (!change->died) {
+        wake(instance);
+        continue;
+      }
+      std::erase(ready_, instance);
+      is_ready_[instance] = false;
+      if (unfinished_ == instance) unfinished_.reset();
+      for (DeadlineQueue* queue : {&deadlines_, &beats_}) queue->set(instance, Time::max());
+    }
+  if (!error.empty()) assembly.control.request_stop("a process cannot begin again: " + error, /*fault=*/true);
 }
 
 /// A subsystem finishes its turn, however often the turn is interrupted, so that the run stays the same.
@@ -254,7 +273,8 @@ Time SimulatedRun::next_of_links(const Assembly& assembly) const {
 
 Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   const std::optional<Duration> duration = assembly.options.duration;
-  Pace pace(assembly.options.realtime, !assembly.options.hardware.empty(), remote_.get(), signals);
+  Pace pace(assembly.options.realtime || published_, !assembly.options.hardware.empty(), remote_.get(),
+            signals);
   ProgressLine progress(assembly.options.progress, duration);
   const auto ending = [&](std::string text, bool failed, Failure failure = Failure::none) {
     return Ending{std::move(text), failed, clock_.now(), 0, std::nullopt, failure};
@@ -269,23 +289,29 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   if (std::optional<Ending> ended = follow_scenario(assembly, upper)) return *ended;
   const Time end = duration ? clock_.now() + *duration : Time::max();
   for (;;) {
+    if (assembly.restarts != nullptr) follow_processes(assembly, upper);
     if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());
     if (const int signal = StopSignals::pending(); signal != 0)
       return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
     if (assembly.control.stopping())
       return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(),
                     world_failure_);
-    if (upper.ended()) return ending("net ended", false);
+    if (upper.ended() && !lives_.awaits_start()) return ending("net ended", false);
     if (serve_links(assembly)) continue;
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
     const Time linked = next_of_links(assembly);
-    if (next != Time::max() || linked != Time::max())
-      next = std::min({next, linked, assembly.signals.next()});
+    if (next != Time::max() || linked != Time::max() || lives_.awaits_start())
+      next = std::min({next, linked, assembly.signals.next(), lives_.next(assembly)});
     if (next == Time::max())
       return ending("stopped: " + why_nothing_happens(assembly), true, Failure::deadlock);
     stuck_.look(assembly, clock_.now());
     if (!beats_.empty()) next = std::min(next, beats_.first_time());
     if (remote_ != nullptr) remote_->keep_recording_live();
+    if (published_ && published_->next() < std::min(next, end)) {
+      if (pace.wait_for(published_->next(), clock_.now(), assembly.recorder.get()))
+        published_->publish(published_->next());
+      continue;
+    }
     if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {
       move_to(assembly, end);

@@ -9,6 +9,8 @@
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "drivers/ros2_clock.hpp"
+#include "run/process_lives.hpp"
 #include "system/deadline_queue.hpp"
 #include "system/stop_signals.hpp"
 #include "watch/call_watch.hpp"
@@ -38,6 +40,8 @@ class SimulatedRun final : public Waker {
  public:
   SimulatedRun(std::uint32_t instances, std::uint64_t seed);
   [[nodiscard]] const SimulatedClock& clock() const { return clock_; }
+  /// Before `run`. Throws DriverError.
+  void publish_clock(const std::string& interface) { published_.emplace(interface); }
   void wake(std::uint32_t instance) override;
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
 
@@ -56,6 +60,7 @@ class SimulatedRun final : public Waker {
   [[nodiscard]] Time next_of_links(const Assembly& assembly) const;
   void move_to(Assembly& assembly, Time time);
   void follow_emergency(Assembly& assembly);
+  void follow_processes(Assembly& assembly, UpperLayers& upper);
 
   SimulatedClock clock_;
   std::mt19937_64 random_;
@@ -64,12 +69,14 @@ class SimulatedRun final : public Waker {
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn has not ended
   std::unique_ptr<RemoteControl> remote_;    // only for a run that is watched
   DeadlineQueue deadlines_, beats_;
+  ProcessLives lives_;
   Time last_firing_{};
   EmergencyWatch emergencies_;
   std::vector<std::uint64_t> firings_at_scenario_end_;  // per instance; empty: no scenario
   RunSummary::Failure world_failure_ = RunSummary::Failure::none;
   StuckWatch stuck_;
   std::optional<CallWatch> calls_;
+  std::optional<PublishedClock> published_;
   std::optional<Monitor> monitor_;  // the last member: it looks at the others
 };
 

@@ -284,9 +284,11 @@ void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
     securing.secure(instance, {SafeReason::Kind::suspended});
   while (!securing.done() && StopSignals::pending() == 0) await_news(clock_.now() + progress_step);
   securing.collect(lane);
+  // A subsystem that has just seen the suspension may be in the middle of giving its own safe command.
+  for (const Time until = clock_.now() + progress_step; any_owing(assembly) && clock_.now() < until;)
+    await_news(clock_.now() + std::chrono::milliseconds(2));
   if (any_owing(assembly))
-    return control.request_stop("a real effector refuses its safe command: the run is not suspended",
-                                /*fault=*/true);
+    return control.request_stop("an effector refuses its safe command: not suspended", /*fault=*/true);
   if (const int signal = StopSignals::pending(); signal != 0)
     return control.request_stop(StopSignals::name(signal), /*fault=*/false);
   stop_process(since, lane);
@@ -296,8 +298,7 @@ void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
 }
 
 bool SteadyRun::any_owing(const Assembly& assembly) {
-  return std::any_of(assembly.executors.begin(), assembly.executors.end(),
-                     [](const auto& executor) { return executor->effectors().owing(); });
+  return std::ranges::any_of(assembly.executors, [](const auto& one) { return one->effectors().owing(); });
 }
 
 void SteadyRun::stop_process(Time since, RecordingLane* lane) {

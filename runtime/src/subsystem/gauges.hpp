@@ -15,6 +15,8 @@ struct alignas(64) Gauges {
   std::atomic<std::uint64_t> iterations{0}, firings{0}, overruns{0}, errors{0};
   std::atomic<std::int64_t> called_at_ns{-1};  ///< when the last transition function began; -1: none yet
   std::atomic<std::int64_t> call_ns{0}, longest_call_ns{0};
+  /// When it last came to a rest: nothing could fire. It counts while it still waits.
+  std::atomic<std::int64_t> waits_since_ns{-1};
   std::atomic<std::uint16_t> behaviour{0};  ///< the behaviour that was called last
   std::atomic<bool> calling{false};         ///< the transition function has not returned
 

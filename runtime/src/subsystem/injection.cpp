@@ -56,11 +56,14 @@ class InjectionReader {
     const std::string front = text.substr(0, colon), back = text.substr(colon + 1, at - colon - 1);
     const bool known = front == "signal"                        ? signal(back)
                        : front == "link"                        ? link(back)
+                       : front == "process"                     ? life(back)
                        : front == "device" || front == "silent" ? device(front, back)
                                                                 : function(front, back);
     if (!known || !when(text.substr(at + 1))) return false;
     if (fault_.kind == Injection::Kind::link && !fault_.once)
       return fail("a cut begins at one time, for example link:base-cart:cut=2s@3s");
+    if (fault_.kind == Injection::Kind::process && !fault_.once)
+      return fail("a process dies at one time, for example process:cart:restart=2s@3s");
     return true;
   }
 
@@ -86,10 +89,33 @@ class InjectionReader {
       fault_.processes = {*one, *other};
       return true;
     }
+    return fail("'" + pair + "' names no two processes" + known_processes());
+  }
+
+  [[nodiscard]] std::string known_processes() const {
     std::string known;
     for (const Process& process : system_.processes)
-      known += (known.empty() ? "" : ", ") + std::string(process.name);
-    return fail("'" + pair + "' names no two processes" + (known.empty() ? "" : "; there are " + known));
+      known += (known.empty() ? "; there are " : ", ") + std::string(process.name);
+    return known;
+  }
+
+  /// "cart[0]:crash", "cart[0]:restart=2s"
+  bool life(const std::string& text) {
+    fault_.kind = Injection::Kind::process;
+    const std::size_t colon = text.rfind(':');
+    const std::string name = text.substr(0, colon);
+    const std::string what = colon == std::string::npos ? "" : text.substr(colon + 1);
+    constexpr std::string_view restart = "restart=";
+    if (what == "crash")
+      fault_.delay = Duration::max();
+    else if (!what.starts_with(restart))
+      return fail("expected process:PROCESS:crash@WHEN or process:PROCESS:restart=TIME@WHEN");
+    else if (!read_time(what.substr(restart.size()), fault_.delay))
+      return false;
+    const auto found = process(name);
+    if (!found) return fail("'" + name + "' is no process" + known_processes());
+    fault_.processes = {*found, *found};
+    return true;
   }
 
   [[nodiscard]] std::optional<std::uint32_t> process(std::string_view name) const {
@@ -118,7 +144,7 @@ class InjectionReader {
     if (std::find(known.begin(), known.end(), name) == known.end())
       return fail(with_hint("unknown fault '" + name +
                                 "'; there are throw, stall=TIME, nan, inf, and the prefixes "
-                                "device:, silent:, signal:, link:",
+                                "device:, silent:, signal:, link:, process:",
                             did_you_mean(name, known)));
     if ((name == "stall") != (equals != std::string::npos))
       return fail(name == "stall" ? "stall needs a time, for example stall=200ms"

@@ -24,13 +24,14 @@ struct Injection {
     device,     ///< the device throws (receptor) or refuses (effector)
     silence,    ///< the real receptor has no value
     signal,     ///< the process gets `signal`
-    link        ///< two processes do not hear each other for `delay`
+    link,       ///< two processes do not hear each other for `delay`
+    process     ///< a process dies; after `delay` it begins again
   } kind = Kind::exception;
   std::string text;                                     ///< as it was written
   std::uint32_t instance = 0;                           ///< into System::instances
-  std::pair<std::uint32_t, std::uint32_t> processes{};  ///< into System::processes
-  std::string part;  ///< behaviour or real buffer; empty: all of the subsystem
-  Duration delay{0};
+  std::pair<std::uint32_t, std::uint32_t> processes{};  ///< into System::processes; of `process`: the first
+  std::string part;   ///< behaviour or real buffer; empty: all of the subsystem
+  Duration delay{0};  ///< Duration::max(): never again
   double number = 0;
   int signal = 0;
   Time from{};
@@ -57,6 +58,7 @@ using Injections = std::vector<std::shared_ptr<Injection>>;
 ///     device:SUBSYSTEM[.BUFFER]@WHEN     silent:RECEPTOR[.BUFFER]@WHEN
 ///     signal:SIGINT@WHEN                 (or another signal that stops a run)
 ///     link:PROCESS-PROCESS:cut=TIME@WHEN (WHEN is a time, or `any`)
+///     process:PROCESS:crash@WHEN   process:PROCESS:restart=TIME@WHEN (the same)
 ///
 /// WHEN: `2s` the first chance from then on; `2s..` every chance from then on; `2s..3s` every chance in
 /// between; `any` the first chance from a time on that is drawn from the seed, within the run's duration.

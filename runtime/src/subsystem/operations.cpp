@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <exception>
 #include <optional>
 #include <span>
@@ -14,6 +16,18 @@
 #include "system/console.hpp"
 
 namespace tessera {
+namespace {
+
+/// 3 of "robot[3].control"; 0 of an agent that is in no fleet.
+std::uint32_t index_of_agent(std::string_view path) {
+  std::uint32_t index = 0;
+  const std::size_t open = path.find('[');
+  if (open != std::string_view::npos)
+    std::from_chars(path.data() + open + 1, path.data() + path.size(), index);
+  return index;
+}
+
+}  // namespace
 
 Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane)
     : parts_(std::move(parts)),
@@ -28,6 +42,7 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       if (output.finite != nullptr) checked_.push_back(&output);
   context_.attach(this);
   context_.period = parts_.instance->period;
+  context_.index = index_of_agent(parts_.path);
 }
 
 /// Runs user code; false when it threw. Nothing a user throws gets past here. activity: in front of what was
@@ -92,6 +107,8 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   parts_.subsystem->keep_outputs();
   context_.now = now;
   context_.iteration = iteration_;
+  if (std::exchange(has_ended_, false)) began_at_ = now;
+  context_.in_behaviour = now - began_at_;
   if (parts_.values != nullptr) parts_.values->call(now, behaviour, iteration_);
   if (missed > 0) return fail_late(missed);
   if (!parts_.receptors.empty() &&
@@ -177,6 +194,7 @@ bool Operations::read_receptor(std::size_t index, Time now) {
 }
 
 void Operations::refresh_ages(Time now) {
+  context_.in_behaviour = now - began_at_;
   channels_.refresh_ages(now);
   for (const Bindings::Incoming& input : parts_.bindings.real_inputs)
     if (input.arrival->valid) input.arrival->age = now - input.arrival->stamp;
@@ -197,6 +215,7 @@ Outcome Operations::decide(std::uint16_t behaviour, Time now) {
 
 void Operations::accept_outcome(Outcome outcome) {
   erroneous_ = outcome == Outcome::error;
+  has_ended_ = outcome != Outcome::go_on;
   if (erroneous_) ++errors_;
 }
 

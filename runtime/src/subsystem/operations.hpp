@@ -107,6 +107,8 @@ class Operations final : public ContextServices {
   DeviceCommands devices_;
   std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
   Time called_at_{};
+  Time began_at_{};              // the behaviour: its first call
+  bool has_ended_ = true;        // the last behaviour; the next call is the first of another
   std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
   std::uint16_t behaviour_ = 0;  // the behaviour called last

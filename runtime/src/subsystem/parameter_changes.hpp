@@ -26,6 +26,8 @@ class ParameterChanges {
   /// Returns what is wrong with the request; empty: the change will take place. path: as in set_parameters.
   /// Threads: any.
   [[nodiscard]] std::string ask(const std::string& path, const std::string& value);
+  /// Whether a subsystem here has a parameter that `path` names. Threads: any.
+  [[nodiscard]] bool knows(const std::string& path) const { return has_parameter(owners_, path); }
 
   /// Applies the changes that wait for a subsystem, in the order of the requests, and calls
   /// `tell("robot.control.v=0.3")` for each. Never waits: changes that are being requested at the moment

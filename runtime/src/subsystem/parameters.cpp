@@ -32,6 +32,11 @@ using Parameter = Bindings::Parameter;
   }
 }
 
+/// Whether a pattern names that subsystem, or its agent: "robot[1]".
+[[nodiscard]] bool is_owner(std::string_view pattern, std::string_view path) {
+  return matches(pattern, path) || matches(pattern, path.substr(0, path.rfind('.')));
+}
+
 /// All names that a parameter has on the command line.
 [[nodiscard]] std::vector<std::string> names_of(std::span<const ParameterOwner> owners) {
   std::vector<std::string> names;
@@ -79,7 +84,16 @@ template <class Number>
   return "";
 }
 
+[[nodiscard]] std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
+}
+
+[[nodiscard]] std::string store_array(const Parameter& parameter, std::string_view text);
+
 [[nodiscard]] std::string store(const Parameter& parameter, std::string_view text) {
+  if (parameter.elements > 0) return store_array(parameter, text);
   switch (parameter.kind) {
     case ValueKind::boolean:
       return store_bool(parameter, text);
@@ -106,18 +120,47 @@ template <class Number>
     case ValueKind::string:
       return store_string(parameter, text);
     case ValueKind::other:
-      return "cannot be given: the parameter is a structure or an array";
+      return "cannot be given: the parameter is a structure";
   }
   return "";
 }
 
-[[nodiscard]] std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
+/// "[1, 2, 3]"; the brackets may be left out.
+[[nodiscard]] std::string store_array(const Parameter& parameter, std::string_view text) {
+  const std::string whole = trimmed(text);
+  std::string_view rest = whole;
+  if (rest.starts_with('[') && rest.ends_with(']')) rest = rest.substr(1, rest.size() - 2);
+  std::vector<std::string> parts;
+  for (std::size_t end = 0; end != std::string_view::npos && !trimmed(rest).empty();) {
+    end = rest.find(',');
+    parts.push_back(trimmed(rest.substr(0, end)));
+    if (end != std::string_view::npos) rest.remove_prefix(end + 1);
+  }
+  if (parts.size() != parameter.elements)
+    return fmt::format("has {} element{}, and the parameter has {}: write [1, 2, 3]", parts.size(),
+                       parts.size() == 1 ? "" : "s", parameter.elements);
+  Parameter element = parameter;
+  element.elements = 0;
+  element.size = parameter.size / parameter.elements;
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    element.value = static_cast<std::byte*>(parameter.value) + at * element.size;
+    if (const std::string wrong = store(element, parts[at]); !wrong.empty())
+      return fmt::format("is wrong: element {} ({}) {}", at, parts[at], wrong);
+  }
+  return "";
 }
 
 }  // namespace
+
+bool has_parameter(std::span<const ParameterOwner> owners, const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  const std::string_view name = dot == std::string::npos ? path : std::string_view(path).substr(dot + 1);
+  return std::ranges::any_of(owners, [&](const ParameterOwner& owner) {
+    return (dot == std::string::npos || matches(std::string_view(path).substr(0, dot), owner.path)) &&
+           std::ranges::any_of(owner.parameters,
+                               [&](const Parameter& parameter) { return parameter.name == name; });
+  });
+}
 
 std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
                             const std::string& value, std::vector<CheckedValue>& checked) {
@@ -127,7 +170,7 @@ std::string check_parameter(std::span<const ParameterOwner> owners, const std::s
   std::vector<CheckedValue> found;
   for (std::uint32_t index = 0; index < owners.size(); ++index) {
     const ParameterOwner& owner = owners[index];
-    if (dot != std::string::npos && !matches(std::string_view(path).substr(0, dot), owner.path)) continue;
+    if (dot != std::string::npos && !is_owner(std::string_view(path).substr(0, dot), owner.path)) continue;
     for (const Parameter& parameter : owner.parameters) {
       if (parameter.name != name) continue;
       CheckedValue one{index, parameter, std::vector<std::byte>(parameter.size)};

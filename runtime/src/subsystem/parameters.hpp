@@ -27,6 +27,9 @@ struct CheckedValue {
 [[nodiscard]] std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
                                           const std::string& value, std::vector<CheckedValue>& checked);
 
+/// Whether `path` names a parameter of one of the owners (see set_parameters).
+[[nodiscard]] bool has_parameter(std::span<const ParameterOwner> owners, const std::string& path);
+
 /// Reads "path = value" lines; '#' starts a comment. Appends to `values`. false and
 /// `error` with file and line.
 [[nodiscard]] bool read_parameter_file(const std::string& file,

@@ -67,7 +67,10 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
     operations_.devices().guard(now_, name_of(marked_.front()));
     if (!register_waits()) continue;
     if (watches_time_ && registrations_ > 0) blocked_since_ = now_;
-    if (std::exchange(waits_after_, firings_) != firings_) waits_since_ = now();
+    if (std::exchange(waits_after_, firings_) != firings_) {
+      waits_since_ = now();
+      gauges_.waits_since_ns.store(waits_since_.time_since_epoch().count(), std::memory_order_relaxed);
+    }
     return {State::waiting, next_deadline(), operations_.devices().next_beat()};
   }
 }

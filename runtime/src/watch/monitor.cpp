@@ -220,7 +220,9 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
   if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
     const std::string wrong = std::visit([this](const auto& one) { return this->execute(one); }, *command);
     if (client.gone()) return;
-    client.add(answer_line(request.id, wrong));
+    const auto* const set = std::get_if<commands::SetParameter>(command);
+    const bool is_elsewhere = set != nullptr && !wrong.empty() && !assembly_.changes->knows(set->path);
+    client.add(answer_line(request.id, wrong, is_elsewhere));
   } else {
     if (client.gone()) return;
     // A client that always has a piece on the way would never get a snapshot.

@@ -27,6 +27,44 @@ using nlohmann::json;
           {"longest_call_s", subsystem.longest_call_s}};
 }
 
+[[nodiscard]] json to_json(const Snapshot::Channel& channel) {
+  json all{{"name", channel.name}, {"marked", channel.marked}};
+  if (channel.sending_since_s) all["sending_since_s"] = *channel.sending_since_s;
+  return all;
+}
+
+[[nodiscard]] json to_json(const Snapshot::Wait& wait) {
+  json all{{"subsystem", wait.subsystem},
+           {"waits_for", wait.waits_for},
+           {"channel", wait.channel},
+           {"what", wait.for_answer ? "answer" : "value"},
+           {"since_s", wait.since_s}};
+  if (!wait.process.empty()) all["process"] = wait.process;
+  return all;
+}
+
+[[nodiscard]] json to_json(const Snapshot::Link& link) {
+  json all{{"process", link.process},       {"reachable", link.reachable},
+           {"since_s", link.since_s},       {"sent", link.sent},
+           {"repeated", link.repeated},     {"received", link.received},
+           {"duplicates", link.duplicates}, {"signs", link.signs},
+           {"signs_lost", link.signs_lost}};
+  if (!link.host.empty()) all["host"] = link.host;
+  if (link.heard_s) all["heard_s"] = *link.heard_s;
+  if (link.clock_ahead_s) {
+    all["clock_ahead_s"] = *link.clock_ahead_s;
+    all["clock_uncertainty_s"] = link.clock_uncertainty_s;
+  }
+  return all;
+}
+
+template <class All>
+[[nodiscard]] json list_of(const All& all) {
+  json list = json::array();
+  for (const auto& one : all) list.push_back(to_json(one));
+  return list;
+}
+
 /// null: it has none. Nothing is copied: copying what is nested deeply takes a deep stack.
 [[nodiscard]] const json& member_of(const json& object, const char* name) {
   static const json none;
@@ -69,13 +107,20 @@ using nlohmann::json;
 }  // namespace
 
 std::string to_line(const Snapshot& snapshot) {
-  json subsystems = json::array(), channels = json::array();
-  for (const Snapshot::Subsystem& subsystem : snapshot.subsystems) subsystems.push_back(to_json(subsystem));
-  for (const Snapshot::Channel& channel : snapshot.channels)
-    channels.push_back({{"name", channel.name}, {"marked", channel.marked}});
-  json all{{"system", snapshot.system},           {"pid", snapshot.pid},
-           {"net_hash", snapshot.net_hash},       {"time_s", snapshot.time_s},
-           {"subsystems", std::move(subsystems)}, {"channels", std::move(channels)}};
+  json all{{"system", snapshot.system},
+           {"pid", snapshot.pid},
+           {"net_hash", snapshot.net_hash},
+           {"time_s", snapshot.time_s},
+           {"subsystems", list_of(snapshot.subsystems)},
+           {"channels", list_of(snapshot.channels)},
+           {"waits", list_of(snapshot.waits)}};
+  if (snapshot.process) {
+    all["process"] = snapshot.process->name;
+    all["host"] = snapshot.process->host;
+    all["incarnation"] =
+        std::to_string(snapshot.process->incarnation);  // too large for some readers of numbers
+    all["links"] = list_of(snapshot.links);
+  }
   if (snapshot.emergency) all["emergency"] = *snapshot.emergency;
   if (snapshot.recording) all["recording"] = *snapshot.recording;
   if (snapshot.simulation) {
@@ -87,8 +132,10 @@ std::string to_line(const Snapshot& snapshot) {
   return line_of(all);
 }
 
-std::string answer_line(std::int64_t id, const std::string& error) {
-  return line_of({{"answer", id}, {"error", error}});
+std::string answer_line(std::int64_t id, const std::string& error, bool is_elsewhere) {
+  json answer{{"answer", id}, {"error", error}};
+  if (is_elsewhere) answer["elsewhere"] = true;
+  return line_of(answer);
 }
 
 std::string piece_line(std::size_t bytes, bool begins, bool more) {

@@ -23,6 +23,31 @@ struct Snapshot {
   struct Channel {
     std::string name;
     std::vector<std::string> marked;  ///< its places with a token
+    /// A value is on the way to another process since then, without an answer.
+    std::optional<double> sending_since_s;
+  };
+  /// A subsystem at rest that can go on only, or sooner, if the one at the other end of a channel acts.
+  struct Wait {
+    std::string subsystem, waits_for, channel;  ///< two paths, and a name
+    bool for_answer = false;                    ///< that its value was taken; false: for a value
+    std::string process;                        ///< of the other end; empty: this one
+    double since_s = 0;
+  };
+  /// What passes between this process and another.
+  struct Link {
+    std::string process, host;  ///< the other one; host empty: none is given
+    bool reachable = false;
+    double since_s = 0;             ///< of `reachable`
+    std::optional<double> heard_s;  ///< the newest sign of it; nullopt: none yet
+    std::uint64_t sent = 0, repeated = 0, received = 0, duplicates = 0;  ///< as LinkGauges
+    std::uint32_t signs = 0, signs_lost = 0;                             ///< of its newest signs of life
+    std::optional<double> clock_ahead_s;                                 ///< its clock of the day
+    double clock_uncertainty_s = 0;
+  };
+  /// Which part of a deployed system this is.
+  struct Process {
+    std::string name, host;
+    std::uint64_t incarnation = 0;
   };
   /// Additional state of a run in simulated time.
   struct Simulation {
@@ -37,6 +62,9 @@ struct Snapshot {
   double time_s = 0;
   std::vector<Subsystem> subsystems;
   std::vector<Channel> channels;
+  std::vector<Wait> waits;
+  std::optional<Process> process;        ///< nullopt: all agents run here
+  std::vector<Link> links;               ///< only of a process
   std::optional<std::string> emergency;  ///< the reason of the current emergency stop
   std::optional<std::string> recording;  ///< its file
   std::optional<Simulation> simulation;
@@ -44,7 +72,8 @@ struct Snapshot {
 
 /// One line, with its line end. Text that is not UTF-8 is replaced (a path may hold any bytes).
 [[nodiscard]] std::string to_line(const Snapshot& snapshot);
-[[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error);
+/// is_elsewhere: the error is only that nothing here has that name.
+[[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error, bool is_elsewhere = false);
 /// The line before a piece of the recording.
 [[nodiscard]] std::string piece_line(std::size_t bytes, bool begins, bool more);
 /// The line before a piece of the scene. total: bytes of the whole.

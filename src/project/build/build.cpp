@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "project/build/build_errors.hpp"
+#include "project/build/cmake_errors.hpp"
 #include "project/build/controller.hpp"
 #include "project/build/programs.hpp"
 #include "project/files/cmake_path_check.hpp"
@@ -24,20 +26,16 @@ std::string ninja_progress(std::string_view line) {
   return std::string(line.substr(1, end - 1));
 }
 
-// Removes ninja's own lines around those of the compiler, because they do not help the user.
-std::string compiler_output(const std::string& text) {
-  std::string kept;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string line = text.substr(start, end - start);
-    start = end + 1;
-    const bool noise = line.starts_with("[") || line.starts_with("FAILED:") || line.starts_with("ninja:") ||
-                       line.starts_with("-- ") || line.find("/c++ ") != std::string::npos ||
-                       line.find("/g++ ") != std::string::npos;
-    if (!noise) kept += line + "\n";
-  }
-  return kept;
+/// Collects the whole output, of which the listener gets a part.
+struct CollectedOutput {
+  std::string text;
+  void take(std::string_view line) { text += std::string(line) + "\n"; }
+};
+
+/// In English, so that the messages of the compiler can be explained.
+Command in_english(Command command) {
+  command.insert(command.begin(), {"cmake", "-E", "env", "LC_ALL=C.UTF-8"});
+  return command;
 }
 
 Exit build_step(const Command& command, const BuildOptions& options,
@@ -47,6 +45,9 @@ Exit build_step(const Command& command, const BuildOptions& options,
 }
 
 constexpr const char* note_name = "made_for.txt";
+constexpr const char* log_name = "compiler.log";  // the output of the last build that failed
+
+bool was_stopped(const BuildOptions& options) { return options.stop != nullptr && *options.stop; }
 
 /// Removes a build folder that Tessera has made, which a note in it proves.
 void remove_build(const fs::path& build) {
@@ -61,24 +62,53 @@ void remove_build(const fs::path& build) {
   fs::remove_all(build);
 }
 
+fs::path package_for(const BuildOptions& options) {
+  return options.processor ? options.processor->cmake_package() : Installation::find().cmake_package;
+}
+
+std::string explain_cmake(const std::string& output, const fs::path& project, const fs::path& log) {
+  const std::string of_the_user = explain_cmake_errors(output, project);
+  return of_the_user.empty() ? explain_configuration(output, log) : of_the_user;
+}
+
 // A build folder contains absolute paths. A folder that was copied with its project, or that another
 // installation has made, would build other sources than these.
 bool configure(const Specification& specification, const Generated& generated, const fs::path& build,
                const BuildOptions& options, Listener& listener) {
   const fs::path note = build / note_name;
-  const std::string package = Installation::find().cmake_package.string();
+  const fs::path package = package_for(options);
+  // CMake follows changes of the user's file, but does not see that there is one now.
+  const bool has_user_file = fs::exists(specification.project / user_build_file);
   const std::string made_for =
-      fmt::format("{}\n{}\n{}\n", specification.project.string(), generated.folder.string(), package);
+      fmt::format("{}\n{}\n{}\n{}", specification.project.string(), generated.folder.string(),
+                  package.string(), has_user_file ? fmt::format("with {}\n", user_build_file) : "");
   if (fs::exists(build / "build.ninja") && content_of(note) == made_for) return true;
   remove_build(build);
   write_file(note, "nothing yet\n");
   Step step(listener, "configuring");
-  const Exit done = build_step({"cmake", "-S", generated.folder.string(), "-B", build.string(), "-G", "Ninja",
-                                fmt::format("-DCMAKE_BUILD_TYPE={}", options.debug ? "Debug" : "Release"),
-                                fmt::format("-Dtessera_DIR:PATH={}", package),
-                                fmt::format("-DTESSERA_PROJECT_DIR:PATH={}", specification.project.string())},
-                               options, [&](std::string_view line) { step.progress(line); });
-  if (done.code != 0) listener.say(done.text);
+  Command command{
+      "cmake",
+      "-S",
+      generated.folder.string(),
+      "-B",
+      build.string(),
+      "-G",
+      "Ninja",
+      fmt::format("-DCMAKE_BUILD_TYPE={}", options.debug || options.coverage ? "Debug" : "Release"),
+      fmt::format("-DTESSERA_COVERAGE={}", options.coverage ? "ON" : "OFF"),
+      fmt::format("-Dtessera_DIR:PATH={}", package.string()),
+      fmt::format("-DTESSERA_PROJECT_DIR:PATH={}", specification.project.string())};
+  if (options.processor)
+    command.push_back(fmt::format("-DCMAKE_TOOLCHAIN_FILE={}", (package / "toolchain.cmake").string()));
+  CollectedOutput output;
+  const Exit done = build_step(in_english(std::move(command)), options, [&](std::string_view line) {
+    output.take(line);
+    step.progress(line);
+  });
+  if (done.code != 0 && !was_stopped(options)) {
+    write_file(build / log_name, output.text);
+    listener.say(explain_cmake(output.text, specification.project, build / log_name));
+  }
   if (done.code == 0) write_file(note, made_for);
   return done.code == 0;
 }
@@ -103,24 +133,31 @@ void link_compile_commands(const fs::path& project, const fs::path& build) {
 
 fs::path compile(const Specification& specification, const Generated& generated, const BuildOptions& options,
                  Listener& listener) {
-  const std::string kind = options.debug ? "debug" : "release";
+  const std::string kind = options.kind();
   const fs::path state = state_folder(specification.project);
   const fs::path build = state / "build" / kind;
-  for (const fs::path& path :
-       {specification.project, generated.folder, build, Installation::find().cmake_package})
+  for (const fs::path& path : {specification.project, generated.folder, build, package_for(options)})
     check_path_for_cmake(path);
   if (!configure(specification, generated, build, options, listener)) return {};
   Step step(listener, "compiling");
-  const Exit done = build_step({"cmake", "--build", build.string(), "--target", options.target}, options,
-                               [&](std::string_view line) {
+  CollectedOutput output;
+  const Exit done = build_step(in_english({"cmake", "--build", build.string(), "--target", options.target}),
+                               options, [&](std::string_view line) {
+                                 output.take(line);
                                  if (const std::string count = ninja_progress(line); !count.empty())
                                    step.progress(count);
                                });
   if (done.code != 0) {
-    listener.say(explain_build_errors(compiler_output(done.text), *generated.functions));
+    if (was_stopped(options)) return {};
+    write_file(build / log_name, output.text);
+    // A change of the user's project.cmake makes ninja ask CMake again.
+    const bool is_cmake = output.text.find("CMake Error") != std::string::npos;
+    listener.say(is_cmake
+                     ? explain_cmake(output.text, specification.project, build / log_name)
+                     : explain_build(output.text, {specification, *generated.functions, build / log_name}));
     return {};
   }
-  link_compile_commands(specification.project, build);
+  if (!options.processor) link_compile_commands(specification.project, build);
   return keep_program(state, build / options.target, fmt::format("{}-{}", options.target, kind));
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "project/build/cmake_errors.hpp"
 #include "project/build/generated_folder.hpp"
 #include "project/files/cmake_path_check.hpp"
 #include "project/files/files.hpp"
@@ -21,13 +22,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void user_files(const Specification& specification, bool add_missing, Generated& result) {
-  TransitionFunctions functions(specification.project, codegen::stubs(specification.model));
+void user_files(const Specification& specification, const GenerateOptions& options, Generated& result) {
+  TransitionFunctions functions(specification.project, codegen::stubs(specification.model), options.sources);
   for (const codegen::Stub& stub : functions.wanted()) {
     const TransitionFunctions::Presence presence = functions.presence(stub);
     if (presence == TransitionFunctions::Presence::unclear) result.unclear.push_back(stub);
     if (presence != TransitionFunctions::Presence::missing) continue;
-    if (!add_missing) {
+    if (!options.stubs) {
       result.missing.push_back(stub);
       continue;
     }
@@ -39,11 +40,13 @@ void user_files(const Specification& specification, bool add_missing, Generated&
 }
 
 /// The same for the same text of specification and sources, and the same command.
-std::string identity_of(const std::vector<codegen::File>& files, const TransitionFunctions& functions) {
+std::string identity_of(const std::vector<codegen::File>& files, const fs::path& project,
+                        const TransitionFunctions& functions) {
   struct stat command {};
   stat("/proc/self/exe", &command);
   std::string all = fmt::format("{} {}\n", command.st_size, command.st_mtim.tv_sec);
   for (const codegen::File& file : files) all += file.path + " " + hash_of(file.text) + "\n";
+  all += hash_of(content_of(project / user_build_file)) + "\n";
   return hash_of(all + functions.identity());
 }
 
@@ -68,8 +71,8 @@ Generated generate(const Verified& verified, const GenerateOptions& options) {
   result.set_aside = std::move(outcome.set_aside);
   for (const codegen::File& file : files)
     result.lines += static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
-  user_files(specification, options.stubs, result);
-  result.identity = identity_of(files, *result.functions);
+  user_files(specification, options, result);
+  result.identity = identity_of(files, specification.project, *result.functions);
   return result;
 }
 
@@ -85,7 +88,7 @@ namespace {
 
 /// The file with the identity of the last program of that kind and its name in `programs`.
 fs::path note_of(const fs::path& state, const BuildOptions& options) {
-  return state / "programs" / fmt::format("{}-{}.built", options.target, options.debug ? "debug" : "release");
+  return state / "programs" / fmt::format("{}-{}.built", options.target, options.kind());
 }
 
 void note_built(const fs::path& state, const BuildOptions& options, const std::string& identity,
@@ -100,9 +103,9 @@ fs::path built_before(const Verified& verified, const BuildOptions& options) {
   const std::string note = content_of(note_of(own, options));
   const std::size_t space = note.find(' ');
   if (space == std::string::npos || options.target != "controller") return {};
-  const TransitionFunctions functions(verified.specification.project,
-                                      codegen::stubs(verified.specification.model));
-  if (note.substr(0, space) != identity_of(files_of(verified), functions)) return {};
+  const fs::path& project = verified.specification.project;
+  const TransitionFunctions functions(project, codegen::stubs(verified.specification.model));
+  if (note.substr(0, space) != identity_of(files_of(verified), project, functions)) return {};
   fs::path program = own / "programs" / note.substr(space + 1, note.find('\n') - space - 1);
   return fs::is_regular_file(program) ? program : fs::path();
 }

@@ -18,6 +18,7 @@ namespace tessera::project {
 struct GenerateOptions {
   bool stubs = false;            ///< adds missing functions to src/
   std::filesystem::path output;  ///< replaces the state folder's `generated`; empty: not replaced
+  std::vector<std::filesystem::path> sources = {};  ///< where the functions are; empty: in src/
 };
 
 /// The results of generate.
@@ -42,11 +43,26 @@ struct Generated {
 /// Reports what generate did to the user's files and which functions are missing. false: some are missing.
 bool report_missing(const Generated& generated, Listener& listener);
 
+/// Another kind of processor than that of this machine.
+struct OtherProcessor {
+  std::string architecture;       ///< as Debian calls it: "arm64"
+  std::filesystem::path runtime;  ///< where Tessera's runtime for it is installed, with its toolchain
+  [[nodiscard]] std::filesystem::path cmake_package() const { return runtime / "lib/cmake/tessera"; }
+};
+
 struct BuildOptions {
   bool debug = false;  ///< for gdb: -O0 -g in a separate build folder
   std::string target = "controller";
   VerificationGate gate = {};
   const std::atomic<bool>* stop = nullptr;  ///< true: give up. nullptr: Ctrl-C ends what is compiling
+  std::optional<OtherProcessor> processor = std::nullopt;  ///< nullopt: that of this machine
+  bool coverage = false;                                   ///< counts which lines of src/ are reached
+
+  /// Builds of different kinds have different folders: "release", "debug", "coverage", "release-arm64".
+  [[nodiscard]] std::string kind() const {
+    const std::string kind = coverage ? "coverage" : debug ? "debug" : "release";
+    return kind + (processor ? "-" + processor->architecture : std::string());
+  }
 };
 
 /// Builds with CMake. Reports the messages of the compiler, which name the user's files and, for

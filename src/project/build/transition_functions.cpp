@@ -34,8 +34,11 @@ std::string whole_file(const codegen::Stub& stub) {
 
 }  // namespace
 
-TransitionFunctions::TransitionFunctions(fs::path project, std::vector<codegen::Stub> wanted)
+TransitionFunctions::TransitionFunctions(fs::path project, std::vector<codegen::Stub> wanted,
+                                         const std::vector<fs::path>& sources)
     : project_(std::move(project)), wanted_(std::move(wanted)) {
+  for (const fs::path& source : sources) read(source);
+  if (!sources.empty()) return;
   const fs::path folder = project_ / "src";
   if (!fs::is_directory(folder)) return;
   for (const auto& entry :
@@ -122,17 +125,17 @@ std::string TransitionFunctions::identity() const {
   return hash_of(all);
 }
 
-fs::path TransitionFunctions::add(const codegen::Stub& stub) {
-  const fs::path file = project_ / file_for(stub);
-  std::string text = content_of(file);
+std::string with_function(std::string text, const codegen::Stub& stub) {
   const SourceScan before = scan_source(text);
   const auto end = before.ends.find(stub.space);
-  if (text.empty())
-    text = whole_file(stub);
-  else if (end != before.ends.end())
-    text.insert(end->second, stub.body + "\n");
-  else
-    text += (text.ends_with('\n') ? "\n" : "\n\n") + whole_file(stub);
+  if (text.empty()) return whole_file(stub);
+  if (end == before.ends.end()) return text + (text.ends_with('\n') ? "\n" : "\n\n") + whole_file(stub);
+  return text.insert(end->second, stub.body + "\n");
+}
+
+fs::path TransitionFunctions::add(const codegen::Stub& stub) {
+  const fs::path file = project_ / file_for(stub);
+  const std::string text = with_function(content_of(file), stub);
   write_file(file, text);
   scans_[fs::canonical(file)] = scan_source(text);
   hashes_[fs::canonical(file)] = hash_of(text);
@@ -189,6 +192,15 @@ std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& fun
   return text + "hint: keep one of them; every source in src/ is part of the controller\n";
 }
 
+/// A function of that name is there, but the linker does not take it.
+std::string other_parameters_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
+  std::string text;
+  for (const auto& definition : functions.definitions(stub))
+    text += fmt::format("{}:{}: error E507: the function '{}' of {} has other parameters\n",
+                        definition.file.string(), definition.line, stub.function, stub.subsystem);
+  return text + fmt::format("hint: write {}\n", stub.signature);
+}
+
 }  // namespace
 
 std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
@@ -198,6 +210,13 @@ std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& f
       "{}: error: {} has no function '{}'\n{}hint: add it (or run `tessera generate --stubs`):\n\n{}\n",
       home.string(), stub.subsystem, stub.function, notes_of(functions.definitions_elsewhere(stub), stub),
       is_new ? whole_file(stub) : stub.body);
+}
+
+std::string misplaced_functions(const TransitionFunctions& functions) {
+  std::string text;
+  for (const codegen::Stub& stub : functions.wanted())
+    if (functions.definitions(stub).empty()) text += notes_of(functions.definitions_elsewhere(stub), stub);
+  return text;
 }
 
 std::string explain_build_errors(const std::string& text, const TransitionFunctions& functions) {
@@ -221,14 +240,11 @@ std::string explain_build_errors(const std::string& text, const TransitionFuncti
     more = more || is_missing(line) || is_double(line) ||
            (line.find("error:") != line.npos && line.find("ld returned") == line.npos);
   }
+  if (missing.empty() && twice.empty()) return text + misplaced_functions(functions);
   std::string explanation;
-  if (missing.empty() && twice.empty()) {
-    for (const codegen::Stub& stub : all)
-      if (functions.definitions(stub).empty())
-        explanation += notes_of(functions.definitions_elsewhere(stub), stub);
-    return text + explanation;
-  }
-  for (const std::size_t stub : missing) explanation += missing_text(all[stub], functions);
+  for (const std::size_t stub : missing)
+    explanation += functions.definitions(all[stub]).empty() ? missing_text(all[stub], functions)
+                                                            : other_parameters_text(all[stub], functions);
   for (const std::size_t stub : twice) explanation += twice_text(all[stub], functions);
   return explanation + (more ? rest : "");
 }

@@ -17,8 +17,10 @@ namespace tessera::project {
 /// Threads: one at a time.
 class TransitionFunctions {
  public:
-  /// wanted: all transition functions. Reads the sources; a project without src/ has none.
-  TransitionFunctions(std::filesystem::path project, std::vector<codegen::Stub> wanted);
+  /// wanted: all transition functions. sources: files to be read instead of all in src/. Reads them; a
+  /// project without src/ has none.
+  TransitionFunctions(std::filesystem::path project, std::vector<codegen::Stub> wanted,
+                      const std::vector<std::filesystem::path>& sources = {});
   [[nodiscard]] const std::vector<codegen::Stub>& wanted() const { return wanted_; }
 
   enum class Presence : std::uint8_t {
@@ -60,12 +62,18 @@ class TransitionFunctions {
   std::map<std::filesystem::path, std::string> hashes_;
 };
 
+/// A source with the function added to it, in its namespace. text: of the source; empty: a new one.
+[[nodiscard]] std::string with_function(std::string text, const codegen::Stub& stub);
+
 /// "src/control.cpp: error: robot.control has no function 'rest'", with what to write
 /// there and what may be meant.
 [[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
 
+/// Where functions may be in the wrong namespace; one line each.
+[[nodiscard]] std::string misplaced_functions(const TransitionFunctions& functions);
+
 /// Explains messages of compiler and linker in terms of the project: transition functions that are
-/// missing, that are defined twice, and that may be in the wrong namespace. Messages that say more
+/// missing, that are defined twice, that have other parameters, and that may be in the wrong namespace. Messages that say more
 /// than that follow unchanged.
 [[nodiscard]] std::string explain_build_errors(const std::string& text, const TransitionFunctions& functions);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "project/files/installation.hpp"
+#include "project/files/ros2_services.hpp"
 #include "ros2/codec/plan.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
@@ -16,7 +17,8 @@ namespace tessera::project {
 
 namespace fs = std::filesystem;
 
-namespace {
+/// Beside the specification.
+constexpr const char* messages_folder = "msg";
 
 std::string text_option(const spec::Driver& driver, const char* name) {
   const auto found = driver.options.find(name);
@@ -24,6 +26,14 @@ std::string text_option(const spec::Driver& driver, const char* name) {
       found == driver.options.end() ? nullptr : std::get_if<std::string>(&found->second.value);
   return text == nullptr ? std::string() : *text;
 }
+
+bool is_service(const spec::Driver& driver) { return !text_option(driver, "role").empty(); }
+
+bool is_effector(const spec::Model& model, const spec::Driver& driver) {
+  return model.subsystem(driver.instance).kind == spec::SubsystemKind::effector;
+}
+
+namespace {
 
 diagnostics::Span place_in(const spec::Driver& driver, const std::string& option) {
   for (const std::string& name : {"fields." + option, option, std::string("fields"), std::string("type")})
@@ -41,7 +51,7 @@ class MessageFinder {
   bool find(spec::Driver& driver) {
     const std::string name = text_option(driver, "type");
     std::vector<ros2::Mistake> mistakes;
-    const auto message = ros2::resolve(name, definitions_, mistakes);
+    const auto message = message_of(driver, name, mistakes);
     for (const ros2::Mistake& mistake : mistakes) {
       const std::string file =
           mistake.line == 0 ? mistake.file : mistake.file + ":" + std::to_string(mistake.line);
@@ -54,6 +64,16 @@ class MessageFinder {
   }
 
  private:
+  /// Of a service: the one that the buffer is.
+  [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
+      const spec::Driver& driver, const std::string& name, std::vector<ros2::Mistake>& mistakes) const {
+    if (!is_service(driver)) return ros2::resolve(name, definitions_, mistakes);
+    const auto service = ros2::resolve_service(name, definitions_, mistakes);
+    if (!service) return nullptr;
+    return is_client(driver) == is_effector(model_, driver) ? service->request : service->response;
+  }
+  static bool is_client(const spec::Driver& driver) { return text_option(driver, "role") == "client"; }
+
   void complain(const char* code, const diagnostics::Span& place, const std::string& text,
                 const std::string& hint) {
     if (said_.insert({place, text}).second) out_.error(code, place, text, hint);
@@ -63,10 +83,11 @@ class MessageFinder {
     const spec::Subsystem& subsystem = model_.subsystem(driver.instance);
     const auto value = ros2::parse_value_type(model_.layout_of(subsystem.real[driver.real].type));
     if (!value) return true;  // a type that is wrong in itself, which is said elsewhere
-    const ros2::Mapping mapping = ros2::written_mapping(
-        text_option(driver, "fields"), text_option(driver, "names"), text_option(driver, "frame_id"));
-    const auto direction =
-        subsystem.kind == spec::SubsystemKind::effector ? ros2::Direction::send : ros2::Direction::receive;
+    ros2::Mapping mapping = ros2::written_mapping(text_option(driver, "fields"), text_option(driver, "names"),
+                                                  text_option(driver, "frame_id"));
+    const bool sends = is_effector(model_, driver);
+    if (is_service(driver)) mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
+    const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
     if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems)) return true;
     for (const ros2::MappingProblem& problem : problems)
@@ -89,14 +110,29 @@ bool find_messages_in(spec::Model& model, const std::vector<fs::path>& folders,
   bool found = true;
   for (spec::Driver& driver : drivers)
     if (driver.kind == "ros2") found = finder.find(driver) && found;
+  found = check_services(model, drivers, out) && found;
   model.drivers = std::move(drivers);
   return found;
+}
+
+std::string state_of_messages(const fs::path& project) {
+  std::set<std::string> files;
+  std::error_code gone;
+  for (fs::recursive_directory_iterator file(project / messages_folder, gone), end; !gone && file != end;
+       file.increment(gone)) {
+    std::error_code ignored;
+    const auto changed = fs::last_write_time(file->path(), ignored).time_since_epoch().count();
+    files.insert(file->path().string() + " " + std::to_string(changed));
+  }
+  std::string state;
+  for (const std::string& file : files) state += file + "\n";
+  return state;
 }
 
 bool find_messages(spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
   const auto is_topic = [](const spec::Driver& driver) { return driver.kind == "ros2"; };
   if (std::ranges::none_of(model.drivers, is_topic)) return true;
-  return find_messages_in(model, {project / "msg", Installation::find().share / "ros2"}, out);
+  return find_messages_in(model, {project / messages_folder, Installation::find().share / "ros2"}, out);
 }
 
 }  // namespace tessera::project

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
@@ -8,16 +9,26 @@
 
 namespace tessera::project {
 
-/// Looks up the messages of all drivers that are topics of ROS 2: in the folder `msg` of the project, then
-/// among those that come with Tessera. Their definitions become the option `definition` of the drivers, so
-/// that a controller needs no file of them.
+/// Looks up the messages of all drivers that are topics or services of ROS 2: in the folder `msg` of the
+/// project, then among those that come with Tessera. Their definitions become the option `definition` of the
+/// drivers, so that a controller needs no file of them.
 ///
 /// project: the folder of the specification.
 /// Errors: E320 a message that does not exist, or whose definition is wrong; E321 fields of message and buffer
-///         that do not correspond. false after one of them.
+///         that do not correspond; E322 services (ros2_services.hpp). false after one of them.
 bool find_messages(spec::Model& model, const std::filesystem::path& project, diagnostics::Diagnostics& out);
 /// The same with these folders of definitions.
 bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::path>& folders,
                       diagnostics::Diagnostics& out);
+
+/// Changes when a definition in the project is added, removed or edited.
+[[nodiscard]] std::string state_of_messages(const std::filesystem::path& project);
+
+/// A text among the options of a driver; empty: there is none.
+[[nodiscard]] std::string text_option(const spec::Driver& driver, const char* name);
+/// Whether a driver of kind ros2 is one side of a service, and not a topic.
+[[nodiscard]] bool is_service(const spec::Driver& driver);
+/// Whether it stands behind an effector, and not behind a receptor.
+[[nodiscard]] bool is_effector(const spec::Model& model, const spec::Driver& driver);
 
 }  // namespace tessera::project

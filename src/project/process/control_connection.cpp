@@ -80,9 +80,13 @@ ControlConnection::Received ControlConnection::receive(std::string& to, int flag
   return Received::bytes;
 }
 
-void ControlConnection::wait(std::chrono::milliseconds time) const {
-  pollfd source{.fd = *descriptor_, .events = POLLIN, .revents = 0};
-  poll(&source, 1, static_cast<int>(time.count()));
+void ControlConnection::wait_for_any(const std::vector<const ControlConnection*>& connections,
+                                     std::chrono::milliseconds time) {
+  std::vector<pollfd> sources;
+  sources.reserve(connections.size());
+  for (const ControlConnection* one : connections)
+    sources.push_back({.fd = *one->descriptor_, .events = POLLIN, .revents = 0});
+  poll(sources.data(), sources.size(), static_cast<int>(time.count()));
 }
 
 std::vector<fs::path> control_sockets(const fs::path& folder) {

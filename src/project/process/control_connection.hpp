@@ -46,7 +46,10 @@ class ControlConnection {
   [[nodiscard]] Received receive(std::string& to) const { return receive(to, 0); }
   [[nodiscard]] Received receive_at_once(std::string& to) const;
   /// Returns once something has come, or the time is over.
-  void wait(std::chrono::milliseconds time) const;
+  void wait(std::chrono::milliseconds time) const { wait_for_any({this}, time); }
+  /// The same for several.
+  static void wait_for_any(const std::vector<const ControlConnection*>& connections,
+                           std::chrono::milliseconds time);
 
  private:
   explicit ControlConnection(int descriptor) : descriptor_(descriptor) {}

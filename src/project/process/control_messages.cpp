@@ -42,6 +42,36 @@ Snapshot::Channel read_channel(const json& object) {
   Snapshot::Channel one;
   read_member(object, "name", one.name);
   read_member(object, "marked", one.marked);
+  read_member(object, "sending_since_s", one.sending_since_s);
+  return one;
+}
+
+Snapshot::Wait read_wait(const json& object) {
+  Snapshot::Wait one;
+  read_member(object, "subsystem", one.subsystem);
+  read_member(object, "waits_for", one.waits_for);
+  read_member(object, "channel", one.channel);
+  one.for_answer = object.value("what", std::string()) == "answer";
+  read_member(object, "process", one.process);
+  read_member(object, "since_s", one.since_s);
+  return one;
+}
+
+Snapshot::Link read_link(const json& object) {
+  Snapshot::Link one;
+  read_member(object, "process", one.process);
+  read_member(object, "host", one.host);
+  read_member(object, "reachable", one.reachable);
+  read_member(object, "since_s", one.since_s);
+  read_member(object, "heard_s", one.heard_s);
+  read_member(object, "sent", one.sent);
+  read_member(object, "repeated", one.repeated);
+  read_member(object, "received", one.received);
+  read_member(object, "duplicates", one.duplicates);
+  read_member(object, "signs", one.signs);
+  read_member(object, "signs_lost", one.signs_lost);
+  read_member(object, "clock_ahead_s", one.clock_ahead_s);
+  read_member(object, "clock_uncertainty_s", one.clock_uncertainty_s);
   return one;
 }
 
@@ -72,6 +102,13 @@ Snapshot read_snapshot(const json& object) {
     snapshot.subsystems.push_back(read_subsystem(an_object(one)));
   for (const json& one : object.value("channels", json::array()))
     snapshot.channels.push_back(read_channel(an_object(one)));
+  read_member(object, "process", snapshot.name);
+  read_member(object, "host", snapshot.host);
+  read_member(object, "incarnation", snapshot.incarnation);
+  for (const json& one : object.value("waits", json::array()))
+    snapshot.waits.push_back(read_wait(an_object(one)));
+  for (const json& one : object.value("links", json::array()))
+    snapshot.links.push_back(read_link(an_object(one)));
   if (object.contains("paused")) snapshot.control = read_control(object);
   return snapshot;
 }
@@ -96,6 +133,7 @@ CommandAnswer read_answer(const json& object) {
   CommandAnswer answer;
   read_member(object, "answer", answer.id);
   read_member(object, "error", answer.error);
+  read_member(object, "elsewhere", answer.elsewhere);
   return answer;
 }
 

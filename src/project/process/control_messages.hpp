@@ -24,6 +24,24 @@ struct Snapshot {
   struct Channel {
     std::string name;
     std::vector<std::string> marked;
+    std::optional<double> sending_since_s;
+  };
+  /// A subsystem at rest that another can free.
+  struct Wait {
+    std::string subsystem, waits_for, channel;
+    bool for_answer = false;
+    std::string process;  ///< of the other; empty: the same
+    double since_s = 0;
+  };
+  /// What this process knows of another.
+  struct Link {
+    std::string process, host;
+    bool reachable = false;
+    double since_s = 0;
+    std::optional<double> heard_s;
+    std::uint64_t sent = 0, repeated = 0, received = 0, duplicates = 0, signs = 0, signs_lost = 0;
+    std::optional<double> clock_ahead_s;
+    double clock_uncertainty_s = 0;
   };
   /// Of a run that was started with `--controlled`.
   struct Control {
@@ -36,6 +54,11 @@ struct Snapshot {
   std::int64_t process = -1;
   double time_s = 0;
   std::optional<std::string> recording, emergency;
+  std::optional<std::string>
+      name;                       ///< of this process in the deployment; nullopt: the system has one process
+  std::string host, incarnation;  ///< the same
+  std::vector<Wait> waits;
+  std::vector<Link> links;
   std::vector<Subsystem> subsystems;
   std::vector<Channel> channels;
   std::optional<Control> control;
@@ -44,7 +67,8 @@ struct Snapshot {
 /// What came of a command.
 struct CommandAnswer {
   std::int64_t id = 0;
-  std::string error;  ///< empty: done
+  std::string error;       ///< empty: done
+  bool elsewhere = false;  ///< no subsystem of this process has such a parameter
 };
 
 /// Precedes bytes of the recording.

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -89,11 +90,23 @@ int ProcessSet::run() {
     }
     while (any_left()) wait_for_something();
   } catch (...) {
-    stop_all(0, SIGTERM);
-    while (any_left()) wait_for_something();
+    stop_in_spite_of_exceptions();
     throw;
   }
   return stopped_by_;
+}
+
+/// To leave would kill processes that may move something.
+void ProcessSet::stop_in_spite_of_exceptions() {
+  const auto try_to = [](auto what) {
+    try {
+      what();
+    } catch (const std::exception&) {  // the first one is told
+    }
+  };
+  try_to([&] { stop_all(0, SIGTERM); });
+  try_to([&] { stop_all(0, SIGTERM); });  // if only telling of it had failed
+  while (any_left()) try_to([&] { wait_for_something(); });
 }
 
 void ProcessSet::wait_for_something() {

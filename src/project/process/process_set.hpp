@@ -86,6 +86,7 @@ class ProcessSet {
   };
 
   void start(std::size_t process);
+  void stop_in_spite_of_exceptions();
   void start_what_is_due();
   void wait_for_something();
   void read_output(Child& child, std::size_t process);

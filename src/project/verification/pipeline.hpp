@@ -57,10 +57,12 @@ struct Draft {
   bool is_model = false;             ///< that is all of it: the text has no errors that reading finds
   PartialNets nets;                  ///< of a model; those of unsound communication models too
 };
-/// text: loaded, not read. Errors: those of spec::parse, judge_models and build_what_is_possible.
+/// text: loaded, not read. project: the folder of the specification, in which messages of ROS 2 are looked
+/// up; empty: they are not.
+/// Errors: those of spec::parse, find_messages, judge_models and build_what_is_possible.
 ///
-/// Threads: pure.
-[[nodiscard]] Draft draft_of(diagnostics::Diagnostics& text);
+/// Threads: any; it reads definitions of messages.
+[[nodiscard]] Draft draft_of(diagnostics::Diagnostics& text, const std::filesystem::path& project = {});
 
 struct Nets {
   net::HierarchicalNet pages;

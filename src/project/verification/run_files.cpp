@@ -45,6 +45,48 @@ json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) 
   return story;
 }
 
+/// In words.
+json waits_json(const verify::PropertyResult& property) {
+  json waits = json::array();
+  for (const verify::SubsystemAtEnd& one : property.waits) waits.push_back(one.text);
+  return waits;
+}
+
+json at_end_json(const std::vector<verify::SubsystemAtEnd>& waits) {
+  json all = json::array();
+  for (const verify::SubsystemAtEnd& one : waits)
+    all.push_back({{"path", one.path},
+                   {"state", verify::name_of(one.state)},
+                   {"awaited", verify::name_of(one.awaited)},
+                   {"behaviour", one.behaviour},
+                   {"channel", one.channel},
+                   {"from", one.from},
+                   {"text", one.text}});
+  return all;
+}
+
+std::vector<verify::SubsystemAtEnd> at_end_from(const json& waits) {
+  using State = verify::SubsystemAtEnd::State;
+  using Awaited = verify::SubsystemAtEnd::Awaited;
+  // The first of a list that has the name.
+  const auto named = [](const json& name, auto last) {
+    using Named = decltype(last);
+    for (int value = 0; value <= static_cast<int>(last); ++value)
+      if (name == verify::name_of(static_cast<Named>(value))) return static_cast<Named>(value);
+    throw std::runtime_error("unknown name " + name.dump());
+  };
+  std::vector<verify::SubsystemAtEnd> all;
+  for (const json& one : waits)
+    all.push_back({.state = named(one.at("state"), State::takes_no_more),
+                   .awaited = named(one.at("awaited"), Awaited::memory),
+                   .path = one.at("path").get<std::string>(),
+                   .behaviour = one.at("behaviour").get<std::string>(),
+                   .channel = one.at("channel").get<std::string>(),
+                   .from = one.at("from").get<std::vector<std::string>>(),
+                   .text = one.at("text").get<std::string>()});
+  return all;
+}
+
 json behaviours_json(const verify::PropertyResult& property) {
   json behaviours = json::array();
   for (const verify::PropertyResult::Behaviour& one : property.behaviours)
@@ -65,7 +107,7 @@ json report_json(const net::Net& net, const net::HierarchicalNet* pages, const v
              {"seconds", property.seconds},
              {"states", property.states},
              {"warning", property.warning},
-             {"waits", property.waits},
+             {"waits", waits_json(property)},
              {"behaviours", behaviours_json(property)},
              {"trace", nullptr}};
     if (!property.hint.empty()) one["hint"] = property.hint;
@@ -91,7 +133,7 @@ json traces_json(const std::string& file, const net::Net& net, const net::Hierar
                {"firings", firings_json(its_net, pages, property.trace)},
                {"end", marked_after(its_net, property.trace, false)},
                {"channels", marked_after(its_net, property.trace, true)},
-               {"waits", property.waits}};
+               {"waits", waits_json(property)}};
     if (pages != nullptr) trace["story"] = story_json(its_net, property.trace);
     traces.push_back(std::move(trace));
   }
@@ -107,7 +149,7 @@ json scenario_json(const net::Net& net, const verify::Report& report,
   json firings = json::array();
   for (const net::TransitionId id : property.trace) firings.push_back(its_net[id].name);
   return {{"scenario", 1},       {"net_hash", report.net_hash}, {"property", property.name},
-          {"why", property.why}, {"firings", firings},          {"waits", property.waits}};
+          {"why", property.why}, {"firings", firings},          {"waits", waits_json(property)}};
 }
 
 }  // namespace tessera::project

@@ -25,6 +25,12 @@ namespace tessera::project {
 /// [{"path", "line"}]: the behaviours that a verdict refers to.
 [[nodiscard]] nlohmann::json behaviours_json(const verify::PropertyResult& property);
 
+/// [{"path", "state", "awaited", "behaviour", "channel", "from": [path...], "text"}]: what subsystems do at the
+/// end of a run (verify::SubsystemAtEnd).
+[[nodiscard]] nlohmann::json at_end_json(const std::vector<verify::SubsystemAtEnd>& waits);
+/// Throws an exception if it is something else.
+[[nodiscard]] std::vector<verify::SubsystemAtEnd> at_end_from(const nlohmann::json& waits);
+
 /// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers in
 /// sentences (verify::narrate).
 [[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run);

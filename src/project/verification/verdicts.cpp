@@ -33,7 +33,7 @@ json to_json(const verify::PropertyResult& property) {
           {"explanation", property.explanation},
           {"trace", trace},
           {"has_trace", property.has_trace},
-          {"waits", property.waits},
+          {"waits", at_end_json(property.waits)},
           {"behaviours", behaviours_json(property)},
           {"seconds", property.seconds},
           {"states", property.states},
@@ -56,7 +56,7 @@ verify::PropertyResult property_from(const json& kept) {
   kept.at("explanation").get_to(property.explanation);
   for (const json& id : kept.at("trace")) property.trace.push_back({id.get<std::uint32_t>()});
   kept.at("has_trace").get_to(property.has_trace);
-  kept.at("waits").get_to(property.waits);
+  property.waits = at_end_from(kept.at("waits"));
   for (const json& one : kept.at("behaviours"))
     property.behaviours.push_back({one.at("path").get<std::string>(), one.at("line").get<std::uint32_t>()});
   kept.at("seconds").get_to(property.seconds);

@@ -95,7 +95,7 @@ std::string headline(const verify::PropertyResult& property) {
   const bool holds = property.verdict == verify::Verdict::holds;
   // Leaves out what the waits say already.
   const bool said = std::ranges::any_of(
-      property.waits, [&](const std::string& wait) { return property.why.find(wait) != std::string::npos; });
+      property.waits, [&](const auto& wait) { return property.why.find(wait.text) != std::string::npos; });
   return fmt::format("{}{}: {} ({}{}{})\n", property.warning && !holds ? "warning: " : "", property.name,
                      name_of(property.verdict), property.method, property.why.empty() || said ? "" : ": ",
                      said ? "" : property.why);
@@ -116,7 +116,7 @@ std::string run_text(const net::Net& judged, const verify::PropertyResult& prope
 
 std::string text_of(const net::Net& judged, const verify::PropertyResult& property) {
   std::string text = headline(property);
-  for (const std::string& wait : property.waits) text += "  " + wait + "\n";
+  for (const verify::SubsystemAtEnd& wait : property.waits) text += "  " + wait.text + "\n";
   if (property.has_trace && !property.warning) text += run_text(judged, property);
   if (!property.hint.empty()) text += "  hint: " + property.hint + "\n";
   return text;

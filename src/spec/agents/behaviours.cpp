@@ -29,9 +29,8 @@ bool holds(const std::vector<Field>& fields, std::string_view name) {
 /// Reads the behaviours of one subsystem. They may refer to behaviours that follow later in the file.
 class BehaviourReader {
  public:
-  BehaviourReader(const std::vector<Entry>& entries, const std::vector<Field>& inputs,
-                  const std::vector<Field>& outputs, Diagnostics& out)
-      : entries_(entries), inputs_(inputs), outputs_(outputs), out_(out) {
+  BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, Diagnostics& out)
+      : entries_(entries), scope_(scope), inputs_(scope.inputs), outputs_(scope.outputs), out_(out) {
     for (Index i = 0; i < entries_.size(); ++i) {
       check(entries_[i]);
       by_name_.emplace(entries_[i].key, i);
@@ -63,8 +62,8 @@ class BehaviourReader {
     Behaviour behaviour;
     behaviour.name = entry.key;
     behaviour.span = entry.span;
-    behaviour.terminal = read_condition(section.find("terminal"), out_);
-    behaviour.error = read_condition(section.find("error"), out_);
+    behaviour.terminal = read_condition(section.find("terminal"), scope_, out_);
+    behaviour.error = read_condition(section.find("error"), scope_, out_);
     check_distinct_names(behaviour);
     read_next(section.find("next"), behaviour);
     behaviour.send = read_buffers(section.find("send"), outputs_, inputs_, "output");
@@ -107,7 +106,7 @@ class BehaviourReader {
       const Section section(node, at, "an entry of 'next'", {"to", "when"}, out_);
       const Entry* to = section.require("to", next_hint);
       if (to != nullptr) read_target(*to->value, to->span, step);
-      if (const Entry* when = section.find("when")) step.when = read_when(*when, behaviour, out_);
+      if (const Entry* when = section.find("when")) step.when = read_when(*when, behaviour, scope_, out_);
     } else {
       read_target(node, at, step);
     }
@@ -178,6 +177,7 @@ class BehaviourReader {
   }
 
   const std::vector<Entry>& entries_;
+  const ConditionScope& scope_;
   const std::vector<Field>& inputs_;
   const std::vector<Field>& outputs_;
   Diagnostics& out_;
@@ -186,14 +186,13 @@ class BehaviourReader {
 
 }  // namespace
 
-std::vector<Behaviour> read_behaviours(const Entry& entry, const std::vector<Field>& inputs,
-                                       const std::vector<Field>& outputs, Diagnostics& out) {
+std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope, Diagnostics& out) {
   const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
   if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");
   }
-  return BehaviourReader(entries, inputs, outputs, out).read();
+  return BehaviourReader(entries, scope, out).read();
 }
 
 }  // namespace tessera::spec

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/conditions/check.hpp"
 #include "spec/document/expression_text.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -45,21 +46,32 @@ std::optional<bool> constant(const Node& node) {
   return quoted_constant(node);
 }
 
-Expression read_expression(const Node& node, Span at, std::string name, Diagnostics& out) {
-  Expression expression{std::move(name), {}, at};
+/// The text of an expression; nullptr: there is none to check.
+const Node* read_expression(const Node& node, Span at, Expression& expression, Diagnostics& out) {
+  expression.span = at;
   const Node* text = text_of(node, at, "a condition", out, condition_hint);
-  if (text == nullptr) return expression;
-  if (is_old_boolean(*text)) {
-    out.error("E104", text->span, quoted(text->text) + " is no condition", "write true or false");
-  }
+  if (text == nullptr) return nullptr;
+  const bool is_old = is_old_boolean(*text);
+  if (is_old) out.error("E104", text->span, quoted(text->text) + " is no condition", "write true or false");
   expression.span = text->span;
   warn_of_quotes(*text, out);
   const std::optional<bool> known = constant(*text);
+  const std::size_t errors = out.error_count();
   expression.text = known ? (*known ? "true" : "false") : expression_text(*text, out);
+  return known || is_old || out.error_count() > errors ? nullptr : text;
+}
+
+Expression checked_expression(const Node& node, Span at, std::string name, const ConditionScope& scope,
+                              const std::vector<std::string>& others, Diagnostics& out) {
+  Expression expression{std::move(name), {}, at};
+  if (const Node* text = read_expression(node, at, expression, out))
+    check_expression(expression, *text, scope, others, out);
   return expression;
 }
 
-void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
+void read_named(const Entry& condition, Condition& result, const ConditionScope& scope, Diagnostics& out) {
+  std::vector<std::string> names;
+  for (const Entry& entry : condition.value->entries) names.push_back(entry.key);
   if (condition.value->entries.empty()) {
     out.error("E104", condition.span, quoted(condition.key) + " needs at least one named expression",
               condition_hint);
@@ -71,7 +83,7 @@ void read_named(const Entry& condition, Condition& result, Diagnostics& out) {
     if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
       out.error("E106", entry.span, "condition name " + quoted(entry.key) + " is reserved");
     }
-    result.expressions.push_back(read_expression(*entry.value, entry.span, entry.key, out));
+    result.expressions.push_back(checked_expression(*entry.value, entry.span, entry.key, scope, names, out));
   }
 }
 
@@ -82,16 +94,21 @@ std::optional<Index> expression_index(const Condition& condition, std::string_vi
   return std::nullopt;
 }
 
-/// The hint for a single word that names no condition.
-std::string hint_for(const std::string& word, const Behaviour& of) {
-  if (word == "terminal")
-    return "leave 'when' out: without it the entry is taken however the behaviour ended";
+std::vector<std::string> names_of_conditions(const Behaviour& of) {
   std::vector<std::string> names{"error"};
   for (const Condition* condition : {&of.terminal, &of.error}) {
     for (const Expression& one : condition->expressions) {
       if (!one.name.empty()) names.push_back(one.name);
     }
   }
+  return names;
+}
+
+/// The hint for a single word that names no condition.
+std::string hint_for(const std::string& word, const Behaviour& of) {
+  if (word == "terminal")
+    return "leave 'when' out: without it the entry is taken however the behaviour ended";
+  const std::vector<std::string> names = names_of_conditions(of);
   const std::string guess = did_you_mean(word, names);
   return guess.empty() ? "name it under 'terminal' or 'error', or write an expression such as in.line.left"
                        : guess;
@@ -99,7 +116,7 @@ std::string hint_for(const std::string& word, const Behaviour& of) {
 
 }  // namespace
 
-Condition read_condition(const Entry* entry, Diagnostics& out) {
+Condition read_condition(const Entry* entry, const ConditionScope& scope, Diagnostics& out) {
   Condition condition;
   if (entry == nullptr) return condition;
   const Node& value = *entry->value;
@@ -111,16 +128,18 @@ Condition read_condition(const Entry* entry, Diagnostics& out) {
   }
   condition.kind = Condition::Kind::expressions;
   if (value.is_map()) {
-    read_named(*entry, condition, out);
+    read_named(*entry, condition, scope, out);
   } else {
-    condition.expressions.push_back(read_expression(value, entry->span, {}, out));
+    condition.expressions.push_back(checked_expression(value, entry->span, {}, scope, {}, out));
   }
   return condition;
 }
 
-When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
+When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& scope, Diagnostics& out) {
   When when;
-  const Expression expression = read_expression(*entry.value, entry.span, {}, out);
+  Expression expression;
+  const Node* text = read_expression(*entry.value, entry.span, expression, out);
+  when.text.span = expression.span;
   const std::string& word = expression.text;
   if (const std::optional<bool> known = constant(*entry.value)) {
     when.kind = *known ? When::Kind::always : When::Kind::never;
@@ -137,7 +156,8 @@ When read_when(const Entry& entry, const Behaviour& of, Diagnostics& out) {
     when.kind = When::Kind::expression;
   } else {
     when.kind = When::Kind::expression;
-    when.text = expression;
+    if (text != nullptr) check_expression(expression, *text, scope, names_of_conditions(of), out);
+    when.text = std::move(expression);
   }
   return when;
 }

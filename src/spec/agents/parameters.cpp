@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cstdint>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/buffers.hpp"
@@ -11,6 +12,9 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::quoted;
+
+/// Elements of an array: it is stored in place, and given on a command line.
+constexpr std::uint64_t largest_array = 256;
 
 /// The type of a value without an explicit type: a number is a float64, quoted text a string.
 Type shown_type(const Node& value, Diagnostics& out) {
@@ -57,18 +61,38 @@ class LongForm {
     default_ = section_.require("default", "for example { type: int32, default: 3, min: 0, max: 9 }");
     if (given != nullptr) {
       type_ = types_.parse(*given->value, given->span, out_);
-      if (Types::is_unknown(type_) || (type_.extent == 0 && type_.kind != Type::Kind::structure)) return;
-      out_.error("E203", given->value->span,
-                 "parameter " + quoted(entry.key) + " must be a number, bool or string",
-                 "give every element a parameter of its own");
-      type_ = Types::unknown();
+      check_type(entry.key, given->value->span);
     } else if (default_ != nullptr && default_->value->is_scalar()) {
       type_ = shown_type(*default_->value, out_);
     }
   }
 
+  void check_type(const std::string& name, Span at) {
+    if (Types::is_unknown(type_)) return;
+    if (type_.kind == Type::Kind::structure || (type_.extent > 0 && type_.kind == Type::Kind::string)) {
+      out_.error("E203", at,
+                 "parameter " + quoted(name) + " must be a number, bool, string, or an array of numbers",
+                 "give every field a parameter of its own");
+    } else if (type_.extent > largest_array) {
+      out_.error(
+          "E204", at,
+          "parameter " + quoted(name) + " has more than " + std::to_string(largest_array) + " elements",
+          "a transition function can read a large table from a file");
+    } else {
+      return;
+    }
+    type_ = Types::unknown();
+  }
+
+  /// A number, or an array of numbers.
   [[nodiscard]] bool is_number() const {
-    return type_.kind == Type::Kind::scalar && type_.scalar != Scalar::boolean && type_.extent == 0;
+    return type_.kind == Type::Kind::scalar && type_.scalar != Scalar::boolean;
+  }
+
+  [[nodiscard]] Type element() const {
+    Type one = type_;
+    one.extent = 0;
+    return one;
   }
 
   void read_unit() {
@@ -99,7 +123,8 @@ class LongForm {
       out_.error("E203", entry->span, "only a number has a range");
       return std::nullopt;
     }
-    if (!initialiser(*entry->value, entry->span, type_, types_, std::string(key), out_)) return std::nullopt;
+    if (!initialiser(*entry->value, entry->span, element(), types_, std::string(key), out_))
+      return std::nullopt;
     return split_quantity(entry->value->text)->number;
   }
 
@@ -109,10 +134,14 @@ class LongForm {
       return;
     }
     if (default_ == nullptr || initial_.empty() || !is_number()) return;
-    const double value = split_quantity(default_->value->text)->number;
+    if (type_.extent == 0) return check_value(*default_->value);
+    for (const Node* item : default_->value->items) check_value(*item);
+  }
+
+  void check_value(const Node& node) {
+    const double value = split_quantity(node.text)->number;
     if ((!minimum_ || value >= *minimum_) && (!maximum_ || value <= *maximum_)) return;
-    out_.error("E204", default_->value->span,
-               "the default " + quoted(default_->value->text) + " is outside min .. max");
+    out_.error("E204", node.span, "the default " + quoted(node.text) + " is outside min .. max");
   }
 
   Section section_;
@@ -134,7 +163,8 @@ Parameter read_parameter(const Entry& entry, const Types& types, Diagnostics& ou
         initialiser(*value, entry.span, parameter.type, types, "the default", out).value_or("");
   } else {
     out.error("E104", entry.span, "a parameter must be a value or a map",
-              "for example 0.2 m/s, or { type: int32, default: 3 }");
+              entry.value->is_sequence() ? "write { type: \"float64[3]\", default: [1, 2, 3] }"
+                                         : "for example 0.2 m/s, or { type: int32, default: 3 }");
   }
   return parameter;
 }

@@ -145,7 +145,15 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
   read_stale(section.find("stale"), subsystem, out);
   read_policies(section, subsystem, out);
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
-    subsystem.behaviours = read_behaviours(*behaviours, subsystem.inputs, subsystem.outputs, out);
+    const ConditionScope scope{kind,
+                               subsystem.inputs,
+                               subsystem.outputs,
+                               subsystem.real,
+                               subsystem.memory,
+                               subsystem.parameters,
+                               around.parameters,
+                               around.types};
+    subsystem.behaviours = read_behaviours(*behaviours, scope, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
     check_behaviour_flow(subsystem, out);
   }

@@ -16,6 +16,8 @@ namespace {
 using diagnostics::quoted;
 
 constexpr const char* topic_hint = "for example { ros2: /cmd_vel, type: geometry_msgs/msg/Twist }";
+constexpr const char* service_hint =
+    "role: client sends requests and gets replies; role: server gets requests and sends replies";
 constexpr int highest_domain = 232;
 
 /// Words and dots: "linear.x".
@@ -29,12 +31,12 @@ bool is_plain(std::string_view text) { return text.find_first_of(",=\n\r\t\"") =
 
 class TopicReader {
  public:
-  TopicReader(const Section& section, Driver& driver, Diagnostics& out)
-      : section_(section), driver_(driver), out_(out) {}
+  TopicReader(const Section& section, bool service, Driver& driver, Diagnostics& out)
+      : section_(section), service_(service), driver_(driver), out_(out) {}
 
   void read() {
     read_name();
-    read_message();
+    service_ ? read_service() : read_message();
     if (const Entry* fields = section_.find("fields")) read_fields(*fields);
     if (const Entry* names = section_.find("names")) put(*names, list_of(*names, "the names"));
     if (const Entry* qos = section_.find("qos")) read_qos(*qos);
@@ -42,7 +44,7 @@ class TopicReader {
     if (const Entry* peers = section_.find("peers")) put(*peers, list_of(*peers, "the peers"));
     read_node();
     if (const Entry* domain = section_.find("domain")) read_domain(*domain);
-    if (const Entry* wait = section_.find("wait")) read_wait(*wait);
+    for (const char* option : {"wait", "timeout"}) read_time(option);
   }
 
  private:
@@ -73,6 +75,26 @@ class TopicReader {
       out_.error("E105", text->span, quoted(text->text) + " is no name of a message",
                  "for example geometry_msgs/msg/Twist");
     put(*entry, name.value_or(""));
+  }
+
+  void read_service() {
+    const Entry* const type = section_.require("type", "for example type: std_srvs/srv/SetBool");
+    const Node* const name = type == nullptr ? nullptr : text_of(*type->value, type->span, "the type", out_);
+    if (name != nullptr) {
+      if (!ros2::full_service_name(name->text))
+        out_.error("E105", name->span, quoted(name->text) + " is no name of a service",
+                   "for example std_srvs/srv/SetBool");
+      put(*type, name->text);
+    }
+    const Entry* const role = section_.require("role", service_hint);
+    const Node* const text = role == nullptr ? nullptr : text_of(*role->value, role->span, "the role", out_);
+    if (text == nullptr) return;
+    if (text->text != "client" && text->text != "server")
+      out_.error("E204", text->span, "the role must be client or server, not " + quoted(text->text),
+                 service_hint);
+    if (const Entry* const wait = section_.find("wait"); wait != nullptr && text->text == "server")
+      out_.error("E102", wait->span, "a server has no 'wait'", "it answers clients whenever they come");
+    put(*role, text->text);
   }
 
   /// A field of the message for all of the buffer, or a map of fields.
@@ -178,31 +200,50 @@ class TopicReader {
   }
 
   void read_domain(const Entry& entry) {
+    driver_.option_spans.emplace("domain", entry.value->is_scalar() ? entry.value->span : entry.span);
     const auto domain = whole(entry, "the domain", 0, highest_domain);
     if (domain) driver_.options.emplace("domain", DriverOption{static_cast<double>(*domain), ""});
   }
 
-  void read_wait(const Entry& entry) {
-    const auto wait = read_duration(*entry.value, entry.span, "wait", out_);
-    if (!wait) return;
-    const double seconds = std::chrono::duration<double>(*wait).count();
-    driver_.options.emplace("wait", DriverOption{seconds, "s"});
+  void read_time(const char* option) {
+    const Entry* const entry = section_.find(option);
+    if (entry == nullptr) return;
+    const auto time = read_duration(*entry->value, entry->span, option, out_);
+    driver_.option_spans.emplace(option, entry->value->is_scalar() ? entry->value->span : entry->span);
+    if (!time) return;
+    const double seconds = std::chrono::duration<double>(*time).count();
+    driver_.options.emplace(option, DriverOption{seconds, "s"});
   }
 
   const Section& section_;
+  bool service_;
   Driver& driver_;
   Diagnostics& out_;
 };
+
+/// A topic has no role, and a service has a type of its own kind.
+bool is_service(const Entry& entry) {
+  return std::ranges::any_of(entry.value->entries, [](const Entry& key) {
+    return key.key == "role" || (key.key == "type" && ros2::is_service_type(key.value->text));
+  });
+}
 
 }  // namespace
 
 void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
   driver.kind = topic_kind;
+  if (is_service(entry)) {
+    const Section section(
+        *entry.value, entry.span, "a service of ROS 2",
+        {"ros2", "type", "role", "fields", "node", "domain", "interface", "peers", "wait", "timeout"}, out);
+    if (section.readable()) TopicReader(section, /*service=*/true, driver, out).read();
+    return;
+  }
   const Section section(
       *entry.value, entry.span, "a topic of ROS 2",
       {"ros2", "type", "fields", "names", "qos", "frame_id", "node", "domain", "interface", "peers", "wait"},
       out);
-  if (section.readable()) TopicReader(section, driver, out).read();
+  if (section.readable()) TopicReader(section, /*service=*/false, driver, out).read();
 }
 
 }  // namespace tessera::spec

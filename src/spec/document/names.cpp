@@ -70,6 +70,8 @@ bool is_identifier(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
+bool is_keyword(std::string_view word) { return contains(keywords, word); }
+
 bool check_name(std::string_view name, diagnostics::Span span, std::string_view what,
                 diagnostics::Diagnostics& out) {
   const std::string subject = std::string(what) + " name " + diagnostics::quoted(name);

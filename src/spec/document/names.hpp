@@ -20,4 +20,7 @@ bool check_system_name(std::string_view name, diagnostics::Span span, diagnostic
 /// A letter or underscore, then letters, digits and underscores.
 [[nodiscard]] bool is_identifier(std::string_view text);
 
+/// Whether C++ reserves the word in every scope.
+[[nodiscard]] bool is_keyword(std::string_view word);
+
 }  // namespace tessera::spec

@@ -68,23 +68,51 @@ struct Structure {
   Span span;
 };
 
-/// A constant that can be changed without recompiling. Scalars and strings only.
+/// A constant that can be changed without recompiling: a scalar, a string, or an array of scalars.
 struct Parameter {
   std::string name;
   Type type;
-  std::string initial;  ///< C++ literal
+  std::string initial;  ///< C++ initialiser
   std::optional<double> minimum, maximum;
   Span span;
 };
 
 // ---------------------------------------------------------------------------------------------- behaviours
 
+/// Something of the specification that an expression names. Each part of `in.line.left` is one.
+struct Reference {
+  enum class Kind : std::uint8_t {
+    input,
+    output,
+    real,
+    memory,
+    own_parameter,
+    system_parameter,
+    field,    ///< of a structure
+    status,   ///< `fresh`, `age` ...: of a buffer
+    elapsed,  ///< the time in the behaviour
+    index     ///< the number of the agent in its fleet
+  } kind = Kind::input;
+  std::string path;  ///< up to and with this part, without subscripts: "in.line.left"
+  /// Into Subsystem::inputs, ::outputs, ::real, ::memory or ::parameters, or Model::parameters. A field: into
+  /// Structure::fields. Otherwise none.
+  Index target = none;
+  Index structure = none;  ///< of a field: into Model::structures
+  Span span;               ///< of this part alone; of the whole expression where its lines are joined
+};
+
 /// A C++ expression over in, out, memory and parameters; span is that of its text in the file.
 struct Expression {
   std::string name;  ///< of an indexed condition; empty: unnamed
+  /// As in the file: a duration may have a blank before its unit, as C++ has none (with_cpp_durations).
   std::string text;
   Span span;
+  std::vector<Reference> references{};  ///< in the order of the text; what could not be understood is absent
 };
+/// What the expression names.
+[[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
+  return expression.references;
+}
 
 /// A terminal or error condition (paper, sec. IV-D). It holds if one of its expressions holds.
 struct Condition {
@@ -105,7 +133,7 @@ struct When {
     expression    ///< `text` holds
   } kind = Kind::always;
   Index expression = none;  ///< into Behaviour::terminal or ::error
-  Expression text;
+  Expression text;          ///< of any other kind than `expression`, only its span has a meaning
 };
 
 struct Next {

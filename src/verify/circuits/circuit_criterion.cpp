@@ -327,14 +327,24 @@ CircuitReport judge_circuits(const CommunicationStructure& structure) {
 
 std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group) {
   std::string text;
-  for (const Wait& wait : group.circuit) {
-    if (!text.empty()) text += "; ";
-    const std::string peer = wait.waiting_for.valid() ? structure[wait.waiting_for].name : "nobody";
-    text += structure[wait.subsystem].name +
-            (wait.side == Side::send ? " waits for the acknowledgement of " : " waits for a value of ") +
-            structure[wait.channel].name + " from " + peer;
-  }
+  for (const SubsystemAtEnd& wait : at_end(structure, group)) text += (text.empty() ? "" : "; ") + wait.text;
   return text;
+}
+
+std::vector<SubsystemAtEnd> at_end(const CommunicationStructure& structure, const CircuitGroup& group) {
+  std::vector<SubsystemAtEnd> all;
+  for (const Wait& wait : group.circuit) {
+    using Awaited = SubsystemAtEnd::Awaited;
+    SubsystemAtEnd& one = all.emplace_back();
+    one.awaited = wait.side == Side::send ? Awaited::acknowledgement : Awaited::value;
+    one.path = structure[wait.subsystem].name;
+    one.channel = structure[wait.channel].name;
+    if (wait.waiting_for.valid()) one.from = {structure[wait.waiting_for].name};
+    one.text = one.path +
+               (wait.side == Side::send ? " waits for the acknowledgement of " : " waits for a value of ") +
+               one.channel + " from " + (one.from.empty() ? "nobody" : one.from.front());
+  }
+  return all;
 }
 
 }  // namespace tessera::verify

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "verify/communication/communication.hpp"
+#include "verify/subsystem_at_end.hpp"
 
 namespace tessera::verify {
 
@@ -57,5 +58,8 @@ struct CircuitReport {
 
 /// "robot.control waits to receive from a.y->b.x for robot.motor; ...": a circuit in words.
 [[nodiscard]] std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group);
+/// The same, one by one.
+[[nodiscard]] std::vector<SubsystemAtEnd> at_end(const CommunicationStructure& structure,
+                                                 const CircuitGroup& group);
 
 }  // namespace tessera::verify

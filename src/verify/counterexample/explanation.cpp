@@ -28,9 +28,9 @@ Aftermath::Markings opposite(Aftermath::Markings markings) {
   return markings;
 }
 
-void add_new(std::vector<std::string>& to, std::vector<std::string> lines) {
-  for (std::string& line : lines)
-    if (std::ranges::count(to, line) == 0) to.push_back(std::move(line));
+void add_new(std::vector<SubsystemAtEnd>& to, std::vector<SubsystemAtEnd> more) {
+  for (SubsystemAtEnd& one : more)
+    if (std::ranges::count(to, one) == 0) to.push_back(std::move(one));
 }
 
 /// Follows the waits, with all that can happen at hand.
@@ -65,7 +65,7 @@ class Explainer {
     std::vector<std::set<std::uint32_t>> lacks;
     for (const net::SubsystemId subsystem : concerned_) lacks.push_back(waits_at(waits, subsystem));
     for (const net::SubsystemId subsystem : concerned_)
-      add_new(explanation.waits, lines(waits, subsystem, lacks));
+      add_new(explanation.waits, at_end(waits, subsystem, lacks));
     if (explanation.waits.empty() && !stuck_.empty()) explanation.waits = taken_no_more(waits);
     return explanation;
   }
@@ -134,28 +134,28 @@ class Explainer {
   }
 
   /// lacks: of each that is concerned.
-  [[nodiscard]] std::vector<std::string> lines(const Waits& waits, net::SubsystemId subsystem,
-                                               const std::vector<std::set<std::uint32_t>>& lacks) const {
-    if (waits.has_ended(subsystem)) return {waits.name(subsystem) + " has ended"};
-    if (stuck_for_ever(waits, subsystem)) return waits.lines(subsystem);
-    std::vector<std::string> texts;
+  [[nodiscard]] std::vector<SubsystemAtEnd> at_end(const Waits& waits, net::SubsystemId subsystem,
+                                                   const std::vector<std::set<std::uint32_t>>& lacks) const {
+    if (waits.has_ended(subsystem)) return {waits.ended(subsystem)};
+    if (stuck_for_ever(waits, subsystem)) return waits.waits_of(subsystem);
+    std::vector<SubsystemAtEnd> all;
     for (std::size_t other = 0; other < lacks.size(); ++other)
       for (const std::uint32_t place : lacks[other])
         if (waits.givers(place, concerned_[other]).contains(subsystem) &&
             !after_.can_fire(waits.giving(subsystem, place))[at_])
-          add_new(texts, {waits.gives_no_more(subsystem, place)});
-    return texts;
+          add_new(all, {waits.gives_no_more(subsystem, place)});
+    return all;
   }
 
-  /// Lines about a subsystem that goes on: no other subsystem can give what it lacks, or what is given
+  /// About a subsystem that goes on: no other subsystem can give what it lacks, or what is given
   /// is taken elsewhere.
-  [[nodiscard]] std::vector<std::string> taken_no_more(const Waits& waits) const {
-    std::vector<std::string> texts;
+  [[nodiscard]] std::vector<SubsystemAtEnd> taken_no_more(const Waits& waits) const {
+    std::vector<SubsystemAtEnd> all;
     const net::SubsystemId subsystem = concerned_.front();
-    if (waits.has_ended(subsystem) || stuck_for_ever(waits, subsystem)) return texts;
+    if (waits.has_ended(subsystem) || stuck_for_ever(waits, subsystem)) return all;
     for (const net::Arc& arc : net_.preset(stuck_.front()))
-      if (net_[arc.place].fused()) add_new(texts, {waits.takes_no_more(subsystem, arc.place.value)});
-    return texts;
+      if (net_[arc.place].fused()) add_new(all, {waits.takes_no_more(subsystem, arc.place.value)});
+    return all;
   }
 
   const net::Net& net_;
@@ -201,31 +201,31 @@ Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& st
 }
 
 /// The waits of subsystems that can be shown to be stuck, found by following the waits from the first one.
-std::vector<std::string> proved_waits(const net::Net& net, const Run& run,
-                                      std::vector<net::SubsystemId> concerned) {
+std::vector<SubsystemAtEnd> proved_waits(const net::Net& net, const Run& run,
+                                         std::vector<net::SubsystemId> concerned) {
   const Waits waits(net, net::marking_after(net, run));
-  std::vector<std::string> lines;
+  std::vector<SubsystemAtEnd> all;
   for (std::size_t next = 0; next < concerned.size(); ++next) {
     const net::SubsystemId subsystem = concerned[next];
     if (waits.has_ended(subsystem)) {
-      add_new(lines, {waits.name(subsystem) + " has ended"});
+      add_new(all, {waits.ended(subsystem)});
       continue;
     }
     if (waits.moves(subsystem) || !never_again(net, run, waits.transitions(subsystem))) continue;
-    add_new(lines, waits.lines(subsystem));
+    add_new(all, waits.waits_of(subsystem));
     for (const std::uint32_t place : waits.lacking(subsystem))
       for (const net::SubsystemId giver : waits.givers(place, subsystem))
         if (std::ranges::count(concerned, giver) == 0) concerned.push_back(giver);
   }
-  return lines;
+  return all;
 }
 
 Explanation roughly_explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
   run = to_the_end(net, std::move(run), stuck);
   Run further = until_all_concerned_wait(net, run, stuck);
   if (never_again(net, further, stuck)) run = std::move(further);
-  std::vector<std::string> lines = proved_waits(net, run, {net[stuck.front()].subsystem});
-  return {std::move(run), std::move(lines)};
+  std::vector<SubsystemAtEnd> waits = proved_waits(net, run, {net[stuck.front()].subsystem});
+  return {std::move(run), std::move(waits)};
 }
 
 }  // namespace
@@ -250,10 +250,10 @@ Explanation explained(const net::Net& net, Run run) {
     explainer.settle(stopped);
     return std::move(explainer).result();
   }
-  std::vector<std::string> lines;
+  std::vector<SubsystemAtEnd> all;
   for (const net::SubsystemId subsystem : stopped)
-    if (never_again(net, run, waits.transitions(subsystem))) add_new(lines, waits.lines(subsystem));
-  return {std::move(run), std::move(lines)};
+    if (never_again(net, run, waits.transitions(subsystem))) add_new(all, waits.waits_of(subsystem));
+  return {std::move(run), std::move(all)};
 }
 
 }  // namespace tessera::verify

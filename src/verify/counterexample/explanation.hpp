@@ -1,17 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "net/net.hpp"
+#include "verify/subsystem_at_end.hpp"
 
 /// The end of a run to a violation, and who waits for whom there. Only waits that last for ever are named.
 namespace tessera::verify {
 
 struct Explanation {
   std::vector<net::TransitionId> run;
-  std::vector<std::string> waits;
+  std::vector<SubsystemAtEnd> waits;
 };
 
 /// Extends a run after which the property "one of these transitions can always be fired again" can no longer

@@ -80,35 +80,56 @@ std::set<std::uint32_t> Waits::lacking(net::SubsystemId subsystem) const {
   return verify::lacking(net_, tokens_, transitions_[subsystem.value]);
 }
 
-std::vector<std::string> Waits::lines(net::SubsystemId subsystem) const {
-  std::vector<std::string> texts;
+std::vector<SubsystemAtEnd> Waits::waits_of(net::SubsystemId subsystem) const {
+  std::vector<SubsystemAtEnd> all;
   const std::set<std::uint32_t> lacks = lacking(subsystem);
   const bool all_own =
       std::ranges::all_of(lacks, [&](std::uint32_t place) { return is_own_memory(subsystem, place); });
   for (const std::uint32_t place : lacks) {
     // A token that only it can give belongs to another branch than the one that waits for other subsystems.
     if (!all_own && is_own_memory(subsystem, place)) continue;
-    if (std::string text = line(subsystem, place); std::ranges::count(texts, text) == 0)
-      texts.push_back(std::move(text));
+    if (SubsystemAtEnd one = wait_at(subsystem, place); std::ranges::count(all, one) == 0)
+      all.push_back(std::move(one));
   }
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
         net_.places()[place].role == net::PlaceRole::no_successor)
-      texts.push_back(name(subsystem) + " left a behaviour, and none of its initial conditions held");
-  return texts;
+      all.push_back({.state = SubsystemAtEnd::State::no_successor,
+                     .path = name(subsystem),
+                     .behaviour = behaviour_left(place),
+                     .text = name(subsystem) + " left a behaviour, and none of its initial conditions held"});
+  return all;
 }
 
-std::string Waits::line(net::SubsystemId subsystem, std::uint32_t missing) const {
+std::string Waits::behaviour_left(std::uint32_t place) const {
+  const net::Place& at = net_.places()[place];
+  const std::vector<std::string>& behaviours = net_.parts()[at.subsystem].behaviours;
+  return at.behaviour.value < behaviours.size() ? behaviours[at.behaviour.value] : std::string();
+}
+
+SubsystemAtEnd Waits::ended(net::SubsystemId subsystem) const {
+  return {
+      .state = SubsystemAtEnd::State::ended, .path = name(subsystem), .text = name(subsystem) + " has ended"};
+}
+
+SubsystemAtEnd Waits::wait_at(net::SubsystemId subsystem, std::uint32_t missing) const {
   const net::Place& place = net_.places()[missing];
   const Good good = good_of(place);
   std::string what = " waits for the memory of ";
   if (good == Good::value) what = " waits for a value of ";
   if (good == Good::acknowledgement) what = " waits for the acknowledgement of ";
+  SubsystemAtEnd wait{.state = SubsystemAtEnd::State::waits,
+                      .awaited = good,
+                      .path = name(subsystem),
+                      .channel = channel(place)};
   std::string from;
-  for (const net::SubsystemId giver : givers(missing, subsystem))
+  for (const net::SubsystemId giver : givers(missing, subsystem)) {
     from += (from.empty() ? " from " : " or ") + (giver == subsystem ? "itself" : name(giver));
-  return name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from) +
-         cut_at(place);
+    wait.from.push_back(name(giver));
+  }
+  wait.text = name(subsystem) + what + channel(place) + (from.empty() ? ", which nobody gives" : from) +
+              cut_at(place);
+  return wait;
 }
 
 std::set<net::SubsystemId> Waits::givers(std::uint32_t place, net::SubsystemId waiting) const {
@@ -132,16 +153,25 @@ bool Waits::is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const
   return good_of(net_.places()[place]) == Good::memory && givers(place, subsystem) == std::set{subsystem};
 }
 
-std::string Waits::takes_no_more(net::SubsystemId reader, std::uint32_t place) const {
-  return name(reader) + " goes on and receives " + channel(net_.places()[place]) + " no more";
+SubsystemAtEnd Waits::takes_no_more(net::SubsystemId reader, std::uint32_t place) const {
+  const std::string& from = channel(net_.places()[place]);
+  return {.state = SubsystemAtEnd::State::takes_no_more,
+          .awaited = good_of(net_.places()[place]),
+          .path = name(reader),
+          .channel = from,
+          .text = name(reader) + " goes on and receives " + from + " no more"};
 }
 
-std::string Waits::gives_no_more(net::SubsystemId giver, std::uint32_t place) const {
+SubsystemAtEnd Waits::gives_no_more(net::SubsystemId giver, std::uint32_t place) const {
   const Good good = good_of(net_.places()[place]);
   std::string does = " goes on and gives the memory of ";
   if (good == Good::value) does = " goes on and sends ";
   if (good == Good::acknowledgement) does = " goes on and acknowledges ";
-  return name(giver) + does + channel(net_.places()[place]) + " no more";
+  return {.state = SubsystemAtEnd::State::gives_no_more,
+          .awaited = good,
+          .path = name(giver),
+          .channel = channel(net_.places()[place]),
+          .text = name(giver) + does + channel(net_.places()[place]) + " no more"};
 }
 
 std::set<std::uint32_t> lacking(const net::Net& net, const std::vector<std::uint32_t>& tokens,

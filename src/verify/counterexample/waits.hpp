@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "net/net.hpp"
+#include "verify/subsystem_at_end.hpp"
 
 namespace tessera::verify {
 
@@ -21,7 +22,9 @@ class Waits {
   [[nodiscard]] bool has_ended(net::SubsystemId subsystem) const;
   /// What a subsystem without an enabled transition waits for: "a.control waits for a value of
   /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
-  [[nodiscard]] std::vector<std::string> lines(net::SubsystemId subsystem) const;
+  [[nodiscard]] std::vector<SubsystemAtEnd> waits_of(net::SubsystemId subsystem) const;
+  /// "a.control has ended"
+  [[nodiscard]] SubsystemAtEnd ended(net::SubsystemId subsystem) const;
 
   /// The channel places without a token that keep its transitions from firing, if nothing else does.
   [[nodiscard]] std::set<std::uint32_t> lacking(net::SubsystemId subsystem) const;
@@ -31,10 +34,10 @@ class Waits {
   /// The transitions of a subsystem that put a token there and take none from there.
   [[nodiscard]] std::vector<net::TransitionId> giving(net::SubsystemId subsystem, std::uint32_t place) const;
   /// "a.control goes on and receives ... no more", for a reader and a place that its reads need.
-  [[nodiscard]] std::string takes_no_more(net::SubsystemId reader, std::uint32_t place) const;
+  [[nodiscard]] SubsystemAtEnd takes_no_more(net::SubsystemId reader, std::uint32_t place) const;
   /// What a subsystem no longer does if it never puts a token into the place: "a.control goes on and sends
   /// ... no more".
-  [[nodiscard]] std::string gives_no_more(net::SubsystemId giver, std::uint32_t place) const;
+  [[nodiscard]] SubsystemAtEnd gives_no_more(net::SubsystemId giver, std::uint32_t place) const;
 
   [[nodiscard]] const std::string& name(net::SubsystemId subsystem) const {
     return net_.parts()[subsystem].path;
@@ -47,7 +50,7 @@ class Waits {
 
  private:
   /// What a subsystem waits for at a channel, or gives there.
-  enum class Good : std::uint8_t { memory, value, acknowledgement };
+  using Good = SubsystemAtEnd::Awaited;
 
   /// The subsystem that waits does not know what is on the way: places of a medium stand for what a
   /// peer has to do.
@@ -59,7 +62,9 @@ class Waits {
 
   /// Is it a place of a channel's memory into which no other subsystem can put a token?
   [[nodiscard]] bool is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const;
-  [[nodiscard]] std::string line(net::SubsystemId subsystem, std::uint32_t missing) const;
+  [[nodiscard]] SubsystemAtEnd wait_at(net::SubsystemId subsystem, std::uint32_t missing) const;
+  /// The behaviour to which a place belongs, by its name; empty: to none.
+  [[nodiscard]] std::string behaviour_left(std::uint32_t place) const;
   [[nodiscard]] const std::string& channel(const net::Place& place) const {
     return net_.parts()[place.channel];
   }

@@ -31,9 +31,23 @@ std::string stuck_in_words(const NetUnderAssumption& given) {
   return {};
 }
 
+/// The circuit that stuck_in_words names.
+std::vector<SubsystemAtEnd> stuck_at_end(const NetUnderAssumption& given) {
+  const auto stuck = std::ranges::find_if(given.circuits->groups,
+                                          [](const CircuitGroup& group) { return !group.stuck.empty(); });
+  return stuck == given.circuits->groups.end() ? std::vector<SubsystemAtEnd>()
+                                               : at_end(*given.communication.structure, *stuck);
+}
+
+Finding stuck(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
+  Finding finding = violated(stuck_in_words(given), std::move(subjects));
+  finding.waits = stuck_at_end(given);
+  return finding;
+}
+
 Finding deadlock_free(const NetUnderAssumption& given) {
   if (given.circuits->deadlock_free == Answer::yes) return holds();
-  if (given.circuits->deadlock_free == Answer::no) return violated(stuck_in_words(given), {});
+  if (given.circuits->deadlock_free == Answer::no) return stuck(given, {});
   return open(given, {});
 }
 
@@ -51,7 +65,7 @@ std::vector<std::uint32_t> first_stuck(const NetUnderAssumption& given) {
 
 Finding goes_on(const NetUnderAssumption& given, std::vector<std::uint32_t> subjects) {
   if (given.circuits->goes_on == Answer::yes) return holds();
-  if (given.circuits->goes_on == Answer::no) return violated(stuck_in_words(given), first_stuck(given));
+  if (given.circuits->goes_on == Answer::no) return stuck(given, first_stuck(given));
   std::set<std::uint32_t> decided;
   for (const CircuitGroup& group : given.circuits->groups)
     if (group.applies())

@@ -7,6 +7,7 @@
 #include "net/net.hpp"
 #include "net/property.hpp"
 #include "verify/communication/communication.hpp"
+#include "verify/subsystem_at_end.hpp"
 
 namespace tessera::verify {
 
@@ -48,7 +49,7 @@ struct Finding {
   /// violated: a run that shows it, as transitions of the abstract net.
   std::vector<net::TransitionId> trace{};
   bool has_trace = false;
-  std::vector<std::string> waits{};
+  std::vector<SubsystemAtEnd> waits{};
   std::uint64_t states = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "diagnostics/diagnostics.hpp"
 #include "diagnostics/utf8.hpp"
 #include "drawing/drawing.hpp"
+#include "project/files/ros2_messages.hpp"
 #include "project/verification/pipeline.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "server/analysis/structure.hpp"
@@ -47,10 +48,10 @@ Json diagnostic_json(const diagnostics::Diagnostic& one, const Diagnostics& all)
 
 }  // namespace
 
-Analysis analyse(const std::string& name, const std::string& text) {
+Analysis analyse(const std::string& name, const std::string& text, const std::filesystem::path& project) {
   Analysis analysis;
   Diagnostics found(name, text);
-  project::Draft draft = project::draft_of(found);
+  project::Draft draft = project::draft_of(found, project);
   const std::string structure = draft.known ? text_of(structure_json(*draft.known)) : "null";
   if (draft.is_model) analysis.model = std::move(draft.known);
   analysis.pages = std::move(draft.nets.pages);
@@ -72,13 +73,15 @@ Analysis analyse(const std::string& name, const std::string& text) {
 }
 
 std::shared_ptr<const Analysis> Analyses::of(const std::string& text) {
-  const std::string revision = revision_of(text);
+  const std::filesystem::path project = std::filesystem::absolute(file_).parent_path();
+  // The same text means something else when a message that it names has changed.
+  const std::string revision = revision_of(text) + project::state_of_messages(project);
   {
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find(kept_, revision, &Kept::revision);
     if (found != kept_.end()) return found->analysis;
   }
-  auto made = std::make_shared<const Analysis>(analyse(name_, text));
+  auto made = std::make_shared<const Analysis>(analyse(file_.filename().string(), text, project));
   const std::lock_guard lock(mutex_);
   kept_.push_front({revision, made});
   if (kept_.size() > most_kept) kept_.pop_back();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,17 +25,19 @@ struct Analysis {
   std::string net_hash;
 };
 
-/// name: of the file, for messages.
+/// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: none are looked
+/// up.
 ///
-/// Threads: pure.
-[[nodiscard]] Analysis analyse(const std::string& name, const std::string& text);
+/// Threads: any.
+[[nodiscard]] Analysis analyse(const std::string& name, const std::string& text,
+                               const std::filesystem::path& project = {});
 
 /// The last few analyses by their texts, because several browsers ask about the same text.
 ///
 /// Threads: any.
 class Analyses {
  public:
-  explicit Analyses(std::string name) : name_(std::move(name)) {}
+  explicit Analyses(std::filesystem::path file) : file_(std::move(file)) {}
   [[nodiscard]] std::shared_ptr<const Analysis> of(const std::string& text);
 
  private:
@@ -43,7 +46,7 @@ class Analyses {
     std::shared_ptr<const Analysis> analysis;
   };
   static constexpr std::size_t most_kept = 4;
-  std::string name_;
+  std::filesystem::path file_;
   std::mutex mutex_;
   std::deque<Kept> kept_;
 };

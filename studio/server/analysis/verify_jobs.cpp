@@ -29,6 +29,7 @@ json result_json(const Analysis& analysis, const verify::Report& report) {
   for (std::size_t index = 0; index < report.properties.size(); ++index) {
     const verify::PropertyResult& property = report.properties[index];
     json& one = result["properties"][index];
+    one["at_end"] = project::at_end_json(property.waits);
     one["steps"] = nullptr;
     one["narrative"] = nullptr;
     if (!property.has_trace) continue;

@@ -80,6 +80,10 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     if (event.version != 0) return;
     tokens_.set(places);
     batch.jumped = true;
+  } else if (event.kind() == Event::Kind::parameter) {
+    const std::size_t equals = entry.text.find('=');
+    if (equals != std::string::npos)
+      batch.parameters.emplace_back(entry.text.substr(0, equals), entry.text.substr(equals + 1));
   } else if (event.kind() == Event::Kind::end && event.subject > 0 && reached_ != nullptr) {
     reached_->lack_events();
   }
@@ -102,11 +106,16 @@ RecordingTail::Batch RecordingTail::next() {
   Batch batch;
   do {
     if (stream_.next() && stream_.begins()) {
+      const bool first = !segment_.has_value();
       values_ = take_changed_values();
       segment_.emplace(stream_.recording(), names_);
       poses_.begin(*stream_.recording());
       arrays_.begin(*stream_.recording());
       if (reached_ != nullptr) reached_->begin(*stream_.recording());
+      if (first) {
+        batch.parameters = stream_.recording()->parameters;
+        batch.lacks_parameters = stream_.recording()->segment.value_or(0) > 0;
+      }
     }
     if (!stream_.recording()) continue;
     for (const Recording::Entry& entry : stream_.recording()->entries) keep(batch, entry);

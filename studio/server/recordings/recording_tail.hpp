@@ -73,6 +73,9 @@ class RecordingTail {
     std::uint64_t dropped = 0;  ///< firings that are not listed; they came before the listed ones
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
     std::vector<replay::RobotPoint> path;                         ///< of the only robot (PoseTrack)
+    /// path and value of parameters that the run was given, or has taken since
+    std::vector<std::pair<std::string, std::string>> parameters;
+    bool lacks_parameters = false;  ///< it begins in a later segment: what was taken before is not known
     /// the marking is that with which a segment began, so it does not follow from the firings alone
     bool jumped = false;
     bool more = false;  ///< there may be more already

@@ -48,6 +48,8 @@ RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, b
 std::vector<PathPoint> RunFollower::add_firings(News& news) {
   RecordingTail::Batch batch = recording_.next();
   news.more = batch.more;
+  news.parameters = std::move(batch.parameters);
+  news.lacks_parameters = batch.lacks_parameters;
   time_ns_ = std::max(time_ns_, batch.time_ns);
   news.time_ns = time_ns_;
   if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return std::move(batch.path);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "project/process/control_messages.hpp"
@@ -27,6 +28,8 @@ class RunFollower {
     nlohmann::json scene;         ///< of the event; null: no new one
     nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a page that begins now
     std::vector<PathPoint> path;  ///< new points of the path
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< RecordingTail::Batch::parameters
+    bool lacks_parameters = false;                                ///< RecordingTail::Batch::lacks_parameters
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
     std::uint64_t total_firings = 0;  ///< that were read so far; 0: no new ones

@@ -49,6 +49,8 @@ const char* name_of(RunRequest::Kind kind) {
       return "run";
     case RunRequest::Kind::attach:
       return "attach";
+    case RunRequest::Kind::deployment:
+      return "deployment";
   }
   return "";
 }
@@ -128,6 +130,7 @@ Run::Run(std::string id, RunRequest request, std::filesystem::path spec,
       analysis_(std::move(analysis)),
       events_(events),
       reached_(*analysis_->net),
+      parameters_(*analysis_->model),
       marking_(MarkingTracker(*analysis_->net).marked()) {
   thread_ = std::thread([this] { make_and_run(); });
 }
@@ -168,6 +171,7 @@ void Run::set_state(State state, const std::string& why) {
 void Run::make_and_run() {
   try {
     if (request_.kind == RunRequest::Kind::attach) return attach();
+    if (request_.kind == RunRequest::Kind::deployment) return watch_deployment();
     std::optional<project::Controller> controller = make();
     if (controller) execute(std::move(*controller));
   } catch (const std::exception& error) {
@@ -271,8 +275,13 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
 bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last) {
   RunFollower::News news = follower.poll(std::move(snapshot), last);
   std::optional<State> changed;
+  json parameters;
   {
     const std::lock_guard lock(mutex_);
+    if (news.lacks_parameters) parameters_.forget();
+    for (const auto& [path, value] : news.parameters) parameters_.set(path, value);
+    if (!news.parameters.empty() || news.lacks_parameters)
+      parameters = {{"t", news.time_ns}, {"parameters", parameters_.shown()}};
     time_ns_ = std::max(time_ns_, news.time_ns);
     firings_ = std::max(firings_, news.total_firings);
     if (news.marking) marking_ = *news.marking;
@@ -286,6 +295,7 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
     if (news.has_state && (now != state_ || news.rested) && !last) changed = now;
   }
   controllable_ = controllable_ || news.has_state;
+  if (!parameters.is_null()) publish("parameters", std::move(parameters));
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
   if (!news.values.is_null()) publish("values", std::move(news.values));
   if (!news.arrays.is_null()) publish("arrays", std::move(news.arrays));
@@ -297,69 +307,6 @@ bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot,
   return news.more;
 }
 
-/// Why what runs there cannot be shown on this net; nullopt: it can.
-std::optional<Problem> Run::why_not_attachable(const project::Snapshot& snapshot) const {
-  if (snapshot.net_hash == analysis_->net_hash) return std::nullopt;
-  return Problem{fmt::format("the controller runs another net (of the system {}) than the specification here",
-                             snapshot.system)};
-}
-
-/// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
-/// names a file of another machine, where this one may have an old one.
-std::filesystem::path Run::readable_recording(const project::Snapshot& snapshot) {
-  std::error_code missing;
-  const std::filesystem::path file = std::filesystem::canonical(snapshot.recording.value_or(""), missing);
-  const std::filesystem::path folder = spec_.parent_path();
-  const auto [end, ignored] = std::ranges::mismatch(folder, file);
-  const bool within = !missing && end == folder.end();
-  return within && link_.is_process(snapshot.process) ? file : std::filesystem::path();
-}
-
-/// The scene of a controller whose files cannot be read comes through its socket, piece by piece.
-void Run::fetch_scene() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (scene_.is_null() || !glb_.empty()) return;
-  }
-  std::optional<std::string> glb = link_.scene();
-  if (!glb) return;
-  json scene;
-  {
-    const std::lock_guard lock(mutex_);
-    glb_ = std::move(*glb);
-    scene = scene_;
-  }
-  publish("scene", std::move(scene));  // again: now it can be loaded
-}
-
-void Run::attach() {
-  if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
-    return set_state(State::failed, "nobody listens at " + request_.socket);
-  std::optional<project::Snapshot> snapshot;
-  while (!snapshot && !stop_ && !link_.is_over()) {
-    snapshot = link_.snapshot();
-    if (!snapshot) RunFollower::rest();
-  }
-  if (!snapshot) return set_state(State::ended, "it has ended");
-  if (const std::optional<Problem> why = why_not_attachable(*snapshot))
-    return set_state(State::failed, why->text);
-  const std::filesystem::path file = readable_recording(*snapshot);
-  RunFollower follower(file.empty() ? [this] { return link_.recording(); }
-                                    : RecordingStream::of_file(file, GrowingRecording::From::newest),
-                       *analysis_, &reached_);
-  set_state(State::running);
-  while (!stop_ && !link_.is_over()) {
-    if (!tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/false)) RunFollower::rest();
-    if (file.empty()) fetch_scene();
-    snapshot = link_.snapshot();
-  }
-  while (!stop_ && tell(follower, std::exchange(snapshot, std::nullopt), /*last=*/true)) continue;
-  link_.close();
-  if (stop_ || link_.has_ended())
-    return set_state(State::ended, stop_ ? "let go; it runs on" : "it has ended");
-  set_state(State::failed, "the connection to the controller is lost; it may still be running");
-}
-
 json Run::info(bool all) const {
   const std::lock_guard lock(mutex_);
   json info{{"run", id_},  {"state", name_of(state_)},        {"kind", name_of(request_.kind)},
@@ -368,6 +315,7 @@ json Run::info(bool all) const {
   info["marking"] = marking_;
   info["firings"] = firings_;
   info["values"] = values_;
+  info["parameters"] = parameters_.shown();
   info["pose"] = pose_;
   info["path"] = rows_of(path_);
   info["scene"] = scene_;
@@ -375,6 +323,7 @@ json Run::info(bool all) const {
   info["verdicts"] = verdicts_;
   info["outcome"] = outcome_;
   info["subsystems"] = subsystems_;
+  info["deployment"] = deployment_;
   info["track"] = request_.track.empty() ? json(nullptr) : json(request_.track);
   return info;
 }
@@ -385,9 +334,13 @@ std::optional<Problem> Run::control(const RunControl& wanted) {
     stop_ = true;
     return std::nullopt;
   }
-  if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
   if (is_building()) return Problem{"the controller is still being made"};
-  if (request_.kind == RunRequest::Kind::attach && !controllable_)
+  // Any controller takes values of parameters, also one on the steady clock.
+  if (wanted.command == "set" && request_.kind != RunRequest::Kind::deployment)
+    return link_.command(project::command::Set{wanted.path, wanted.text});
+  if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
+  const bool attached = request_.kind == RunRequest::Kind::attach;
+  if ((attached && !controllable_) || request_.kind == RunRequest::Kind::deployment)
     return Problem{"this controller can only be watched: it runs in real time"};
   const bool of_breakpoints = wanted.command == "breakpoints";
   const std::optional<project::ControlCommand> command =

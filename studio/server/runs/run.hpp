@@ -16,6 +16,8 @@
 #include "server/recordings/robot_path.hpp"
 #include "server/recordings/run_follower.hpp"
 #include "server/runs/controller_link.hpp"
+#include "server/runs/deployment_follower.hpp"
+#include "server/runs/run_parameters.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera::server {
@@ -23,9 +25,10 @@ namespace tessera::server {
 /// A request for a run.
 struct RunRequest {
   enum class Kind : std::uint8_t {
-    simulate,  ///< on the simulated clock
-    run,       ///< on the steady clock with real drivers
-    attach     ///< to a controller that another process has started
+    simulate,   ///< on the simulated clock
+    run,        ///< on the steady clock with real drivers
+    attach,     ///< to a controller that another process has started
+    deployment  ///< the same to all processes of a deployed system on this machine
   } kind = Kind::simulate;
   std::string socket;  ///< for attach: a name in tessera::monitor_folder()
   std::string world, track, duration;
@@ -40,6 +43,7 @@ struct RunControl {
   std::string command;
   std::string subsystem;                                       ///< of step_iteration
   std::optional<double> speed;                                 ///< of speed
+  std::string path, text;                                      ///< of set: a parameter and its value
   std::vector<std::uint32_t> places, transitions, conditions;  ///< of breakpoints: indices of the net
 };
 
@@ -81,11 +85,13 @@ class Run {
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
   void attach();
+  void watch_deployment();
   void fetch_scene();
   [[nodiscard]] std::optional<Problem> why_not_attachable(const project::Snapshot& snapshot) const;
   [[nodiscard]] std::filesystem::path readable_recording(const project::Snapshot& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
   [[nodiscard]] bool tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last);
+  void tell(DeploymentFollower::News news);
   void set_state(State state, const std::string& why = {});
   void publish(const char* event, nlohmann::json data) const;
 
@@ -102,9 +108,11 @@ class Run {
   mutable std::mutex mutex_;  ///< guards the members below
   State state_ = State::building;
   std::string why_;
-  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_, scene_, poses_;
+  nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_, scene_, poses_,
+                           deployment_;
   replay::Thinned<PathPoint> path_{5000};
   std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not come yet
+  RunParameters parameters_;
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
   std::uint64_t firings_ = 0;

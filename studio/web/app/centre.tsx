@@ -2,9 +2,11 @@ import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
 import { StructureCanvas } from "../canvas/structure_canvas";
 import { ComparisonBar } from "../panels/comparison";
 import { CoverageLegend } from "../panels/coverage";
+import { FleetPage } from "../panels/fleet_page";
 import { PaneHead } from "../panels/pane_head";
 import { usePaneTitle } from "../panels/pane_title";
 import { Player } from "../panels/player";
+import { StartPage } from "../panels/start_page";
 import { useStore, useStudio } from "../hooks/use";
 
 /** The part between the text and the side panel: it shows the system. */
@@ -13,10 +15,12 @@ export function Centre() {
   const { project, problem } = useStore(studio.project, (all) => all);
   const view = useStore(studio.view, (all) => all.view);
   const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
+  const blank = useStore(studio.draft.store, (draft) => draft.text.trim() === "");
   const panes = useStore(studio.scene.store, (all) => all.panes);
   const sameTime = useStore(studio.scene.store, (all) => all.sameTime);
   if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
   if (!loaded) return <Empty title="Opening…" text="" />;
+  if (blank) return <StartPage />;
   const beside = panes.length > 1;
   // The structure view has no named panes.
   const named = beside && view === "net";
@@ -25,7 +29,12 @@ export function Centre() {
   ));
   return (
     <main className="centre">
-      {view === "structure" ? (
+      {view === "fleet" && project && project.processes.length > 0 ? (
+        <>
+          <FleetPage />
+          {players}
+        </>
+      ) : view === "structure" ? (
         <>
           <StructureCanvas />
           {players}

@@ -17,6 +17,8 @@ import type { NetModel } from "../model/net";
 import type { Sheets } from "../model/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
+import { Legend } from "./legend";
+import { LensOverlay } from "./lens_overlay";
 import { useFlight } from "./flight";
 import { SheetNodeView, type SheetNode } from "./sheet_node";
 import { useNodes } from "./sheet_nodes";
@@ -65,6 +67,20 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     lead,
   );
 
+  const lens = useStore(studio.lens.store, (all) => all.shown);
+  const boxOf = (path: string) => {
+    const page = net.pageByPath.get(path);
+    const hidden = page === undefined || net.ancestry(page).some((at) => at !== 0 && at !== page && sheets.folded(at));
+    return hidden ? undefined : sheets.boxOf(path);
+  };
+  useEffect(() => {
+    if (!lead || !lens) return;
+    const pages = lens.concerned.flatMap((path) => net.pageByPath.get(path) ?? []);
+    const closed = pages.flatMap((page) => net.ancestry(page)).filter((page) => page !== 0 && sheets.folded(page));
+    const agents = closed.filter((page) => !pages.includes(page)).map((page) => net.page(page).path);
+    if (agents.length > 0) studio.foldMany(agents, false);
+  }, [lens, lead, net, sheets, studio]);
+
   const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
   // The view may move between the two clicks of a double click; the first one
   // decides which element is meant.
@@ -112,7 +128,8 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
         proOptions={{ hideAttribution: true }}
       >
         <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
-        {legend && <Panel position="bottom-left">{legend}</Panel>}
+        {root && <LensOverlay whole={{ x: 0, y: 0, width: root.width, height: root.height }} boxOf={boxOf} version={sheets} />}
+        <Panel position="bottom-left">{legend ?? (lead && <Legend of="net" />)}</Panel>
         {lead && <Controls showInteractive={false} position="bottom-right" />}
       </ReactFlow>
     </div>

@@ -1,21 +1,27 @@
 import { isActive } from "../model/game";
 import type { NetModel } from "../model/net";
 import { runningBehaviours } from "../model/game";
+import type { Breakpoint } from "../live/protocol";
 import type { Stage } from "../live/stage";
 
 /**
  * Shows the marking on the drawing, by the elements' numbers. This runs at the frame rate and touches only
  * what is on screen, so it bypasses React.
  */
-export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
+export function paint(root: ParentNode, net: NetModel, stage: Stage, breakpoints: readonly Breakpoint[] = []): void {
   if (!stage.is(net)) return;
   const { marking, occupied, counts, firedAt, mode, differing, sampled, unreached } = stage;
   const playing = mode !== "edit";
   const now = performance.now();
+  const stops = { places: new Set<number>(), transitions: new Set<number>() };
+  for (const one of breakpoints)
+    if ("place" in one) stops.places.add(one.place);
+    else stops.transitions.add("transition" in one ? one.transition : one.condition);
   root.querySelectorAll<SVGGElement>("[data-place]").forEach((group) => {
     const tokens = marking[Number(group.dataset.place)] ?? 0;
     group.style.display = tokens > 0 ? "" : "none";
     group.parentElement!.classList.toggle("unreached", unreached?.places.has(Number(group.dataset.place)) ?? false);
+    group.parentElement!.classList.toggle("breakpoint", stops.places.has(Number(group.dataset.place)));
     const text = group.lastElementChild!;
     const many = tokens > 1 ? String(tokens) : "";
     if (text.textContent !== many) text.textContent = many;
@@ -24,6 +30,7 @@ export function paint(root: ParentNode, net: NetModel, stage: Stage): void {
     const index = Number(group.dataset.transition);
     group.classList.toggle("enabled", mode === "game" && isActive(net, marking, index));
     group.classList.toggle("fired", playing && now - firedAt[index]! < 350);
+    group.classList.toggle("breakpoint", stops.transitions.has(index));
     const isUnreached = unreached?.transitions.has(index) ?? false;
     group.classList.toggle("unreached", isUnreached);
     group.classList.toggle("one-sided", !isUnreached && (unreached?.oneSided.has(index) ?? false));

@@ -50,7 +50,7 @@ export function takePicture(areas: readonly Element[]): Picture {
 
 /** The parts of a flow from the lowest to the highest. */
 function stacked(area: Element): Element[] {
-  const parts = [...area.querySelectorAll(".react-flow__edges > svg, .react-flow__node, .react-flow__edgelabel-renderer > *")];
+  const parts = [...area.querySelectorAll(".react-flow__edges > svg, .react-flow__node, .react-flow__viewport-portal > *")];
   const height = (part: Element) => Number(getComputedStyle(part).zIndex) || 0;
   return parts.sort((a, b) => height(a) - height(b));
 }

@@ -34,10 +34,19 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
   const opened = new Set(open.split(",").map(Number));
   const closed = new Set(folded.split(",").map(Number));
   useEffect(() => {
-    const now = () => ref.current && paint(ref.current, net, stage);
+    const { store } = studio.runner;
+    let last = store.get().breakpoints;
+    const now = () => ref.current && paint(ref.current, net, stage, last);
     now();
-    return stage.subscribe(now);
-  }, [net, stage, sheet, open, folded, selected]);
+    const told = store.subscribe(() => {
+      const { breakpoints } = store.get();
+      if (breakpoints === last) return;
+      last = breakpoints;
+      now();
+    });
+    const leave = stage.subscribe(now);
+    return () => (told(), leave());
+  }, [net, stage, sheet, open, folded, selected, studio]);
   const far = near <= -3;
   const parts = { net, page, direction: sheet.direction };
   const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);

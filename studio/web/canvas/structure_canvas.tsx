@@ -2,114 +2,126 @@ import {
   Background,
   BackgroundVariant,
   Controls,
+  Panel,
   ReactFlow,
   ReactFlowProvider,
+  useReactFlow,
+  useStore as useFlow,
+  useUpdateNodeInternals,
   type Connection,
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useMemo, useRef, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
 import type { Box } from "../model/geometry";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";
-import { channelLabels } from "../model/channel_labels";
-import { lanes, layoutStructure } from "../model/structure_layout";
-import { ChannelEdge, ChannelTip } from "./channel_edge";
+import { channelOf } from "../model/repair_edits";
+import { drawStructure, type StructureDrawing } from "../model/structure_graph";
+import { YamlText } from "../model/yaml_text";
+import { ChannelLayer, ChannelTip } from "./channel_layer";
+import { elk } from "./elk";
 import { ExportButtons } from "./export_button";
+import { Legend } from "./legend";
+import { LensOverlay } from "./lens_overlay";
 import { useSteadyView } from "./steady_view";
 import { AgentNode, DeviceNode, SubsystemNode } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
-const edgeTypes = { channel: ChannelEdge };
+
+/**
+ * Shows all of a drawing, with its channels, which lead around its boxes: until somebody moves it. Returns what is to be
+ * called then.
+ */
+function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
+  const flow = useReactFlow();
+  const size = useFlow((state) => `${state.width} ${state.height}`);
+  const moved = useRef(false);
+  useEffect(() => {
+    if (size.startsWith("0 ") || !whole || moved.current) return;
+    const { width, height } = whole;
+    // A small system is not drawn larger than it is.
+    const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
+    const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
+    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
+  }, [size, whole, flow]);
+  // Moves of this page have no event.
+  return (event) => void (moved.current ||= event !== null);
+}
+
+/** A structure and its drawing, which arrives a moment after it. */
+interface Drawn {
+  structure: Structure;
+  drawing: StructureDrawing;
+}
+
+const nothing: Drawn = {
+  structure: { agents: [], channels: [], system: "", types: [], yaml: new YamlText("") },
+  drawing: { width: 1, height: 1, boxes: new Map(), wires: [], labels: new Map() },
+};
+
+/** The drawing of the last structure that is laid out. Its boxes stay where they are until the next one is. */
+function useDrawn(structure: Structure): Drawn {
+  const [drawn, setDrawn] = useState(nothing);
+  useEffect(() => {
+    let wanted = true;
+    void drawStructure(structure, elk).then((drawing) => wanted && setDrawn({ structure, drawing }));
+    return () => void (wanted = false);
+  }, [structure]);
+  const update = useUpdateNodeInternals();
+  // A buffer that moved within its box takes its handle along.
+  useEffect(() => update([...drawn.drawing.boxes.keys()]), [drawn, update]);
+  return drawn;
+}
 
 type Complaints = ReturnType<typeof useComplaints>;
 
-function nodesOf(structure: Structure, selected: string | null, complaints: Complaints): Node[] {
+function nodesOf({ structure, drawing }: Drawn, selected: string | null, complaints: Complaints): Node[] {
   const nodes: Node[] = [];
-  for (const box of layoutStructure(structure)) {
-    const common = {
+  const add = (id: string, type: string, zIndex: number, data: Node["data"]) => {
+    const box = drawing.boxes.get(id);
+    if (!box) return;
+    const { x, y, width, height } = box;
+    nodes.push({
+      id,
+      type,
+      position: { x, y },
+      width,
+      height,
+      measured: { width, height },
       draggable: false,
       connectable: true,
       selectable: false,
       focusable: false,
       style: { pointerEvents: "all" as const },
-    };
-    const sized = (one: { x: number; y: number; width: number; height: number }) => ({
-      position: { x: one.x, y: one.y },
-      width: one.width,
-      height: one.height,
-      measured: { width: one.width, height: one.height },
+      zIndex,
+      data,
     });
-    const agent = structure.agents.find((one) => one.name === box.path)!;
-    nodes.push({
-      id: box.path,
-      type: "agent",
-      ...sized(box),
-      ...common,
-      zIndex: 0,
-      data: { agent, selected: selected === box.path, complaint: complaints.get(box.path) },
-    });
-    for (const inner of box.subsystems) {
-      const subsystem = agent.subsystems.find((one) => one.path === inner.path)!;
-      nodes.push({
-        id: inner.path,
-        type: "subsystem",
-        ...sized(inner),
-        ...common,
-        zIndex: 2,
-        data: { subsystem, selected, complaints },
-      });
-    }
-    for (const device of box.devices) {
-      const subsystem = agent.subsystems.find((one) => one.path === device.of)!;
-      nodes.push({ id: device.path, type: "device", ...sized(device), ...common, zIndex: 2, data: { subsystem, selected } });
+  };
+  for (const agent of structure.agents) {
+    add(agent.name, "agent", 0, { agent, selected: selected === agent.name, complaint: complaints.get(agent.name) });
+    for (const subsystem of agent.subsystems) {
+      add(subsystem.path, "subsystem", 3, { subsystem, selected, complaints });
+      add(`${subsystem.path}#device`, "device", 3, { subsystem, selected });
     }
   }
   return nodes;
 }
 
-function boxAround(nodes: Node[]): Box | undefined {
-  if (nodes.length === 0) return undefined;
-  const right = Math.max(...nodes.map((one) => one.position.x + (one.width ?? 0)));
-  const bottom = Math.max(...nodes.map((one) => one.position.y + (one.height ?? 0)));
-  return { x: 0, y: 0, width: right, height: bottom };
-}
+/** What is meant by a click: an element, or the line of a channel. */
+const pathOf = (target: Element) =>
+  target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
 
-function edgesOf(structure: Structure, selected: string | null, complaints: Complaints): Edge[] {
-  const edges: Edge[] = [];
-  const boxes = layoutStructure(structure);
-  const heights = lanes(structure, boxes);
-  const labels = channelLabels(structure, boxes, heights);
-  for (const channel of structure.channels) {
-    const ends = [channel.from, channel.to].map((end) => findThing(structure, end));
-    if (ends.some((end) => end?.kind !== "buffer")) continue;
-    const [from, to] = [withoutIndex(channel.from), withoutIndex(channel.to)];
-    const id = channelPath(channel.index);
-    edges.push({
-      id,
-      type: "channel",
-      source: from.slice(0, from.lastIndexOf(".")),
-      sourceHandle: from,
-      target: to.slice(0, to.lastIndexOf(".")),
-      targetHandle: to,
-      data: {
-        channel,
-        selected: selected === id,
-        complaint: complaints.get(id)?.severity,
-        lane: heights.get(channel.index),
-        label: labels.get(channel.index),
-      },
-      focusable: false,
-      zIndex: 3,
-    });
-  }
-  for (const { subsystems } of structure.agents)
-    for (const one of subsystems) {
-      if (!one.buffers.some((buffer) => buffer.direction === "real")) continue;
+/** The wires between virtual receptors and effectors and their devices. */
+function wiresOf({ structure, drawing }: Drawn): Edge[] {
+  return structure.agents
+    .flatMap(({ subsystems }) => subsystems)
+    .filter(({ path }) => drawing.boxes.has(`${path}#device`))
+    .map((one) => {
       const [source, target] = one.kind === "effector" ? [one.path, `${one.path}#device`] : [`${one.path}#device`, one.path];
-      edges.push({
+      return {
         id: `${one.path}#wire`,
         source,
         target,
@@ -119,9 +131,8 @@ function edgesOf(structure: Structure, selected: string | null, complaints: Comp
         focusable: false,
         selectable: false,
         zIndex: 1,
-      });
-    }
-  return edges;
+      };
+    });
 }
 
 /** Agents as roboticists draw them. A channel is made by dragging from an output to an input. */
@@ -138,9 +149,18 @@ function Drawing() {
   const structure = useStructure();
   const complaints = useComplaints(structure);
   const selected = useStore(studio.view, (view) => view.selected);
-  const nodes = useMemo(() => nodesOf(structure, selected, complaints), [structure, selected, complaints]);
-  useSteadyView(useMemo(() => boxAround(nodes), [nodes]));
-  const edges = useMemo(() => edgesOf(structure, selected, complaints), [structure, selected, complaints]);
+  const lens = useStore(studio.lens.store, (all) => all.shown);
+  const drawn = useDrawn(structure);
+  const { drawing } = drawn;
+  const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
+  const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
+  useSteadyView(drawn === nothing ? undefined : whole);
+  const move = useWholeUntilMoved(drawn === nothing ? undefined : whole);
+  const edges = useMemo(() => wiresOf(drawn), [drawn]);
+  const stuck = useMemo(
+    () => new Set((lens?.waits ?? []).flatMap(({ channel }) => channelOf(drawn.structure, channel)?.index ?? [])),
+    [lens, drawn],
+  );
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
@@ -154,11 +174,11 @@ function Drawing() {
     );
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
+  const boxOf = (path: string) => drawing.boxes.get(withoutIndex(path));
   const dragged = useRef(false);
   // The click that ends a drag is not meant for the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) =>
-    dragged.current || select((event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null);
+  const click = (event: MouseEvent) => dragged.current || select(pathOf(event.target as Element));
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
@@ -193,7 +213,7 @@ function Drawing() {
           nodes={nodes}
           edges={edges}
           nodeTypes={nodeTypes}
-          edgeTypes={edgeTypes}
+          onMove={move}
           onConnect={connect}
           onConnectStart={() => (dragged.current = true)}
           onConnectEnd={dragEnds}
@@ -201,13 +221,17 @@ function Drawing() {
           elementsSelectable={false}
           zoomOnDoubleClick={false}
           disableKeyboardA11y
-          fitView
           fitViewOptions={{ padding: 0.08, maxZoom: 1.1 }}
           minZoom={0.05}
           proOptions={{ hideAttribution: true }}
           connectionRadius={28}
         >
+          <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
+          <LensOverlay whole={whole} boxOf={boxOf} version={drawing} />
           <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+          <Panel position="bottom-left">
+            <Legend of="structure" />
+          </Panel>
           <Controls showInteractive={false} position="bottom-right" />
         </ReactFlow>
       </div>

@@ -22,8 +22,8 @@ export function AgentNode({ data }: NodeProps) {
   const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
   return (
     <div className={`agent-box${selected ? " selected" : ""}`}>
-      <button className="agent-name" data-path={agent.name} aria-pressed={selected}>
-        {agent.name}
+      <button className="agent-name" data-path={agent.name} aria-pressed={selected} title={agent.name}>
+        <span className="cut">{agent.name}</span>
         {agent.count && <span className="faint"> × {agent.count}</span>}
         {agent.template && <span className="faint"> uses {agent.template}</span>}
         <Flag of={complaint} />
@@ -47,7 +47,13 @@ export function SubsystemNode({ data }: NodeProps) {
   const isSelected = selected === subsystem.path;
   return (
     <div className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}>
-      <button className="subsystem-head" data-path={subsystem.path} aria-pressed={isSelected} style={{ height: head - 4 }}>
+      <button
+        className="subsystem-head"
+        data-path={subsystem.path}
+        aria-pressed={isSelected}
+        title={subsystem.path}
+        style={{ height: head - 4 }}
+      >
         <span className="subsystem-name">{subsystem.name}</span>
         <span className="kind">
           {kindTitle[subsystem.kind]}
@@ -75,6 +81,7 @@ export function SubsystemNode({ data }: NodeProps) {
             className={`chip${now === behaviour.name ? " running" : ""}`}
             data-path={behaviour.path}
             aria-pressed={selected === behaviour.path}
+            title={behaviour.name}
             aria-label={`behaviour ${behaviour.name}${now === behaviour.name ? ", running" : ""}`}
           >
             {behaviour.name}
@@ -98,7 +105,7 @@ function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: strin
             style={{ top: head + at * row + row / 2 }}
             data-handle={buffer.path}
           />
-          <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.type}`}>
+          <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.name}: ${buffer.type}`}>
             {buffer.name}
           </button>
         </div>
@@ -116,7 +123,12 @@ export function DeviceNode({ data }: NodeProps) {
       {subsystem.buffers
         .filter((buffer) => buffer.direction === "real")
         .map((buffer) => (
-          <button key={buffer.path} data-path={buffer.path} aria-pressed={selected === buffer.path} title={buffer.type}>
+          <button
+            key={buffer.path}
+            data-path={buffer.path}
+            aria-pressed={selected === buffer.path}
+            title={`${buffer.name}: ${buffer.type}`}
+          >
             {buffer.name}
           </button>
         ))}

@@ -1,4 +1,4 @@
-import type { ControlRequest, Requests, RunRequest } from "./protocol";
+import type { ControlRequest, LanguageQuestion, Requests, RunRequest } from "./protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -100,7 +100,18 @@ export class Api {
   spec = () => this.ask("GET /api/spec");
   save = (text: string, revision: string) => this.ask("PUT /api/spec", { body: { text, revision } });
   check = (text: string) => this.ask("POST /api/check", { body: { text } });
+  /** What may stand at a place of a text, and what a word there means. */
+  language = (question: LanguageQuestion) => this.ask("POST /api/language", { body: question });
   verify = (text: string, timeout = "30s") => this.ask("POST /api/verify", { body: { text, timeout } });
+  /** Who can fire nothing in a marking. */
+  waits = (text: string, marking: { place: number }[]) => this.ask("POST /api/waits", { body: { text, marking } });
+  functions = (text: string) => this.ask("POST /api/functions", { body: { text } });
+  addFunction = (text: string, subsystem: string, name: string) =>
+    this.ask("POST /api/functions/add", { body: { text, subsystem, function: name } });
+  source = (file: string) => this.ask("GET /api/sources", { query: { file } });
+  saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });
+  examples = () => this.ask("GET /api/examples");
+  begin = (example: string) => this.ask("POST /api/begin", { body: { example } });
   verifyState = (job: string) => this.ask("GET /api/verify/JOB", { of: job });
   stopVerify = (job: string) => this.ask("DELETE /api/verify/JOB", { of: job });
   start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });

@@ -22,6 +22,7 @@ const listened: Record<keyof Events, true> = {
   scene: true,
   poses: true,
   subsystems: true,
+  deployment: true,
 };
 
 /** The event stream. It is opened again whenever it breaks. */

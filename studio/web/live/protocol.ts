@@ -5,9 +5,9 @@ import type { NetJson } from "../model/net_json";
 export type ConditionShown = { name: string; text: string; line: number }[] | true | null;
 export type VerifyAnswer = VerifyRunning | VerifyEnd;
 export type VerdictName = "holds" | "violated" | "unknown";
-export type RunRequest = StartRequest | AttachRequest;
+export type RunRequest = StartRequest | AttachRequest | DeploymentRequest;
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
-export type RunKind = "simulate" | "run" | "attach";
+export type RunKind = "simulate" | "run" | "attach" | "deployment";
 /** t, x, y, heading: nanoseconds of the run's clock; metres and radians in the floor picture. */
 export type PathRow = [number, number, number, number];
 /** A run pauses when a token comes to the place, the transition has fired, or its condition comes to hold. */
@@ -50,6 +50,8 @@ export interface Requests {
   };
   /** Saves nothing. */
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
+  /** About a text as it is typed; saves nothing. */
+  "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
   "POST /api/verify": {
     body: VerifyRequest;
     status: 202;
@@ -64,6 +66,46 @@ export interface Requests {
     status: 200;
     /** Sockets on which a controller listens. */
     answer: string[];
+  };
+  /** Who can fire nothing in a marking. */
+  "POST /api/waits": { body: { text: string; marking: { place: number }[] }; status: 200; answer: { at_end: SubsystemAtEnd[] } };
+  /** The C++ functions of the behaviours. */
+  "POST /api/functions": { body: { text: string }; status: 200; answer: FunctionShown[] };
+  /** Adds a function that is missing to its file. */
+  "POST /api/functions/add": {
+    body: { text: string; subsystem: string; function: string };
+    status: 200;
+    answer: { file: string };
+  };
+  "GET /api/sources": {
+    query: {
+      /** src/control.cpp */
+      file: string;
+    };
+    status: 200;
+    answer: { text: string; revision: string };
+  };
+  /** 409: Conflict. */
+  "PUT /api/sources": {
+    body: {
+      file: string;
+      text: string;
+      /** Of the text that was changed. */
+      revision: string;
+    };
+    status: 200;
+    answer: { revision: string };
+  };
+  "GET /api/examples": { status: 200; answer: { name: string; title: string }[] };
+  /** Copies an example into a project that has no specification yet. */
+  "POST /api/begin": {
+    body: { example: string };
+    status: 200;
+    answer: {
+      files: string[];
+      /** Files that were there already and stay as they are. */
+      kept: string[];
+    };
   };
   "POST /api/runs": {
     body: RunRequest;
@@ -141,6 +183,8 @@ export interface Project {
   server_start: string;
   examples_hint: string;
   worlds: { name: string; tracks: string[] }[];
+  /** Of `deploy:`; empty: all agents run in one. */
+  processes: string[];
   /** Null: the specification names no world. */
   simulation: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
 }
@@ -253,6 +297,39 @@ export interface Saved {
   revision: string;
   analysis: Analysis;
 }
+export interface LanguageQuestion {
+  text: string;
+  line: number;
+  character: number;
+  ask: "completion" | "meaning" | "definition";
+}
+/** What was not asked for is empty or null. */
+export interface LanguageAnswer {
+  proposals: Proposal[];
+  meaning: Meaning | null;
+  definition: TextPosition | null;
+}
+/** What may stand at the cursor. */
+export interface Proposal {
+  kind: "key" | "word" | "type" | "name" | "example";
+  label: string;
+  detail: string;
+  documentation: string;
+  insert: string;
+  from: TextPosition;
+  to: TextPosition;
+}
+/** From 0; characters in UTF-16 units. */
+export interface TextPosition {
+  line: number;
+  character: number;
+}
+/** Of the word at the cursor, in Markdown. */
+export interface Meaning {
+  text: string;
+  from: TextPosition;
+  to: TextPosition;
+}
 export interface VerifyRequest {
   text: string;
   /** Absent: all. */
@@ -295,6 +372,10 @@ export interface Verdict {
   behaviours: { path: string; line: number }[];
   /** The run that shows the verdict. */
   trace: TracedFiring[] | null;
+  /** Violated: what would help. */
+  hint?: string;
+  /** The same as waits, as data. */
+  at_end: SubsystemAtEnd[];
   /** Transitions of the run; one beyond the net's says that no initial condition holds. */
   steps: number[] | null;
   /** The run in words. */
@@ -308,11 +389,38 @@ export interface TracedFiring {
   page?: string;
   line?: number;
 }
+/** What a subsystem does where a run has stopped or no longer goes on as it should. */
+export interface SubsystemAtEnd {
+  path: string;
+  state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";
+  /** What it waits for, or gives no more. */
+  awaited: "nothing" | "value" | "acknowledgement" | "memory";
+  /** no_successor: the one that was left. */
+  behaviour: string;
+  /** FROM->TO; empty: none. */
+  channel: string;
+  /** waits: the subsystems that could give it. */
+  from: string[];
+  /** All of it in words. */
+  text: string;
+}
 /** The verification itself failed. */
 export interface VerifyProblem {
   error: string;
 }
 export interface Nothing {}
+export interface FunctionShown {
+  /** Of an agent or a template: "walker.control". */
+  subsystem: string;
+  function: string;
+  /** unclear: only the linker can tell. */
+  state: "defined" | "unclear" | "missing";
+  /** Where it is or would be: src/control.cpp */
+  file: string;
+  line: number | null;
+  /** The function to begin with. */
+  stub: string;
+}
 export interface StartRequest {
   kind: "simulate" | "run";
   world?: string;
@@ -330,6 +438,10 @@ export interface AttachRequest {
   kind: "attach";
   /** Of the controller to watch: one of `/api/controllers`. */
   socket: string;
+}
+/** Watches all processes of the deployed system that run on this machine. */
+export interface DeploymentRequest {
+  kind: "deployment";
 }
 export interface RunListed {
   /** Names the run. */
@@ -357,6 +469,7 @@ export interface RunInfo {
   /** The number of all firings so far. */
   firings: number;
   values: Values;
+  parameters: ParameterShown[];
   pose: Pose | null;
   /** Null: nothing is simulated, or the run has not begun. */
   scene: SceneShown | null;
@@ -365,6 +478,8 @@ export interface RunInfo {
   /** At most 5000 rows. */
   path: PathRow[];
   subsystems: SubsystemsSeen | null;
+  /** Null unless all processes of a deployed system are watched. */
+  deployment: DeploymentSeen | null;
   /** By property; null: somebody else made the controller, or it is not made yet. */
   verdicts: { [k: string]: VerdictName } | null;
   outcome: Outcome | null;
@@ -375,6 +490,22 @@ export interface RunInfo {
 export interface Values {
   /** A number, bool, text, list or object. */
   [k: string]: unknown;
+}
+export interface ParameterShown {
+  /** `v`: of the system. `robot.control.gain`: of a subsystem. */
+  path: string;
+  /** As recordings describe it: `float64`. */
+  type: string;
+  /** Empty: it has none. */
+  unit: string;
+  minimum: number | null;
+  maximum: number | null;
+  /** What the specification says. */
+  initial: string;
+  /** Null: not known, since the beginning of the recording is gone. */
+  value: string | null;
+  /** Not every subsystem holds the same value. */
+  differs: boolean;
 }
 /** Metres and radians in the floor picture. */
 export interface Pose {
@@ -426,6 +557,64 @@ export interface Channel {
   name: string;
   /** Its places that hold a token; none: one side writes or reads its memory. */
   marked: string[];
+  /** Since when a value is on the way to another process without an answer; absent: none is. */
+  sending_since_s?: number;
+}
+export interface DeploymentSeen {
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  processes: ProcessSeen[];
+  links: LinkSeen[];
+  waits: WaitingChain[];
+}
+export interface ProcessSeen {
+  name: string;
+  agents: string[];
+  /** silent: it tells nothing any more; gone: it has died; absent: it was not found on this machine. */
+  state: "running" | "silent" | "ended" | "gone" | "absent";
+  /** It has been in this state for so long. */
+  since_s: number | null;
+  /** Its machine; empty: not known. */
+  host: string;
+  pid: number | null;
+  /** Of its own clock. */
+  time_s: number | null;
+  /** Why an emergency stop stands. */
+  emergency: string | null;
+  overruns: number;
+  errors: number;
+  /** Its recording is read, so its tokens are shown. */
+  followed: boolean;
+  subsystems: {
+    path: string;
+    /** Null: none yet. */
+    behaviour: string | null;
+    ended: boolean;
+  }[];
+}
+/** What `process` knows of `peer` (control_socket.schema.json); times are ages in seconds. */
+export interface LinkSeen {
+  process: string;
+  peer: string;
+  reachable: boolean;
+  /** It has been so for so long. */
+  for_s: number;
+  /** Age of the newest sign; null: none yet. */
+  heard_s: number | null;
+  signs: number;
+  signs_lost: number;
+  sent: number;
+  repeated: number;
+  received: number;
+  duplicates: number;
+  /** Null: not known yet. */
+  clock_ahead_s: number | null;
+  clock_uncertainty_s: number;
+}
+export interface WaitingChain {
+  steps: { subsystem: string; process: string; waits_for: string; other_process: string; channel: string; text: string }[];
+  /** Why the last one that is waited for does not act; may be empty. */
+  end: string;
 }
 /** What a controller says at its end: its summary.json. */
 export interface Outcome {
@@ -494,11 +683,15 @@ export interface Share {
   all: number;
 }
 export interface ControlRequest {
-  command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "breakpoints";
+  command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "set" | "breakpoints";
   /** Of `speed`. */
   value?: number;
   /** Of `step_iteration`: its path; absent: any. */
   subsystem?: string;
+  /** Of `set`: a parameter, as `tessera set` names it. */
+  path?: string;
+  /** Of `set`: its new value, in the unit of the parameter. */
+  text?: string;
   /** Instead of those before. */
   breakpoints?: Breakpoint[];
 }
@@ -589,7 +782,9 @@ export interface Events {
   run: RunEvent;
   firings: FiringsEvent;
   subsystems: SubsystemsEvent;
+  deployment: DeploymentEvent;
   values: ValuesEvent;
+  parameters: ParametersEvent;
   arrays: ArraysEvent;
   pose: PoseEvent;
   scene: SceneEvent;
@@ -657,6 +852,17 @@ export interface SubsystemsEvent {
   subsystems: Subsystem[];
   channels: Channel[];
 }
+/** What all processes of a deployed system tell of themselves and of each other. */
+export interface DeploymentEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  processes: ProcessSeen[];
+  links: LinkSeen[];
+  /** Who waits for whom for a second or more, the longest first. */
+  waits: WaitingChain[];
+}
 /** Of the buffers that changed since the last such event. */
 export interface ValuesEvent {
   /** Names the run. */
@@ -664,6 +870,14 @@ export interface ValuesEvent {
   /** Nanoseconds of the run's clock. */
   t: number;
   values: Values;
+}
+/** All parameters: when the run begins, and when one has taken a value. */
+export interface ParametersEvent {
+  /** Names the run. */
+  run: string;
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  parameters: ParameterShown[];
 }
 export interface ArraysEvent {
   /** Names the run. */
@@ -702,7 +916,7 @@ export interface Refusal {
   /** What could be done; may be empty. */
   hint: string;
 }
-/** 409 of `PUT /api/spec`: the file was changed by somebody else. */
+/** 409 of `PUT /api/spec` and `PUT /api/sources`: the file was changed by somebody else. */
 export interface Conflict {
   /** The file on disk. */
   text: string;

@@ -11,6 +11,7 @@ import type {
   Events,
   FiringsEvent,
   Outcome,
+  ParameterShown,
   PoseEvent,
   PoseFrame,
   RunEvent,
@@ -28,8 +29,8 @@ import { Store } from "./store";
 import { Track } from "./track";
 import { LiveWorld } from "./world";
 
-/** The events of a run. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify">;
+/** The events of a run that are taken here. */
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment">;
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -54,6 +55,8 @@ export interface RunnerState {
   problem: string;
   /** Behaviour by path of subsystem, as reported by the controller. */
   behaviours: ReadonlyMap<string, string>;
+  /** The parameters of the run, with what they hold. */
+  parameters: readonly ParameterShown[];
   /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
   /** Whether it has a pane of the drawing; a run continues without one, too. */
@@ -63,6 +66,9 @@ export interface RunnerState {
 export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
   return JSON.stringify(one) === JSON.stringify(other);
 }
+
+/** Somebody else has started it. */
+const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
 
 const idle: RunnerState = {
   run: null,
@@ -74,6 +80,7 @@ const idle: RunnerState = {
   speed: 1,
   problem: "",
   behaviours: new Map(),
+  parameters: [],
   breakpoints: [],
   shown: false,
 };
@@ -87,6 +94,8 @@ export class Runner {
   readonly stage = new Stage();
   readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1", all: false });
   track: Track | null = null;
+  /** Who else wants all that is known of a run. */
+  private readonly informed: ((info: RunInfo) => void)[] = [];
   private asking = false;
   /** Questions whose answers have not arrived; events wait for them. */
   private asked = 0;
@@ -111,6 +120,7 @@ export class Runner {
     on("run", (event) => this.told(event));
     on("firings", (event) => this.fired(event));
     on("values", (event) => this.valued(event));
+    on("parameters", ({ parameters }) => this.store.set({ parameters }));
     on("pose", (event) => this.posed(event));
     on("arrays", (event) => this.track?.arrays instanceof LiveArrays && this.track.arrays.take(event));
     on("scene", (event) => this.sawScene(event));
@@ -133,6 +143,10 @@ export class Runner {
     }
   }
 
+  onInfo(take: (info: RunInfo) => void): void {
+    this.informed.push(take);
+  }
+
   get active(): boolean {
     return ["building", "running", "paused"].includes(this.store.get().state);
   }
@@ -145,9 +159,9 @@ export class Runner {
       breakpoints: this.store.get().breakpoints,
       state: "building",
       kind: request.kind,
-      speed: request.kind === "attach" ? 1 : (request.speed ?? 1),
+      speed: isWatched(request) ? 1 : (request.speed ?? 1),
     });
-    this.watch(net, request.kind === "attach" ? null : request.track);
+    this.watch(net, isWatched(request) ? null : request.track);
     await this.beforeEvents(async () => {
       try {
         const { run } = await this.api.start(request);
@@ -214,6 +228,8 @@ export class Runner {
     this.store.set({ state, why, outcome });
     this.setMarked(marking, firings);
     if ("values" in info) {
+      for (const take of this.informed) take(info);
+      this.store.set({ parameters: info.parameters });
       this.counted(firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);
@@ -326,6 +342,18 @@ export class Runner {
       this.store.set({ problem: "" });
     } catch (error) {
       this.store.set({ problem: message(error) });
+    }
+  }
+
+  /** Returns why the controller refuses the value; empty: it takes it. */
+  async setParameter(path: string, text: string): Promise<string> {
+    const { run } = this.store.get();
+    if (run === null) return "There is no run.";
+    try {
+      await this.api.control(run, { command: "set", path, text });
+      return "";
+    } catch (error) {
+      return message(error);
     }
   }
 

@@ -2,18 +2,24 @@ import { Api, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
 import { Connection } from "./connection";
 import { Coverages } from "./coverage";
+import { Deployment } from "./deployment";
 import { Draft, message } from "./draft";
-import type { Project, RunRequest } from "./protocol";
+import type { Project, RunRequest, Verdict } from "./protocol";
+import { linkTo, readLink, type Linked } from "./link";
 import { Play } from "./play";
+import { causesOf } from "../model/causes";
 import { findThing, type Structure } from "../model/structure";
+import { Lens } from "./lens";
 import { Recordings } from "./recordings";
+import { Repairs } from "./repairs";
 import { Runner } from "./runner";
 import { Scene } from "./scene";
+import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Verifier } from "./verifier";
 
-export type View = "net" | "structure";
+export type View = "net" | "structure" | "fleet";
 export type PanelName = "inspect" | "verify" | "play" | "run" | "recordings";
 
 export interface ViewState {
@@ -50,8 +56,12 @@ export class Studio {
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
-  readonly verifier = new Verifier(this.api, this.draft, this.connection);
+  readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
+  readonly lens = new Lens(this.api, this.draft);
+  readonly repairs = new Repairs(this.api);
+  readonly sources = new Sources(this.api, this.draft);
   readonly runner = new Runner(this.api, this.draft, this.connection);
+  readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
@@ -60,10 +70,12 @@ export class Studio {
   readonly view = new Store<ViewState>({
     view: "net",
     panel: "inspect",
-    text: true,
+    // In a narrow window, the drawing needs the place.
+    text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
     ...keptView(),
     selected: null,
+    ...readLink(location.hash),
     line: null,
     flight: null,
     folds: new Map(),
@@ -75,7 +87,11 @@ export class Studio {
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
       sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      const link = linkTo(this.view.get());
+      if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
     });
+    // A link that is opened in this tab changes only the part after the #.
+    addEventListener("hashchange", () => this.follow(readLink(location.hash)));
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
@@ -94,6 +110,8 @@ export class Studio {
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
+    const { view, selected } = this.view.get();
+    if (selected !== null && view === "net") this.fly(selected);
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
@@ -118,6 +136,18 @@ export class Studio {
       await this.draft.changedOnDisk("");
       this.draft.store.set({ notice: "The server was restarted; connected again" });
     }
+  }
+
+  private follow({ view = this.view.get().view, panel = this.view.get().panel, selected = null }: Linked): void {
+    this.view.set({ view, panel, selected });
+    if (selected !== null && view === "net") this.fly(selected);
+  }
+
+  /** Shows who is stuck if a violation says so. */
+  private verified(verdicts: readonly Verdict[]): void {
+    const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
+    if (cause) this.lens.show(cause.atEnd, cause.title);
+    else this.lens.close();
   }
 
   /** Starts or follows a run. A game in play is closed. */

@@ -1,3 +1,4 @@
+import { stuckIn } from "../model/causes";
 import type { NetModel } from "../model/net";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
@@ -35,6 +36,8 @@ export class Verifier {
     private readonly api: Api,
     private readonly draft: Draft,
     connection: Connection,
+    /** Called with the verdicts of each verification that came to its end. */
+    private readonly onVerdicts: (verdicts: readonly Verdict[]) => void = () => undefined,
   ) {
     connection.on("verify", (event) => this.told(event));
     // A stream that broke may have swallowed the end of a job.
@@ -74,18 +77,20 @@ export class Verifier {
     }
     const { state, result } = event;
     if ("error" in result) this.store.set({ state, problem: result.error });
-    else this.store.set({ state, verdicts: result.properties });
+    else {
+      this.store.set({ state, verdicts: result.properties });
+      this.onVerdicts(result.properties);
+    }
   }
 }
 
 /** The paths of the subsystems that wait for ever in some violation; the drawing marks them. */
 export function stuck(verdicts: readonly Verdict[]): string[] {
-  const waits = verdicts.filter((one) => one.verdict === "violated" && !one.warning).flatMap((one) => one.waits);
-  return [...new Set(waits.flatMap((wait) => /^(\S+) waits /.exec(wait)?.[1] ?? []))];
+  return stuckIn(verdicts.flatMap((one) => (one.verdict === "violated" && !one.warning ? one.at_end : [])));
 }
 
 /** The firings of a violation as transitions of the net; null when there is none. */
-export function stepsOf({ steps }: Verdict, net: NetModel): number[] | null {
+export function stepsOf({ steps }: Pick<Verdict, "steps">, net: NetModel): number[] | null {
   if (!steps || steps.length === 0) return null;
   // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
   const end = steps.findIndex((step) => step >= net.transitions.length);

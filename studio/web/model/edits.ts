@@ -1,6 +1,7 @@
 import type { Node } from "yaml";
 import { isMap, isPair, isScalar, visit } from "yaml";
 import {
+  readStructure,
   withoutIndex,
   type Agent,
   type Behaviour,
@@ -174,6 +175,47 @@ function nextTargets(structure: Structure, behaviour: Behaviour): (Node | undefi
   if (isScalar(node)) return [node];
   return (yaml.seq(at)?.items ?? []).map((item, number) => (isMap(item) ? yaml.node([...at, number, "to"]) : item));
 }
+
+/** Everything below `agents`, `templates` and `types` that may name a type: a whole word of a scalar. */
+export function renameType(text: string, from: string, to: string): string {
+  const structure = readStructure(text);
+  const { yaml } = structure;
+  const word = new RegExp(`(?<![\\w.])${escaped(from)}(?![\\w])`, "g");
+  const edits = yaml.renameKey(["types", from], to);
+  const inside = (at: YamlPath) => {
+    const node = yaml.node(at);
+    if (node)
+      visit(node, { Scalar: (key, scalar) => void (key === "key" || edits.push(...yaml.replaceWithin(scalar, word, to))) });
+  };
+  inside(["types"]);
+  for (const agent of [
+    ...structure.agents.map(({ body }) => body),
+    ...yaml.keys(["templates"]).map((name) => ["templates", name]),
+  ])
+    for (const at of subsystemPaths(yaml, agent)) for (const key of ["inputs", "outputs", "real", "memory"]) inside([...at, key]);
+  return apply(text, distinct(edits));
+}
+
+/** Renames a parameter of the system, also in conditions. C++ that uses it is not changed. */
+export function renameParameter(text: string, from: string, to: string): string {
+  const { yaml } = readStructure(text);
+  const word = new RegExp(`\\bparameters\\.${escaped(from)}\\b`, "g");
+  const edits = yaml.renameKey(["parameters", from], to);
+  for (const part of ["agents", "templates"]) {
+    const node = yaml.node([part]);
+    if (node) visit(node, { Scalar: (_, scalar) => void edits.push(...yaml.replaceWithin(scalar, word, `parameters.${to}`)) });
+  }
+  return apply(text, distinct(edits));
+}
+
+const subsystemPaths = (yaml: Structure["yaml"], agent: YamlPath): YamlPath[] => [
+  [...agent, "control"],
+  ...["receptors", "effectors"].flatMap((kind) => yaml.keys([...agent, kind]).map((name) => [...agent, kind, name])),
+];
+
+/** Parts of templates are found once for each agent that uses them. */
+const distinct = (edits: readonly TextEdit[]) =>
+  edits.filter(({ from }, at) => edits.findIndex((one) => one.from === from) === at);
 
 export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer: Buffer, name: string): string {
   const { yaml } = structure;

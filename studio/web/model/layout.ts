@@ -22,6 +22,7 @@ export interface ElkEdge {
   id: string;
   sources: string[];
   targets: string[];
+  labels?: { id: string; text: string; x?: number; y?: number; width: number; height: number }[];
   sections?: { startPoint: Point; endPoint: Point; bendPoints?: Point[] }[];
 }
 export type Elk = (graph: ElkNode) => Promise<ElkNode>;

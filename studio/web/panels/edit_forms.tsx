@@ -1,9 +1,7 @@
-import { useStudio } from "../hooks/use";
 import * as edits from "../model/edits";
 import {
   readStructure,
   type Agent,
-  type Behaviour,
   type Buffer,
   type Channel,
   type Structure,
@@ -11,19 +9,10 @@ import {
   type Thing,
 } from "../model/structure";
 import type { YamlPath } from "../model/yaml_text";
+import { BehaviourForm } from "./behaviour_form";
 import { Choice, Field } from "./field";
-
-const nameProblem = (text: string) =>
-  edits.isName(text) ? undefined : "Letters, digits and single underscores, beginning with a letter";
-
-/** Puts a changed text into the draft and selects the changed element. */
-function useEdit() {
-  const studio = useStudio();
-  return (text: string, select?: string | null) => {
-    studio.draft.edit(text, "edit");
-    if (select !== undefined) studio.view.set({ selected: select });
-  };
-}
+import { nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
+import { MapForm } from "./map_form";
 
 export function EditForm({ structure, thing }: { structure: Structure; thing: Thing }) {
   switch (thing.kind) {
@@ -40,12 +29,6 @@ export function EditForm({ structure, thing }: { structure: Structure; thing: Th
   }
 }
 
-const Remove = ({ what, onClick }: { what: string; onClick: () => void }) => (
-  <button className="danger" onClick={onClick}>
-    Remove {what}
-  </button>
-);
-
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
   const names = agent.subsystems.map((one) => one.name);
@@ -58,7 +41,10 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
       <Field
         label="Name"
         value={agent.name}
-        wrong={nameProblem}
+        wrong={nameProblem(
+          agent.name,
+          structure.agents.map((one) => one.name),
+        )}
         onChange={(name) => edit(edits.renameAgent(structure, agent, name), name)}
       />
       <Field
@@ -68,11 +54,36 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
         hint="A fleet of equal agents"
         onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))}
       />
+      <Field
+        label="Uses the template"
+        value={agent.template}
+        placeholder="none: it has its own subsystems"
+        choices={structure.yaml.keys(["templates"])}
+        onChange={(text) => edit(edits.setField(structure, agent.yaml, "use", text))}
+      />
+      {agent.count && (
+        <Choice
+          label="The last one is followed by"
+          value={structure.yaml.valueText([...agent.yaml, "ring"]) === "true" ? "true" : ""}
+          choices={[
+            { value: "", title: "nobody" },
+            { value: "true", title: "the first one: a ring" },
+          ]}
+          onChange={(text) => edit(edits.setField(structure, agent.yaml, "ring", text))}
+        />
+      )}
+      <SharedNote structure={structure} agent={agent} />
       <div className="buttons">
         {!names.includes("control") && <button onClick={() => add("control")}>Add control</button>}
         <button onClick={() => add("receptor")}>Add receptor</button>
         <button onClick={() => add("effector")}>Add effector</button>
-        <Remove what="agent" onClick={() => edit(edits.removeAgent(structure, agent, readStructure), null)} />
+        <Remove
+          what="agent"
+          structure={structure}
+          at={agent.yaml}
+          after={() => edits.removeAgent(structure, agent, readStructure)}
+          onClick={(text) => edit(text, null)}
+        />
       </div>
     </>
   );
@@ -96,10 +107,14 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <Field
           label="Name"
           value={subsystem.name}
-          wrong={nameProblem}
+          wrong={nameProblem(
+            subsystem.name,
+            agent.subsystems.map((one) => one.name),
+          )}
           onChange={(name) => edit(edits.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)}
         />
       )}
+      <SharedNote structure={structure} agent={agent} />
       <Field label="Rate" value={subsystem.rate} placeholder="as its blocking channels say" onChange={set("rate")} />
       {subsystem.behaviours.length > 1 && (
         <Field
@@ -123,98 +138,41 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
         <button onClick={() => addBuffer("output", "output")}>Add output</button>
         {subsystem.kind !== "control" && <button onClick={() => addBuffer("real", "device")}>Add real buffer</button>}
-        <Remove what="subsystem" onClick={() => edit(edits.removeSubsystem(structure, subsystem, readStructure), agent.name)} />
-      </div>
-    </>
-  );
-}
-
-function BehaviourForm({
-  structure,
-  behaviour,
-  subsystem,
-}: {
-  structure: Structure;
-  behaviour: Behaviour;
-  subsystem: Subsystem;
-}) {
-  const edit = useEdit();
-  const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
-  const set = (key: string) => (text: string) => edit(edits.setField(structure, behaviour.yaml, key, text));
-  return (
-    <>
-      <Field
-        label="Name"
-        value={behaviour.name}
-        wrong={nameProblem}
-        hint="Its C++ function has the same name; rename it there too"
-        onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
-      />
-      <Field
-        label="Terminal condition"
-        mono
-        value={behaviour.terminal}
-        placeholder="never"
-        hint="C++ over in, out, memory, parameters"
-        onChange={set("terminal")}
-      />
-      <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
-      <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
-      <Field label="Sends" mono value={field("send")} placeholder="all outputs" onChange={set("send")} />
-      <Field label="Receives" mono value={field("receive")} placeholder="all inputs" onChange={set("receive")} />
-      <Choice
-        label="Transfer"
-        value={field("transfer") === "parallel" ? "parallel" : "sequential"}
-        choices={[
-          { value: "sequential", title: "one channel after the other" },
-          { value: "parallel", title: "all channels at once" },
-        ]}
-        onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
-      />
-      <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
-      <div className="buttons">
         <Remove
-          what="behaviour"
-          onClick={() => edit(edits.removeBehaviour(structure, subsystem, behaviour, readStructure), subsystem.path)}
+          what="subsystem"
+          structure={structure}
+          at={subsystem.yaml}
+          after={() => edits.removeSubsystem(structure, subsystem, readStructure)}
+          onClick={(text) => edit(text, agent.name)}
         />
       </div>
+      <MapForm
+        structure={structure}
+        at={[...subsystem.yaml, "memory"]}
+        title="Memory"
+        one="memory"
+        fresh={{ name: "count", value: "int32" }}
+        choices={[...structure.types, ...plainTypes]}
+        hint="Values that stay from one round to the next, by their types"
+      />
+      <MapForm
+        structure={structure}
+        at={[...subsystem.yaml, "parameters"]}
+        title="Parameters"
+        one="parameter"
+        fresh={{ name: "limit", value: "1.0" }}
+      />
+      {subsystem.kind === "effector" && subsystem.buffers.some(({ direction }) => direction === "real") && (
+        <MapForm
+          structure={structure}
+          at={[...subsystem.yaml, "safe"]}
+          title="Safe command"
+          one="safe value"
+          fresh={{ name: subsystem.buffers.find(({ direction }) => direction === "real")!.name, value: "0" }}
+          hint="What the devices get when the subsystem stops or fails"
+        />
+      )}
     </>
-  );
-}
-
-function NextForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
-  const edit = useEdit();
-  const { next } = behaviour;
-  const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
-  const write = (changed: Behaviour["next"]) => edit(edits.setNext(structure, behaviour, changed));
-  const change = (at: number, part: Partial<Behaviour["next"][number]>) =>
-    write(next.map((entry, index) => (index === at ? { ...entry, ...part } : entry)));
-  return (
-    <fieldset className="next">
-      <legend>Then</legend>
-      {next.length === 0 && <p className="faint">the subsystem ends</p>}
-      {next.map((entry, at) => (
-        <div key={at} className="next-entry">
-          <Field
-            label={`Then ${at + 1}: to`}
-            value={entry.to}
-            choices={targets}
-            onChange={(to) => (to ? change(at, { to }) : write(next.filter((_, index) => index !== at)))}
-          />
-          <Field
-            label="when"
-            mono
-            value={entry.when}
-            placeholder="always"
-            choices={["error"]}
-            onChange={(when) => change(at, { when })}
-          />
-        </div>
-      ))}
-      <button onClick={() => write([...next, { to: targets.find((name) => name !== behaviour.name) ?? "end", when: "" }])}>
-        Add what follows
-      </button>
-    </fieldset>
   );
 }
 
@@ -229,7 +187,7 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
       <Field
         label="Name"
         value={buffer.name}
-        wrong={nameProblem}
+        wrong={nameProblem(buffer.name, namesIn(subsystem))}
         onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)}
       />
       <Field
@@ -243,7 +201,10 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
       <div className="buttons">
         <Remove
           what="buffer"
-          onClick={() => edit(edits.removeBuffer(structure, subsystem, buffer, readStructure), subsystem.path)}
+          structure={structure}
+          at={buffer.yaml}
+          after={() => edits.removeBuffer(structure, subsystem, buffer, readStructure)}
+          onClick={(text) => edit(text, subsystem.path)}
         />
       </div>
     </>
@@ -286,7 +247,13 @@ function ChannelForm({ structure, channel }: { structure: Structure; channel: Ch
         </>
       )}
       <div className="buttons">
-        <Remove what="channel" onClick={() => edit(edits.removeChannel(structure, channel), null)} />
+        <Remove
+          what="channel"
+          structure={structure}
+          at={at}
+          after={() => edits.removeChannel(structure, channel)}
+          onClick={(text) => edit(text, null)}
+        />
       </div>
     </>
   );

@@ -6,6 +6,7 @@ import { layerTitle, operationText } from "../model/labels";
 import type { Element, NetModel } from "../model/net";
 import { findThing, type Thing } from "../model/structure";
 import { EditForm } from "./edit_forms";
+import { SystemForm } from "./system_form";
 
 /** Describes the selected element, and shows what can be changed about it. */
 export function InspectPanel() {
@@ -15,7 +16,7 @@ export function InspectPanel() {
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const view = useStore(studio.view, (all) => all.view);
   const selected = useStore(studio.view, (all) => all.selected);
-  if (selected === null) return <p className="faint">Select something in the drawing to see what it is and to change it.</p>;
+  if (selected === null) return <SystemForm structure={structure} />;
   const thing = findThing(structure, selected);
   const element = net?.find(selected);
   if (!thing && !element) return <p className="faint">{selected} is not there any more.</p>;

@@ -86,7 +86,7 @@ function RunBar({ track }: { track: Track }) {
   const paused = state === "paused";
   return (
     <div className="player" role="group" aria-label="The run">
-      {kind !== "run" && (paused || state === "running") && (
+      {kind !== "run" && kind !== "deployment" && (paused || state === "running") && (
         <IconButton
           name={paused ? "play" : "pause"}
           label={paused ? "Let the run go on" : "Pause the run"}

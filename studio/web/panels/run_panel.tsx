@@ -2,11 +2,13 @@ import { useState } from "react";
 import { useRunning } from "../hooks/use_stage";
 import { useStore, useStudio } from "../hooks/use";
 import type { Breakpoint } from "../live/protocol";
+import { sentence } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { Choice } from "./field";
 import { Icon, IconButton } from "./icons";
 import { OutcomeOf } from "./outcome";
 import { reason, stateTitles } from "./pane_title";
+import { ParametersNow } from "./parameters_now";
 import { StartForm } from "./start_form";
 
 export function RunPanel() {
@@ -28,7 +30,9 @@ export function RunPanel() {
         </div>
       )}
       {active ? <Controls /> : <StartForm />}
+      {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
       {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
+      {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
       <Breakpoints />
       {runner.build.length > 0 && (
@@ -52,20 +56,22 @@ function Controls() {
   const [subsystem, setSubsystem] = useState("");
   const control = studio.runner.control.bind(studio.runner);
   const paused = state === "paused";
+  // On the steady clock, nothing can be paused.
+  const paced = kind !== "run" && kind !== "deployment";
   const subsystems = net?.subsystemPages().map((page) => net.page(page).path) ?? [];
   return (
     <>
       <div className="buttons" style={{ marginTop: 0 }}>
-        {kind !== "run" && (
+        {paced && (
           <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
             <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
           </button>
         )}
         <button onClick={() => void control({ command: "stop" })}>
-          <Icon name="stop" /> {kind === "attach" ? "Let go" : "Stop"}
+          <Icon name="stop" /> {kind === "attach" || kind === "deployment" ? "Let go" : "Stop"}
         </button>
       </div>
-      {kind !== "run" && (
+      {paced && (
         <>
           <div className="buttons">
             <button disabled={!paused} onClick={() => void control({ command: "step_firing" })}>
@@ -115,6 +121,29 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
         onChange={(event) => onChange(exact(Number(event.target.value)))}
       />
     </div>
+  );
+}
+
+/** Who can do nothing at this moment, and whom they wait for. */
+function WhoWaits() {
+  const studio = useStudio();
+  const { shown, problem } = useStore(studio.lens.store, (all) => all);
+  return (
+    <>
+      <div className="buttons">
+        <button onClick={() => (shown ? studio.lens.close() : void studio.lens.look(studio.runner.stage.marking))}>
+          {shown ? "Close the lens" : "Who waits now?"}
+        </button>
+      </div>
+      {problem && <p className="faint">{problem}</p>}
+      {shown && (
+        <ul className="at-end">
+          {shown.atEnd.map(({ text }) => (
+            <li key={text}>{sentence(text)}</li>
+          ))}
+        </ul>
+      )}
+    </>
   );
 }
 

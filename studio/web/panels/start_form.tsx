@@ -4,17 +4,21 @@ import { message } from "../live/draft";
 import type { RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";
 
-const kindsOf = (hasWorld: boolean) =>
+const kindsOf = (hasWorld: boolean, deployed: boolean) =>
   [
     { value: "simulate", title: hasWorld ? "in the simulated world" : "on the simulated clock" },
     { value: "run", title: "on the steady clock, as on the robot" },
     { value: "attach", title: "nothing: watch one that runs already" },
+    ...(deployed ? [{ value: "deployment", title: "nothing: watch all processes that run already" } as const] : []),
   ] as const;
 
 function KindChoice() {
-  const { wishes } = useStudio().runner;
+  const studio = useStudio();
+  const { wishes } = studio.runner;
   const kind = useStore(wishes, (all) => all.kind);
-  return <Choice label="Run" value={kind} onChange={(kind) => wishes.set({ kind })} choices={kindsOf(useHasWorld())} />;
+  const deployed = useStore(studio.project, (all) => (all.project?.processes.length ?? 0) > 0);
+  const kinds = kindsOf(useHasWorld(), deployed);
+  return <Choice label="Run" value={kind} onChange={(kind) => wishes.set({ kind })} choices={kinds} />;
 }
 
 const number = (text: string) => (text.trim() === "" ? NaN : Number(text));
@@ -62,6 +66,25 @@ function AttachForm() {
   );
 }
 
+/** The processes of a deployed system are found by themselves. */
+function DeploymentForm() {
+  const studio = useStudio();
+  const watch = async () => {
+    studio.view.set({ view: "fleet" });
+    await studio.run({ kind: "deployment" });
+  };
+  return (
+    <>
+      <KindChoice />
+      <div className="buttons">
+        <button className="primary" onClick={() => void watch()}>
+          Watch all processes
+        </button>
+      </div>
+    </>
+  );
+}
+
 /** The settings of the next run. */
 export function StartForm() {
   const studio = useStudio();
@@ -74,6 +97,7 @@ export function StartForm() {
   const { kind, track, time, seed, speed, all } = useStore(wishes, (all) => all);
   const tracks = worlds.flatMap((world) => world.tracks);
   if (kind === "attach") return <AttachForm />;
+  if (kind === "deployment") return <DeploymentForm />;
   const start = async (paused: boolean) => {
     // A run uses the file on disk.
     if (dirty && !(await studio.draft.save())) return;

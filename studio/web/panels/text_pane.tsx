@@ -10,6 +10,7 @@ import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Diagnostic } from "../live/protocol";
 import { splice } from "../model/merge";
+import { language } from "./text_language";
 
 const colours = HighlightStyle.define([
   { tag: [tags.propertyName, tags.definition(tags.propertyName)], class: "tok-key" },
@@ -54,6 +55,7 @@ export default function TextPane() {
       yaml(),
       syntaxHighlighting(colours),
       undo,
+      language((question) => studio.api.language(question)),
       keymap.of([...searchKeymap, ...defaultKeymap]),
       EditorView.contentAttributes.of({ "aria-label": "Text of the specification" }),
       edited,

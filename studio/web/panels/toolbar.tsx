@@ -3,12 +3,15 @@ import type { View } from "../live/studio";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";
 
+const viewTitles: Record<View, string> = { net: "Net", structure: "Structure", fleet: "Fleet" };
+
 export function Toolbar() {
   const studio = useStudio();
   const project = useStore(studio.project, (all) => all.project);
   const { view, text, theme } = useStore(studio.view, (all) => all);
   const draft = useStore(studio.draft.store, (all) => all);
   const dirty = draft.text !== draft.saved;
+  const views: View[] = project && project.processes.length > 0 ? ["net", "structure", "fleet"] : ["net", "structure"];
   const choose = (next: View) => studio.view.set({ view: next });
   return (
     <header className="toolbar">
@@ -18,9 +21,9 @@ export function Toolbar() {
         {dirty && <span className="unsaved" title="Not saved yet" aria-label="not saved" role="img" />}
       </h1>
       <div className="segmented" role="tablist" aria-label="View">
-        {(["net", "structure"] as const).map((name) => (
+        {views.map((name) => (
           <button key={name} role="tab" aria-selected={view === name} onClick={() => choose(name)}>
-            {name === "net" ? "Net" : "Structure"}
+            {viewTitles[name]}
           </button>
         ))}
       </div>

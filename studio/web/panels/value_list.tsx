@@ -1,37 +1,76 @@
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState } from "react";
+import { useStructure } from "../hooks/use_structure";
 import type { Track } from "../live/track";
+import { csvOf } from "../model/csv";
 import { shown, type Samples } from "../model/series";
 import { count } from "../model/sorted";
+import { unitOf } from "../model/units";
 import { Painted, type Colours, type Size } from "./painted";
+import { Plot, type Cursor } from "./plot";
 
-/** Every value by its path, with its recent course; a click shows a large plot. */
-export function ValueList({ track, seconds, none }: { track: Track; seconds: number; none: string }) {
+interface ValueListProps {
+  track: Track;
+  /** The run beside it: its values are drawn in the plots, too. */
+  beside: Track | null;
+  seconds: number;
+  none: string;
+}
+
+/** Every value by its path, with its recent course. A click pins a plot of it, or takes it away. */
+export function ValueList({ track, beside, seconds, none }: ValueListProps) {
   const [, look] = useState(0);
-  const [plotted, setPlotted] = useState<string | null>(null);
+  const [pinned, setPinned] = useState<readonly string[]>([]);
+  const [wanted, setWanted] = useState("");
+  const cursor = useRef<Cursor>({ time: null });
+  const structure = useStructure();
   useEffect(() => {
     const timer = setInterval(() => look((at) => at + 1), 150);
     return () => clearInterval(timer);
   }, []);
   const { paths } = track.series;
-  const large = plotted === null ? undefined : track.series.samples.get(plotted);
   if (paths.length === 0) return <p className="faint pad">{none}</p>;
+  const toggle = (path: string) => setPinned(pinned.includes(path) ? pinned.filter((one) => one !== path) : [...pinned, path]);
+  const listed = paths.filter((path) => path.toLowerCase().includes(wanted.trim().toLowerCase()));
+  const numbers = (pinned.length > 0 ? pinned : listed).flatMap((path) => {
+    const samples = track.series.samples.get(path);
+    return samples ? [{ path, samples }] : [];
+  });
   return (
     <div className="value-list">
-      {large && (
-        <div className="large-plot">
-          <Painted
-            label={`Plot of ${plotted}`}
-            draw={(context, size, colours) => plot(context, size, colours, large, track.now, seconds, true)}
-            of={() => `${track.id} ${track.now} ${plotted} ${seconds}`}
-          />
-        </div>
-      )}
+      {pinned.map((path) => (
+        <Plot
+          key={path}
+          path={path}
+          unit={unitOf(structure, path)}
+          track={track}
+          beside={beside}
+          seconds={seconds}
+          cursor={cursor.current}
+          onClose={() => toggle(path)}
+        />
+      ))}
+      <div className="value-tools">
+        <input
+          type="text"
+          aria-label="Values whose path contains"
+          placeholder="filter"
+          value={wanted}
+          onChange={(event) => setWanted(event.target.value)}
+        />
+        <button
+          className="quiet"
+          title={pinned.length > 0 ? "The plotted values over time, as a table" : "The listed numbers over time, as a table"}
+          onClick={() => download(csvOf(numbers))}
+        >
+          CSV
+        </button>
+      </div>
       <ul>
-        {paths.slice(0, 200).map((path) => {
+        {listed.slice(0, 200).map((path) => {
           const samples = track.series.samples.get(path);
           return (
             <li key={path}>
-              <button aria-pressed={plotted === path} onClick={() => setPlotted(plotted === path ? null : path)} title={path}>
+              <button aria-pressed={pinned.includes(path)} onClick={() => toggle(path)} title={path}>
                 <span className="path">{path}</span>
                 <span className="now">{shown(track.series.at(path, track.now))}</span>
                 <span className="spark">
@@ -39,7 +78,7 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
                     <Painted
                       every={200}
                       label=""
-                      draw={(context, size, colours) => plot(context, size, colours, samples, track.now, seconds, false)}
+                      draw={(context, size, colours) => spark(context, size, colours, samples, track.now, seconds)}
                       of={() => `${track.id} ${track.now} ${seconds}`}
                     />
                   )}
@@ -49,18 +88,26 @@ export function ValueList({ track, seconds, none }: { track: Track; seconds: num
           );
         })}
       </ul>
+      {listed.length > 200 && <p className="faint pad">and {listed.length - 200} more: filter them</p>}
     </div>
   );
 }
 
-function plot(
+function download(text: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  link.download = "values.csv";
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+function spark(
   context: CanvasRenderingContext2D,
   size: Size,
   colours: Colours,
   { times, values }: Samples,
   now: number,
   seconds: number,
-  large: boolean,
 ): void {
   const start = now - seconds * 1e9;
   const first = Math.max(0, count(times, (time) => time < start) - 1);
@@ -72,11 +119,11 @@ function plot(
   }
   if (low > high) return;
   if (high - low < 1e-9) [low, high] = [low - 0.5, high + 0.5];
-  const room = large ? 12 : 2;
+  const room = 2;
   const x = (time: number) => ((time - start) / (now - start)) * size.width;
   const y = (value: number) => size.height - room - ((value - low) / (high - low)) * (size.height - 2 * room);
   context.strokeStyle = colours.accent;
-  context.lineWidth = large ? 1.5 : 1;
+  context.lineWidth = 1;
   context.beginPath();
   for (let at = first; at < end; at += 1) {
     // A value holds until the next one, so it is drawn in steps and not in slopes.
@@ -85,9 +132,4 @@ function plot(
   }
   context.lineTo(size.width, y(values[end - 1]!));
   context.stroke();
-  if (!large) return;
-  context.font = "10px system-ui, 'DejaVu Sans', sans-serif";
-  context.fillStyle = colours.faint;
-  context.fillText(shown(high), 4, 9);
-  context.fillText(shown(low), 4, size.height - 3);
 }

@@ -1,8 +1,9 @@
+import { useMemo } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Verdict } from "../live/protocol";
-import { stepsOf } from "../live/verifier";
+import { causesOf } from "../model/causes";
 import { sentence } from "../model/labels";
-import type { NetModel } from "../model/net";
+import { CauseCard } from "./cause_card";
 import { Icon } from "./icons";
 
 /** The question of each property in words. */
@@ -15,6 +16,7 @@ const asks: Record<string, string> = {
   sound_pages: "every page ends what it began",
   live_behaviours: "every behaviour can run again and again",
   survives_exceptions: "errors stop nobody else",
+  survives_partition: "a cut network stops nobody",
 };
 
 export function VerifyPanel() {
@@ -22,6 +24,7 @@ export function VerifyPanel() {
   const verifier = useStore(studio.verifier.store, (all) => all);
   const text = useStore(studio.draft.store, (draft) => draft.text);
   const current = useStore(studio.draft.store, (draft) => draft.current);
+  const causes = useMemo(() => causesOf(verifier.verdicts), [verifier.verdicts]);
   const running = verifier.state === "running";
   const old = verifier.verdicts.length > 0 && verifier.text !== text;
   return (
@@ -56,9 +59,12 @@ export function VerifyPanel() {
           saved or not.
         </p>
       )}
+      {causes.map((cause) => (
+        <CauseCard key={cause.title} cause={cause} net={verifier.net} />
+      ))}
       <div className="verdicts">
         {verifier.verdicts.map((verdict) => (
-          <VerdictRow key={verdict.name} verdict={verdict} net={verifier.net} />
+          <VerdictRow key={verdict.name} verdict={verdict} />
         ))}
       </div>
     </div>
@@ -67,18 +73,10 @@ export function VerifyPanel() {
 
 const marks = { holds: "check", violated: "cross", unknown: "question" } as const;
 
-function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }) {
-  const studio = useStudio();
-  const steps = net && stepsOf(verdict, net);
-  const show = () => {
-    if (!net || !steps) return;
-    studio.play.trace(net, steps, verdict.name, verdict.waits);
-    studio.view.set({ view: "net", panel: "play" });
-  };
+function VerdictRow({ verdict }: { verdict: Verdict }) {
   const onlyWarns = verdict.verdict === "violated" && verdict.warning;
-  const bad = verdict.verdict !== "holds" && !onlyWarns;
   return (
-    <details className="verdict" open={bad}>
+    <details className="verdict" open={verdict.verdict === "unknown"}>
       <summary>
         <span className={`mark ${onlyWarns ? "unknown" : verdict.verdict}`} role="img" aria-label={verdict.verdict}>
           <Icon name={marks[verdict.verdict]} />
@@ -88,19 +86,11 @@ function VerdictRow({ verdict, net }: { verdict: Verdict; net: NetModel | null }
       </summary>
       <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
       {verdict.why && <p>{sentence(verdict.why)}</p>}
-      {verdict.waits.map((wait) => (
-        <p key={wait}>{sentence(wait)}</p>
-      ))}
       <p>
         By {verdict.method || "nothing yet"}
         {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
       </p>
       {verdict.meaning && <p>{sentence(verdict.meaning)}</p>}
-      {steps && (
-        <div className="buttons">
-          <button onClick={show}>Show the run ({steps.length} firings)</button>
-        </div>
-      )}
     </details>
   );
 }

@@ -73,7 +73,12 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: Watc
         <div className="watch-title">
           <h2>Values</h2>
         </div>
-        <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
+        <ValueList
+          track={track}
+          beside={beside}
+          seconds={seconds}
+          none={replay ? "This recording holds no values" : "No values yet"}
+        />
       </div>
       {hasWorld && (
         <WorldPane

@@ -4,9 +4,9 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 import { launch } from "./browser.mjs";
-import { serve } from "./server.mjs";
+import { environment, serve } from "./server.mjs";
 
-export { serve };
+export { environment, serve };
 
 export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
 export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, import.meta.url));

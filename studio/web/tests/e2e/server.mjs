@@ -10,6 +10,9 @@ const world = mkdtempSync(join(tmpdir(), "studio-"));
 const env = { ...process.env, XDG_RUNTIME_DIR: world };
 process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 
+/** For what a test starts beside the server. */
+export const environment = { tessera, env };
+
 const removeAll = (parent, kept) => {
   if (!existsSync(parent)) return;
   for (const name of readdirSync(parent)) if (!kept.includes(name)) rmSync(join(parent, name), { recursive: true, force: true });
@@ -66,6 +69,11 @@ export async function serve(folder, { port = 0, copy = true, built = false } = {
     port: Number(new URL(url).port),
     token: hash.replace("#token=", ""),
     text: () => readFileSync(file, "utf8"),
+    /** As if it had crashed. */
+    kill: async () => {
+      child.kill("SIGKILL");
+      await ended;
+    },
     /** Ends it; its project stays until the next copy. */
     close: async () => {
       child.kill("SIGTERM");

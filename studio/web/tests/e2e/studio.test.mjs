@@ -147,6 +147,24 @@ test("a channel is dragged from an output to an input, and its modes are chosen"
     );
   }));
 
+test("the text completes names, says what they mean, and leads to their definition", () =>
+  onPage(lineFollower, async (page) => {
+    const editor = page.getByTestId("editor").locator(".cm-content");
+    const line = editor.locator(".cm-line", { hasText: "next: follow" });
+    await line.click();
+    await page.keyboard.press("End");
+    for (let i = 0; i < 8; ++i) await page.keyboard.press(i < 2 ? "ArrowLeft" : "Backspace");
+    await page.keyboard.type("f");
+    await page.locator(".cm-tooltip-autocomplete li").getByText("follow").waitFor();
+    await page.keyboard.press("Tab");
+    await editor.locator(".cm-line", { hasText: "next: follow }" }).waitFor();
+    await page.keyboard.press("F12");
+    await editor.locator(".cm-activeLine", { hasText: "follow: {}" }).waitFor();
+    const { x, y } = await editor.locator(".cm-line", { hasText: "outputs: { motion" }).boundingBox();
+    await page.mouse.move(x + 220, y + 8);
+    await page.locator(".cm-tooltip-hover").getByText("linear: float64 m/s").waitFor();
+  }));
+
 test("a broken file says where, keeps its drawing, and is repaired", () =>
   onPage(lineFollower, async (page) => {
     const editor = page.getByTestId("editor").locator(".cm-content");

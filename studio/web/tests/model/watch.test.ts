@@ -1,15 +1,11 @@
 import { describe, expect, it } from "vitest";
-import type { Verdict } from "../../live/protocol";
+import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
 import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
 import { plainColour } from "../../canvas/picture";
-import { channelLabels } from "../../model/channel_labels";
-import { chipLines, lanes, layoutStructure } from "../../model/structure_layout";
-import { readStructure } from "../../model/structure";
 import { differences, Timeline } from "../../model/timeline";
-import { intersects } from "../../model/geometry";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();
@@ -141,6 +137,7 @@ const verdictOf = (known: Partial<Verdict>): Verdict => ({
   states: 0,
   warning: false,
   waits: [],
+  at_end: [],
   behaviours: [],
   trace: null,
   steps: null,
@@ -160,11 +157,20 @@ describe("stepsOf", () => {
 
 describe("stuck", () => {
   it("names who waits in a violation, once", () => {
-    const waits = ["a.control waits for the acknowledgement of x from b", "b waits for y"];
+    const waiting = (path: string): SubsystemAtEnd => ({
+      path,
+      state: "waits",
+      awaited: "value",
+      behaviour: "",
+      channel: "x",
+      from: ["b"],
+      text: "",
+    });
+    const at_end = [waiting("a.control"), waiting("b")];
     const verdicts = [
-      verdictOf({ waits }),
-      verdictOf({ waits: waits.slice(0, 1) }),
-      verdictOf({ verdict: "holds", waits: ["c waits for z"] }),
+      verdictOf({ at_end }),
+      verdictOf({ at_end: at_end.slice(0, 1) }),
+      verdictOf({ verdict: "holds", at_end: [waiting("c")] }),
     ];
     expect(stuck(verdicts)).toEqual(["a.control", "b"]);
   });
@@ -175,70 +181,5 @@ describe("plainColour", () => {
     expect(plainColour("color(srgb 1 0.5 0)")).toBe("rgb(255, 128, 0)");
     expect(plainColour("color(srgb 1 0.5 0 / 0.25)")).toBe("rgba(255, 128, 0, 0.25)");
     expect(plainColour("rgb(1, 2, 3)")).toBe("rgb(1, 2, 3)");
-  });
-});
-
-describe("layoutStructure", () => {
-  const text = (behaviours: string) =>
-    `agents:\n  a:\n    control: { inputs: { i: bool }, behaviours: { ${behaviours} } }\n    receptors:\n      r: { real: { x: bool }, outputs: { o: bool }, behaviours: { w: {} } }\n      s: { outputs: { o: bool }, behaviours: { w: {} } }\n    effectors: { e: { inputs: { m: bool }, behaviours: { d: {} } } }\n  b: { control: { behaviours: { run: {} } } }\n`;
-  it("puts nothing over anything else", () => {
-    const agents = layoutStructure(
-      readStructure(text("one: {}, two: {}, three: {}, a_rather_long_name: {}, another_long_name: {}")),
-    );
-    const boxes = agents.flatMap((agent) => [...agent.subsystems, ...agent.devices]);
-    expect(boxes.length).toBe(6);
-    boxes.forEach((one, at) => boxes.slice(at + 1).forEach((other) => expect(intersects(one, other)).toBe(false)));
-    for (const agent of agents)
-      for (const one of [...agent.subsystems, ...agent.devices])
-        expect(
-          one.x >= agent.x && one.x + one.width <= agent.x + agent.width && one.y + one.height <= agent.y + agent.height,
-        ).toBe(true);
-    expect(intersects(agents[0]!, agents[1]!)).toBe(false);
-  });
-  it("leaves a channel with a long name a piece of line at either end", () => {
-    const between = (channel: string) => {
-      const [agent] = layoutStructure(
-        readStructure(`${text("one: {}")}channels:\n  - { from: a.r.o, to: a.control.i${channel} }\n`),
-      );
-      const at = (path: string) => agent!.subsystems.find((one) => one.path === path)!;
-      return at("a.control").x - at("a.r").x - at("a.r").width;
-    };
-    const name = "a_communication_model_of_its_own";
-    expect(between(`, model: ${name}`)).toBeGreaterThan(name.length * 6 + 40);
-    expect(between(`, model: ${name}`)).toBeGreaterThan(between(""));
-  });
-  it("sets the labels of channels that meet beside each other", () => {
-    const meeting = readStructure(
-      "agents:\n  a: { receptors: { r: { outputs: { o: bool } } }, control: { inputs: { i: bool, h: bool }, outputs: { s: bool } }, effectors: { e: {} } }\n" +
-        "  b: { control: { inputs: { s: bool }, outputs: { t: bool } } }\n" +
-        "channels:\n  - b.control.t -> a.control.i\n  - a.control.s -> b.control.s\n  - a.r.o -> a.control.h\n",
-    );
-    const boxes = layoutStructure(meeting);
-    const places = [...channelLabels(meeting, boxes, lanes(meeting, boxes)).values()];
-    expect(places.length).toBe(3);
-    places.forEach((one, at) =>
-      places
-        .slice(at + 1)
-        .forEach((other) => expect(Math.abs(one.x - other.x) > 50 || Math.abs(one.y - other.y) >= 20).toBe(true)),
-    );
-  });
-  it("makes room for many behaviours", () => {
-    const control = (behaviours: string) => readStructure(text(behaviours)).agents[0]!.subsystems[0]!;
-    expect(chipLines(control("one: {}"))).toBe(1);
-    expect(chipLines(control("a_rather_long_name: {}, another_long_name: {}, one: {}"))).toBeGreaterThan(1);
-  });
-  it("leads channels that go back below the boxes of their agent, each in its own lane", () => {
-    const back = readStructure(
-      text("one: {}") +
-        "channels:\n  - a.e.m -> a.control.i\n  - { from: a.control.o, to: a.control.i }\n  - { from: a.control.o, to: a.s.x }\n",
-    );
-    const agents = layoutStructure(back);
-    const heights = [...lanes(back, agents).values()];
-    const lowest = Math.max(...[...agents[0]!.subsystems, ...agents[0]!.devices].map((one) => one.y + one.height));
-    expect(new Set(heights).size).toBe(3);
-    for (const height of heights) {
-      expect(height).toBeGreaterThan(lowest);
-      expect(height).toBeLessThan(agents[0]!.y + agents[0]!.height);
-    }
   });
 });

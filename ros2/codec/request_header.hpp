@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tessera::ros2 {
+
+/// What tells whose request a message of a service is, and which. It stands before the data of a request,
+/// and of the reply to it, as rmw_cyclonedds_cpp has it. (rmw_fastrtps_cpp sends it beside the data, in a
+/// form that Cyclone DDS can neither send nor read.)
+struct RequestHeader {
+  std::uint64_t client = 0;   ///< a number that no other client has
+  std::int64_t sequence = 0;  ///< of the request
+
+  bool operator==(const RequestHeader&) const = default;
+};
+
+/// Takes the header out of a message with encapsulation; what is left is the message alone. nullopt: there is
+/// none, and the message is unchanged.
+[[nodiscard]] std::optional<RequestHeader> take_header(std::vector<std::byte>& message);
+/// Puts a header before the data of a little-endian message.
+void put_header(const RequestHeader& header, std::vector<std::byte>& message);
+
+}  // namespace tessera::ros2

@@ -1,0 +1,158 @@
+#include "ros2/dds/client.hpp"
+
+#include <cstdio>
+#include <thread>
+#include <utility>
+
+#include "ros2/codec/request_header.hpp"
+#include "ros2/dds/prepared.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto between_looks = std::chrono::milliseconds(5);
+/// Of a receptor that is not read.
+constexpr std::size_t most_results = 16;
+
+}  // namespace
+
+void ServiceClient::use_timeout(Duration timeout) {
+  const std::lock_guard lock(mutex_);
+  if (timeout > Duration::zero()) timeout_ = timeout;
+}
+
+void ServiceClient::open() {
+  const std::lock_guard lock(mutex_);
+  if (!ends_) ends_.emplace(setup_);
+  ++users_;
+}
+
+void ServiceClient::close() {
+  const std::lock_guard lock(mutex_);
+  if (users_ == 0 || --users_ > 0 || !ends_) return;
+  const auto until = Clock::now() + longest_goodbye;
+  for (progress(); pending_ && !pending_->sent && Clock::now() < until; progress())
+    std::this_thread::sleep_for(between_looks);
+  if (pending_ && !pending_->sent) finish(CallOutcome::no_server);
+  if (pending_) static_cast<void>(ends_->await_receipt(longest_goodbye));
+  pending_.reset();
+  ends_.reset();
+}
+
+bool ServiceClient::await_server(Duration timeout) {
+  const auto until = Clock::now() + timeout;
+  for (;;) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (ends_ && ends_->servers().ready > 0) return true;
+    }
+    if (Clock::now() >= until) return false;
+    std::this_thread::sleep_for(between_looks);
+  }
+}
+
+bool ServiceClient::call(std::uint64_t number, std::vector<std::byte> request) {
+  const std::lock_guard lock(mutex_);
+  refused_ = false;
+  if (number != 0 && number != last_) {
+    progress();  // a reply to the call before may be here already
+    if (pending_) finish(CallOutcome::replaced);
+    last_ = number;
+    newest_.reset();
+    pending_ = Pending{number, 0, std::move(request), Clock::now() + timeout_, false};
+  }
+  progress();
+  return !refused_;
+}
+
+bool ServiceClient::call_and_wait(std::uint64_t number, const std::vector<std::byte>& request,
+                                  Duration timeout) {
+  use_timeout(timeout);
+  if (!call(number, request)) return false;
+  for (;;) {
+    {
+      const std::lock_guard lock(mutex_);
+      progress();
+      if (newest_ == CallOutcome::answered) return true;
+      if (newest_) {
+        last_ = 0;  // the same number may be tried again
+        return false;
+      }
+    }
+    std::this_thread::sleep_for(between_looks);
+  }
+}
+
+void ServiceClient::keep_results() {
+  const std::lock_guard lock(mutex_);
+  keeps_results_ = true;
+}
+
+std::optional<ServiceClient::Result> ServiceClient::take_result() {
+  const std::lock_guard lock(mutex_);
+  progress();
+  if (results_.empty()) return std::nullopt;
+  Result result = std::move(results_.front());
+  results_.pop_front();
+  return result;
+}
+
+/// Precondition of this and the following: the mutex is locked.
+void ServiceClient::progress() {
+  if (!ends_) return;
+  take_replies();
+  if (pending_ && !pending_->sent) try_to_send();
+  if (pending_ && Clock::now() >= pending_->until)
+    finish(pending_->sent ? CallOutcome::no_reply : CallOutcome::no_server);
+}
+
+void ServiceClient::take_replies() {
+  for (ServiceEnds::Taken& one : ends_->take()) {
+    const auto header = take_header(one.message);
+    if (!header) {
+      warn(strange_, "a reply without the header of rmw_cyclonedds_cpp was dropped");
+    } else if (header->client != ends_->identity()) {
+      continue;  // all clients get all replies
+    } else if (!pending_ || !pending_->sent || pending_->sequence != header->sequence) {
+      warn(stray_, "a reply was dropped: its call is over, or was answered already");
+    } else {
+      finish(CallOutcome::answered, std::move(one.message));
+    }
+  }
+}
+
+void ServiceClient::try_to_send() {
+  const ServiceEnds::Servers servers = ends_->servers();
+  if (servers.foreign)
+    return warn(foreign_,
+                "no request is sent: a server is there that would misunderstand it. Start it with "
+                "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/ros2.md");
+  if (servers.ready == 0) return;
+  if (servers.ready > 1) warn(several_, "several servers get this request, and the first reply counts");
+  pending_->sequence = ++sequence_;
+  put_header({ends_->identity(), pending_->sequence}, pending_->request);
+  pending_->sent = true;
+  refused_ = !ends_->write(pending_->request);
+}
+
+void ServiceClient::finish(CallOutcome outcome, std::vector<std::byte> reply) {
+  if (outcome == CallOutcome::no_server) warn(unserved_, "a request was not sent: no server is there");
+  if (outcome == CallOutcome::no_reply) warn(unanswered_, "no reply came in time");
+  newest_ = outcome;
+  if (keeps_results_) results_.push_back(Result{pending_->number, outcome, std::move(reply)});
+  if (results_.size() > most_results) {
+    results_.pop_front();
+    warn(lost_, "a reply was dropped: the receptor is not read");
+  }
+  pending_.reset();
+}
+
+void ServiceClient::warn(std::uint64_t& count, const char* text) const {
+  if (!is_told(++count)) return;
+  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
+               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "ros2/dds/service_ends.hpp"
+
+namespace tessera::ros2 {
+
+/// What became of a call: the field `outcome` of the receptor's buffer (docs/ros2.md).
+enum class CallOutcome : std::uint8_t {
+  answered = 1,
+  no_server = 2,   ///< the request was not sent: until its time was up, nobody was there who would get it
+  no_reply = 3,    ///< it was sent, and its time was up
+  replaced = 4,    ///< a newer call has begun; the server may execute both
+  unreadable = 5,  ///< a reply came that does not fit the buffer
+};
+
+/// One call at a time. Each call has a number that is not 0; a number other than the last one begins a call.
+/// A call is sent once, since a server may execute what it gets twice.
+///
+/// Threads: any.
+class ServiceClient {
+ public:
+  explicit ServiceClient(const ServiceSetup& setup) : setup_(setup) {}
+  /// Zero changes nothing.
+  void use_timeout(Duration timeout);
+
+  /// The second driver opens what the first has opened. Throws std::runtime_error.
+  void open();
+  /// When the last driver closes it, it waits up to half a second until the server has got the last request.
+  void close();
+  /// Whether a server is there within this time.
+  [[nodiscard]] bool await_server(Duration timeout);
+
+  /// request: with encapsulation, without a header. false: DDS refused.
+  [[nodiscard]] bool call(std::uint64_t number, std::vector<std::byte> request);
+  /// The same for a process that is about to end: whether the call was answered within this time.
+  [[nodiscard]] bool call_and_wait(std::uint64_t number, const std::vector<std::byte>& request,
+                                   Duration timeout);
+
+  struct Result {
+    std::uint64_t number = 0;
+    CallOutcome outcome = CallOutcome::answered;
+    std::vector<std::byte> reply{};
+  };
+  /// From now on results are kept for `take_result`.
+  void keep_results();
+  /// The oldest result that was not taken. Each call has one.
+  [[nodiscard]] std::optional<Result> take_result();
+
+ private:
+  struct Pending {
+    std::uint64_t number = 0;
+    std::int64_t sequence = 0;
+    std::vector<std::byte> request{};
+    std::chrono::steady_clock::time_point until{};
+    bool sent = false;
+  };
+  void progress();
+  void take_replies();
+  void try_to_send();
+  void finish(CallOutcome outcome, std::vector<std::byte> reply = {});
+  void warn(std::uint64_t& count, const char* text) const;
+
+  const ServiceSetup setup_;
+  std::mutex mutex_;
+  Duration timeout_ = std::chrono::seconds(2);
+  std::optional<ServiceEnds> ends_;
+  int users_ = 0;
+  bool keeps_results_ = false, refused_ = false;
+  std::uint64_t last_ = 0;
+  std::int64_t sequence_ = 0;
+  std::optional<Pending> pending_;
+  std::deque<Result> results_;
+  std::optional<CallOutcome> newest_;
+  std::uint64_t strange_ = 0, stray_ = 0, foreign_ = 0, several_ = 0, unserved_ = 0, unanswered_ = 0,
+                lost_ = 0;
+};
+
+}  // namespace tessera::ros2

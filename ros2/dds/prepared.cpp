@@ -1,0 +1,73 @@
+#include "ros2/dds/prepared.hpp"
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "ros2/codec/written_mapping.hpp"
+#include "ros2/definitions/resolver.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+template <class T>
+T given(std::optional<T> value, const std::string& error) {
+  if (!value) throw std::runtime_error(error);
+  return *std::move(value);
+}
+
+/// The message that the buffer is: of a service, one of its two.
+std::string message_type(const Ros2Binding& binding, Direction direction) {
+  if (binding.role.empty()) return binding.type;
+  const bool requests = (binding.role == "client") == (direction == Direction::send);
+  return requests ? request_type(binding.type) : response_type(binding.type);
+}
+
+Plan plan_of(const Ros2Binding& binding, Direction direction) {
+  if (binding.encoding == nullptr)
+    throw std::runtime_error("its real buffer has a type without a fixed form");
+  const std::string type = message_type(binding, direction);
+  std::vector<Mistake> mistakes;
+  const auto message = resolve(type, DefinitionBundle(type, binding.definition), mistakes);
+  if (message == nullptr)
+    throw std::runtime_error(mistakes.empty() ? "no definition of " + type : mistakes.front().shown());
+  const auto value = parse_value_type(binding.encoding->type());
+  if (!value) throw std::runtime_error("its real buffer has a type that no message has");
+  Mapping mapping = written_mapping(binding.fields, binding.names, binding.frame_id);
+  if (!binding.role.empty())
+    mapping.own = own_fields_of_service(binding.role == "client" && direction == Direction::receive);
+  std::vector<MappingProblem> problems;
+  auto plan = Plan::make(message, *value, mapping, direction, problems);
+  return given(std::move(plan), problems.empty() ? "no mapping" : problems.front().text);
+}
+
+}  // namespace
+
+Prepared prepare(const Ros2Binding& binding, Direction direction) {
+  std::string error;
+  Prepared prepared{plan_of(binding, direction), {}, binding.encoding, binding.wait};
+  EndpointSetup& endpoint = prepared.endpoint;
+  endpoint.path = binding.path;
+  endpoint.topic = full_topic_name(binding.topic, error);
+  if (endpoint.topic.empty()) throw std::runtime_error(error);
+  if (binding.role.empty()) {
+    endpoint.dds_topic = dds_topic_name(endpoint.topic);
+    endpoint.dds_type = dds_type_name(binding.type);
+  }
+  endpoint.qos = given(parse_qos(binding.qos, error), error);
+  endpoint.node =
+      binding.node.empty() ? node_name_of(binding.path.substr(0, binding.path.find('.'))) : binding.node;
+  if (!is_node_name(endpoint.node)) throw std::runtime_error("'" + endpoint.node + "' is no name of a node");
+  endpoint.network = {binding.domain ? *binding.domain : domain_of_environment(), binding.interface,
+                      binding.peers};
+  static_cast<void>(configuration_of(endpoint.network));  // so that mistakes are found before anything opens
+  return prepared;
+}
+
+bool is_told(std::uint64_t count) {
+  while (count % 10 == 0 && count > 0) count /= 10;
+  return count == 1;
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,124 @@
+#include "ros2/dds/server.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "ros2/dds/prepared.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_waiting = 64;
+
+}  // namespace
+
+void ServiceServer::use_timeout(Duration timeout) {
+  const std::lock_guard lock(mutex_);
+  if (timeout > Duration::zero()) timeout_ = timeout;
+}
+
+void ServiceServer::open() {
+  const std::lock_guard lock(mutex_);
+  if (!ends_) ends_.emplace(setup_);
+  ++users_;
+}
+
+void ServiceServer::close() {
+  const std::lock_guard lock(mutex_);
+  if (users_ == 0 || --users_ > 0 || !ends_) return;
+  progress();
+  static_cast<void>(ends_->await_receipt(longest_goodbye));
+  current_.reset();
+  reply_.clear();
+  waiting_.clear();
+  ends_.reset();
+}
+
+std::optional<ServiceServer::Request> ServiceServer::next_request() {
+  const std::lock_guard lock(mutex_);
+  progress();
+  while (!current_ && !waiting_.empty()) {
+    current_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (Clock::now() >= current_->until) {
+      warn(unanswered_, "a request was dropped: its time is up, and it has no reply");
+      current_.reset();
+      continue;
+    }
+    return Request{++number_, current_->message};
+  }
+  return std::nullopt;
+}
+
+void ServiceServer::drop(std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  if (current_ && number == number_) current_.reset();
+  warn(strange_, "a request was dropped: it is none of that type, or does not fit the buffer");
+}
+
+bool ServiceServer::reply(std::uint64_t number, std::vector<std::byte> message) {
+  const std::lock_guard lock(mutex_);
+  refused_ = false;
+  if (number != 0 && current_ && number == number_ && reply_.empty()) {
+    put_header(current_->header, message);
+    reply_ = std::move(message);
+  } else if (number != 0 && number != told_) {  // an effector writes the same reply again and again
+    warn(useless_, "a reply was dropped: its call is over, or there was none of that number");
+  }
+  if (number != 0) told_ = number;
+  progress();
+  return !refused_;
+}
+
+/// Precondition of this and the following: the mutex is locked.
+void ServiceServer::progress() {
+  if (!ends_) return;
+  take_requests();
+  if (current_ && !reply_.empty()) send_reply();
+  if (!current_ || Clock::now() < current_->until) return;
+  if (reply_.empty())
+    warn(unanswered_, "a request was dropped: its time is up, and it has no reply");
+  else
+    warn(unheard_, "a reply was dropped: its client cannot be reached");
+  current_.reset();
+  reply_.clear();
+}
+
+void ServiceServer::take_requests() {
+  for (ServiceEnds::Taken& one : ends_->take()) {
+    auto client = ends_->client_of(one.writer);
+    const auto header = client ? take_header(one.message) : std::nullopt;
+    if (!header) {
+      warn(foreign_,
+           "a request was dropped: its client is not one of rmw_cyclonedds_cpp. Start it with "
+           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/ros2.md");
+    } else if (waiting_.size() >= most_waiting) {
+      warn(crowded_, "a request was dropped: too many wait");
+    } else {
+      waiting_.push_back(
+          Waiting{*header, *std::move(client), one.writer, Clock::now() + timeout_, std::move(one.message)});
+    }
+  }
+}
+
+/// A client that has sent a request may not have been found yet by the writer of replies.
+void ServiceServer::send_reply() {
+  const bool hears = ends_->hears(current_->client);
+  if (!hears && ends_->is_there(current_->writer)) return;
+  if (hears)
+    refused_ = !ends_->write(reply_);
+  else
+    warn(unheard_, "a reply was dropped: its client has gone");
+  current_.reset();
+  reply_.clear();
+}
+
+void ServiceServer::warn(std::uint64_t& count, const char* text) const {
+  if (!is_told(++count)) return;
+  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
+               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,212 @@
+#include "ros2/dds/service_drivers.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "ros2/codec/written_mapping.hpp"
+#include "ros2/dds/client.hpp"
+#include "ros2/dds/clock.hpp"
+#include "ros2/dds/prepared.hpp"
+#include "ros2/dds/server.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+constexpr Duration guardian_calls_within = std::chrono::seconds(4);
+
+ServiceSetup setup_of(const Prepared& prepared, const Ros2Binding& binding) {
+  return {prepared.endpoint, binding.type, binding.role == "client", binding.timeout};
+}
+
+void await_server(ServiceClient& client, const Prepared& prepared) {
+  if (prepared.wait > Duration::zero() && !client.await_server(prepared.wait))
+    throw std::runtime_error("there is no server of " + prepared.endpoint.topic);
+}
+
+class ReplyReceptor final : public RealReceptor {
+ public:
+  ReplyReceptor(Prepared prepared, const Ros2Binding& binding)
+      : prepared_(std::move(prepared)), client_(shared_service<ServiceClient>(setup_of(prepared_, binding))) {
+    client_->keep_results();
+  }
+
+  [[nodiscard]] bool open() override {
+    client_->open();
+    await_server(*client_, prepared_);
+    return true;
+  }
+  void close() override { client_->close(); }
+
+  [[nodiscard]] bool read(std::span<std::byte> value) override {
+    while (auto result = client_->take_result()) {
+      if (result->outcome == CallOutcome::answered && !is_read(*result)) {
+        result->outcome = CallOutcome::unreadable;
+        if (is_told(++unreadable_))
+          std::fprintf(stderr,
+                       "warning: %s: a reply of %s was dropped (%llu until now): it is none of that type, or "
+                       "does not fit the buffer\n",
+                       prepared_.endpoint.path.c_str(), prepared_.endpoint.topic.c_str(),
+                       static_cast<unsigned long long>(unreadable_));
+      }
+      if (result->outcome != CallOutcome::answered) {
+        if (!prepared_.plan.has_own(outcome_field)) continue;
+        value_ = prepared_.plan.empty_value(own_of(*result));
+      }
+      return prepared_.encoding->take(value.data(), value_);
+    }
+    return false;
+  }
+
+ private:
+  static std::array<std::uint64_t, 2> own_of(const ServiceClient::Result& result) {
+    return {result.number, static_cast<std::uint64_t>(result.outcome)};
+  }
+  [[nodiscard]] bool is_read(const ServiceClient::Result& result) {
+    return prepared_.plan.decode(result.reply, value_, own_of(result)) == Plan::Outcome::good;
+  }
+
+  Prepared prepared_;
+  std::shared_ptr<ServiceClient> client_;
+  std::vector<std::byte> value_;
+  std::uint64_t unreadable_ = 0;
+};
+
+/// The value of an effector, as bytes and as a message.
+class OutgoingMessage {
+ public:
+  explicit OutgoingMessage(const Prepared& prepared) : sink_(prepared.encoding->most) {}
+
+  /// false: the value is none of its type.
+  [[nodiscard]] bool make(const Prepared& prepared, std::span<const std::byte> value) {
+    sink_.clear();
+    prepared.encoding->put(value.data(), sink_);
+    call_ = prepared.plan.own_number(sink_.bytes(), call_field);
+    return prepared.plan.encode(sink_.bytes(), stamp_now(), message_);
+  }
+  [[nodiscard]] std::uint64_t call() const { return call_; }
+  [[nodiscard]] const std::vector<std::byte>& message() const { return message_; }
+
+ private:
+  ValueSink sink_;
+  std::uint64_t call_ = 0;
+  std::vector<std::byte> message_;
+};
+
+class RequestEffector final : public RealEffector {
+ public:
+  RequestEffector(Prepared prepared, const Ros2Binding& binding)
+      : prepared_(std::move(prepared)),
+        client_(shared_service<ServiceClient>(setup_of(prepared_, binding))),
+        outgoing_(prepared_),
+        maker_(getpid()) {}
+
+  [[nodiscard]] bool open() override {
+    if (is_guardian()) return true;  // most safe commands call nobody
+    client_->open();
+    await_server(*client_, prepared_);
+    return true;
+  }
+  void close() override { client_->close(); }
+
+  [[nodiscard]] bool write(std::span<const std::byte> value) override {
+    if (!outgoing_.make(prepared_, value)) return false;
+    if (!is_guardian()) return client_->call(outgoing_.call(), outgoing_.message());
+    if (outgoing_.call() == 0) return true;
+    client_->open();
+    return client_->call_and_wait(outgoing_.call(), outgoing_.message(), guardian_calls_within);
+  }
+
+ private:
+  /// The guardian makes its drivers early, and opens them in a process that it forks for that. This process
+  /// says "taken" only of a call that was answered.
+  [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }
+
+  Prepared prepared_;
+  std::shared_ptr<ServiceClient> client_;
+  OutgoingMessage outgoing_;
+  pid_t maker_;
+};
+
+class RequestReceptor final : public RealReceptor {
+ public:
+  RequestReceptor(Prepared prepared, const Ros2Binding& binding)
+      : prepared_(std::move(prepared)),
+        server_(shared_service<ServiceServer>(setup_of(prepared_, binding))) {}
+
+  [[nodiscard]] bool open() override {
+    server_->open();
+    return true;
+  }
+  void close() override { server_->close(); }
+
+  [[nodiscard]] bool read(std::span<std::byte> value) override {
+    while (const auto request = server_->next_request()) {
+      const std::array own{request->number};
+      if (prepared_.plan.decode(request->message, value_, own) == Plan::Outcome::good)
+        return prepared_.encoding->take(value.data(), value_);
+      server_->drop(request->number);
+    }
+    return false;
+  }
+
+ private:
+  Prepared prepared_;
+  std::shared_ptr<ServiceServer> server_;
+  std::vector<std::byte> value_;
+};
+
+class ReplyEffector final : public RealEffector {
+ public:
+  ReplyEffector(Prepared prepared, const Ros2Binding& binding)
+      : prepared_(std::move(prepared)),
+        server_(shared_service<ServiceServer>(setup_of(prepared_, binding))),
+        outgoing_(prepared_) {}
+
+  [[nodiscard]] bool open() override {
+    server_->open();
+    return true;
+  }
+  void close() override { server_->close(); }
+
+  [[nodiscard]] bool write(std::span<const std::byte> value) override {
+    return outgoing_.make(prepared_, value) && server_->reply(outgoing_.call(), outgoing_.message());
+  }
+
+ private:
+  Prepared prepared_;
+  std::shared_ptr<ServiceServer> server_;
+  OutgoingMessage outgoing_;
+};
+
+template <class Driver, class ClientSide, class ServerSide>
+std::unique_ptr<Driver> made_for_service(const Ros2Binding& binding, Direction direction,
+                                         std::string& error) {
+  try {
+    if (binding.role != "client" && binding.role != "server")
+      throw std::runtime_error("'" + binding.role + "' is no role of a service");
+    if (!full_service_name(binding.type)) throw std::runtime_error("'" + binding.type + "' is no service");
+    Prepared prepared = prepare(binding, direction);
+    if (binding.role == "client") return std::make_unique<ClientSide>(std::move(prepared), binding);
+    return std::make_unique<ServerSide>(std::move(prepared), binding);
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<RealReceptor> make_service_receptor(const Ros2Binding& binding, std::string& error) {
+  return made_for_service<RealReceptor, ReplyReceptor, RequestReceptor>(binding, Direction::receive, error);
+}
+
+std::unique_ptr<RealEffector> make_service_effector(const Ros2Binding& binding, std::string& error) {
+  return made_for_service<RealEffector, RequestEffector, ReplyEffector>(binding, Direction::send, error);
+}
+
+}  // namespace tessera::ros2

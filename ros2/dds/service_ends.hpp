@@ -1,0 +1,86 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "ros2/dds/endpoint.hpp"
+
+namespace tessera::ros2 {
+
+/// How long the end of a run waits until the other side has got the last message.
+inline constexpr Duration longest_goodbye = std::chrono::milliseconds(500);
+
+/// A client or server of a service. The receptor and the effector of an agent that name the same service in
+/// the same role share one.
+struct ServiceSetup {
+  EndpointSetup endpoint;  ///< its topic is the name of the service
+  std::string type;        ///< "std_srvs/srv/SetBool"
+  bool is_client = false;
+  Duration timeout{};
+};
+
+/// The two endpoints of a client or server, as rmw_cyclonedds_cpp makes them: their user data says who is
+/// who ("clientid=...;", "serviceid=...;").
+///
+/// Other implementations of ROS 2 use the same topics and types, but send no header in the message. Taken for
+/// ours, their bytes would be wrong values, and so would ours for them. The user data tells them apart.
+///
+/// Threads: one at a time.
+class ServiceEnds {
+ public:
+  /// Throws std::runtime_error.
+  explicit ServiceEnds(const ServiceSetup& setup);
+
+  [[nodiscard]] bool write(std::span<const std::byte> message);
+  /// Whether all others have got what was written, within this time.
+  [[nodiscard]] bool await_receipt(Duration timeout) const { return writer_->await_receipt(timeout); }
+  struct Taken {
+    std::vector<std::byte> message;
+    dds_instance_handle_t writer = 0;
+  };
+  /// What came since the last call, the oldest first.
+  [[nodiscard]] std::vector<Taken> take() const;
+  [[nodiscard]] std::uint64_t identity() const { return writer_->identity(); }
+
+  /// Of a client: how many servers will get a request and can be heard.
+  struct Servers {
+    std::size_t ready = 0;
+    bool foreign = false;  ///< somebody would misunderstand a request
+  };
+  [[nodiscard]] Servers servers() const;
+  /// Of a server: the client with that writer, which may have gone; nullopt: it is no client of this kind.
+  [[nodiscard]] std::optional<std::string> client_of(dds_instance_handle_t writer) const;
+  /// Whether that client is still there.
+  [[nodiscard]] bool is_there(dds_instance_handle_t writer) const;
+  /// Whether that client will get a reply.
+  [[nodiscard]] bool hears(const std::string& client) const;
+
+ private:
+  std::optional<Endpoint> writer_, reader_;
+};
+
+/// The one object of the drivers with that service and role in an agent of this process.
+template <class Service>
+[[nodiscard]] std::shared_ptr<Service> shared_service(const ServiceSetup& setup) {
+  static std::mutex mutex;
+  static std::map<std::tuple<std::string, std::string, Network>, std::weak_ptr<Service>> known;
+  const std::lock_guard lock(mutex);
+  const EndpointSetup& endpoint = setup.endpoint;
+  std::weak_ptr<Service>& one =
+      known[{endpoint.path.substr(0, endpoint.path.find('.')), endpoint.topic, endpoint.network}];
+  std::shared_ptr<Service> shared = one.lock();
+  if (shared == nullptr) one = shared = std::make_shared<Service>(setup);
+  shared->use_timeout(setup.timeout);
+  return shared;
+}
+
+}  // namespace tessera::ros2

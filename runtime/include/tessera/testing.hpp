@@ -1,0 +1,229 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tessera/controller.hpp"
+#include "tessera/subsystem.hpp"
+#include "tessera/tables.hpp"
+
+/// For tests of a project (docs/testing.md). The generated file tessera_testing.hpp includes this one and
+/// says what belongs to each Context.
+namespace tessera {
+
+/// The generated code of the subsystems whose transition functions take this Context: types `Inputs`, `Memory`,
+/// `Outputs`, `Parameters`, and what makes one.
+template <class Context>
+struct GeneratedUnit;
+
+/// Says what these are for a unit of generated code. space: the namespace of the user's functions; generated: that of
+/// what Tessera adds; nanoseconds: the period.
+#define TESSERA_UNIT(space, generated, nanoseconds)                            \
+  template <>                                                                  \
+  struct GeneratedUnit<space::Context> {                                       \
+    using Inputs = space::Inputs;                                              \
+    using Memory = space::Memory;                                              \
+    using Outputs = space::Outputs;                                            \
+    using Parameters = space::Parameters;                                      \
+    static const SubsystemNet& net() { return generated::net; }                \
+    static constexpr std::unique_ptr<Subsystem> (*maker)() = &generated::make; \
+    static constexpr Duration period{nanoseconds};                             \
+  }
+
+/// The data of a generated subsystem.
+template <class Context>
+struct SubsystemData {
+  using Unit = GeneratedUnit<Context>;
+  using Generated = SubsystemOf<typename Unit::Inputs, typename Unit::Memory, typename Unit::Outputs,
+                                typename Unit::Parameters, Context>;
+
+  explicit SubsystemData(Subsystem& subsystem) : SubsystemData(static_cast<Generated&>(subsystem)) {}
+
+  typename Unit::Inputs& in;
+  typename Unit::Memory& memory;
+  typename Unit::Outputs& out;
+  typename Unit::Parameters& parameters;
+  Context& context;
+
+ private:
+  explicit SubsystemData(Generated& subsystem)
+      : in(subsystem.in),
+        memory(subsystem.memory),
+        out(subsystem.out),
+        parameters(subsystem.parameters),
+        context(subsystem.context_) {}
+};
+
+/// One subsystem alone: its memory and parameters as they are at the start, and inputs that the test writes.
+///
+///     SubsystemUnderTest<control::Context> control;
+///     control.receive(control.in.scan, wall_ahead(0.2));
+///     EXPECT_EQ(control.iterate("drive"), "avoid");
+///
+/// Errors:  std::invalid_argument if there is no such behaviour. What a transition function throws is passed on.
+/// Threads: one at a time.
+template <class Context>
+class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemData<Context> {
+  using Owner = std::unique_ptr<Subsystem>;
+
+ public:
+  using Unit = GeneratedUnit<Context>;
+
+  SubsystemUnderTest() : Owner(Unit::maker()), SubsystemData<Context>(*static_cast<Owner&>(*this)) {
+    this->context.period = Unit::period;
+  }
+
+  /// Makes a value arrive in an input: it is valid and fresh until the next iteration.
+  template <class T>
+  void receive(Input<T>& input, const T& value, Duration age = Duration::zero()) {
+    input = value;
+    static_cast<Arrival&>(input) = {.fresh = true,
+                                    .timed_out = false,
+                                    .valid = true,
+                                    .stamp = this->context.now - age,
+                                    .age = age,
+                                    .disconnected = false};
+  }
+
+  /// A whole iteration of the behaviour: its transition function and its conditions. Returns the behaviour
+  /// that follows: the same one if it goes on, "end" if the subsystem ends, and "" if no entry of `next`
+  /// holds, so that the subsystem would wait for ever. Afterwards no input is fresh, and `context` is that
+  /// of the next iteration.
+  std::string iterate(std::string_view behaviour) {
+    const std::uint16_t index = index_of(behaviour);
+    subsystem().call(index);
+    return decided(behaviour, subsystem().decide(index, /*failed=*/false), /*failed=*/false);
+  }
+  /// The same for an iteration that failed, as by an exception or a refused command.
+  std::string fail(std::string_view behaviour) {
+    return decided(behaviour, subsystem().decide(index_of(behaviour), /*failed=*/true), /*failed=*/true);
+  }
+  /// Evaluates the conditions of the behaviour alone.
+  Outcome outcome(std::string_view behaviour) { return subsystem().decide(index_of(behaviour), false); }
+
+ private:
+  Subsystem& subsystem() { return **static_cast<Owner*>(this); }
+
+  [[nodiscard]] static std::uint16_t index_of(std::string_view behaviour) {
+    const auto behaviours = Unit::net().behaviours;
+    for (std::size_t index = 0; index < behaviours.size(); ++index)
+      if (behaviours[index].name == behaviour) return static_cast<std::uint16_t>(index);
+    throw std::invalid_argument("there is no behaviour " + std::string(behaviour));
+  }
+
+  std::string decided(std::string_view behaviour, Outcome outcome, bool failed) {
+    std::string next(behaviour);
+    if (outcome != Outcome::go_on) {
+      const int entry = subsystem().route(index_of(behaviour), failed || outcome == Outcome::error);
+      next = entry < 0 ? std::string() : follows(behaviour, static_cast<std::uint16_t>(entry));
+    }
+    Bindings bindings;
+    subsystem().bind(bindings);
+    for (auto* inputs : {&bindings.inputs, &bindings.real_inputs})
+      for (const Bindings::Incoming& input : *inputs) input.arrival->fresh = false;
+    ++this->context.iteration;
+    this->context.now += this->context.period;
+    return next;
+  }
+
+  /// By the net: the behaviour whose place `in` the transition of that entry of `next` marks.
+  [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
+    const std::string ended = std::string(behaviour) + ".out";
+    for (const Transition& transition : Unit::net().transitions) {
+      if (transition.inputs.size() == 0 || *transition.inputs.begin() != ended) continue;
+      const bool taken =
+          transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
+      if (!taken) continue;
+      const std::string_view place = *transition.outputs.begin();
+      return std::string(place == words::output ? "end" : place.substr(0, place.rfind('.')));
+    }
+    return {};
+  }
+};
+
+/// A whole system under the simulated clock, without world and devices. Tests replace some subsystems by scripts, feed
+/// real buffers, and watch the others. Everything else is the generated controller on its net.
+///
+///     SystemUnderTest system(generated_system());
+///     system.script<laser::Context>([](auto& laser) { laser.out.scan = wall_ahead(0.3); });
+///     system.run(std::chrono::seconds(2));
+///     EXPECT_EQ(system.behaviours("robot.control").back(), "avoid");
+///
+/// Errors:  std::invalid_argument for a path that does not exist.
+/// Threads: one at a time. Scripts and observers run in the thread of `run`.
+class SystemUnderTest {
+ public:
+  explicit SystemUnderTest(const System& system);
+  ~SystemUnderTest();
+  SystemUnderTest(const SystemUnderTest&) = delete;
+  SystemUnderTest& operator=(const SystemUnderTest&) = delete;
+
+  /// Called in place of the transition functions of these subsystems: with all that they get, as
+  /// SubsystemData. Their conditions are evaluated as usual. path: of one subsystem ("robot[1].laser");
+  /// empty: of all that are alike.
+  template <class Context>
+  void script(std::function<void(SubsystemData<Context>&)> instead, std::string_view path = {}) {
+    place(GeneratedUnit<Context>::maker, path, Moment::instead, with_data<Context>(std::move(instead)));
+  }
+  /// Called after each transition function of these subsystems.
+  template <class Context>
+  void observe(std::function<void(SubsystemData<Context>&)> after, std::string_view path = {}) {
+    place(GeneratedUnit<Context>::maker, path, Moment::after, with_data<Context>(std::move(after)));
+  }
+  /// Gives a real buffer of a receptor ("robot.laser.ranges") its values; nullopt: there is none now.
+  /// Other real buffers of receptors have none.
+  template <class T>
+  void sense(const std::string& path, std::function<std::optional<T>()> value) {
+    check_real_buffer(path, sizeof(T));
+    sensed_[path] = [value = std::move(value)](std::span<std::byte> where) {
+      const std::optional<T> now = value();
+      if (now) *reinterpret_cast<T*>(where.data()) = *now;
+      return now.has_value();
+    };
+  }
+
+  /// How it is run besides: parameters, seed, faults to inject, a recording. The test may change it.
+  RunOptions options;
+
+  /// Runs the system from its start. Fails like a test program would see it: by `failed` and `ended` of the summary.
+  /// Errors: std::runtime_error if it cannot start, which says why.
+  RunSummary run(Duration duration);
+
+  /// The behaviours of that subsystem ("robot.control") in the last run, in the order in which they ran. A
+  /// behaviour that ran for several iterations in a row is there once.
+  [[nodiscard]] const std::vector<std::string>& behaviours(std::string_view path) const;
+
+ private:
+  friend class TestedParts;
+  using Function = std::function<void(Subsystem&)>;
+  using Maker = std::unique_ptr<Subsystem> (*)();
+  enum class Moment : std::uint8_t { instead, after };
+
+  template <class Context>
+  [[nodiscard]] static Function with_data(std::function<void(SubsystemData<Context>&)> function) {
+    return [function = std::move(function)](Subsystem& subsystem) {
+      SubsystemData<Context> data(subsystem);
+      function(data);
+    };
+  }
+  void place(Maker maker, std::string_view path, Moment moment, const Function& function);
+  void check_real_buffer(const std::string& path, std::size_t bytes) const;
+  [[nodiscard]] std::size_t instance_of(std::string_view path) const;
+
+  const System& system_;
+  std::vector<Function> instead_, after_;             ///< per instance
+  std::vector<std::vector<std::string>> behaviours_;  ///< per instance
+  std::map<std::string, std::function<bool(std::span<std::byte>)>> sensed_;
+};
+
+}  // namespace tessera

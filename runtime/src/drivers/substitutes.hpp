@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "tessera/device.hpp"
+#include "tessera/subsystem.hpp"
+
+namespace tessera {
+
+/// What a test puts in the place of parts of a system, when a run makes them.
+///
+/// Threads: that which starts the run.
+class Substitutes {
+ public:
+  Substitutes() = default;
+  Substitutes(const Substitutes&) = delete;
+  Substitutes& operator=(const Substitutes&) = delete;
+  virtual ~Substitutes() = default;
+
+  /// instance: into System::instances.
+  [[nodiscard]] virtual std::unique_ptr<Subsystem> subsystem(std::uint32_t instance,
+                                                             std::unique_ptr<Subsystem> own) = 0;
+  /// Of the real buffer at that path.
+  [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const std::string& path) = 0;
+  [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const std::string& path) = 0;
+};
+
+}  // namespace tessera

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+#include "language/names/index.hpp"
+#include "language/schema/grammar.hpp"
+#include "language/text/lines.hpp"
+#include "language/text/outline.hpp"
+
+/// Answers what an editor asks about a specification while it is typed: any text, also one with mistakes.
+///
+/// The parser of the specification (spec/parser.hpp) judges a text. This module only finds names and places.
+namespace tessera::language {
+
+/// A file of the project beside the specification: C++, or params.yaml.
+struct Source {
+  std::string path;
+  std::string text;
+};
+
+/// A part of a file. path: empty in the specification itself.
+struct Location {
+  std::string path;
+  Range range;
+};
+
+struct Proposal {
+  enum class Kind : std::uint8_t { key, word, type, name, example } kind = Kind::word;
+  std::string label;
+  std::string detail;         ///< one line
+  std::string documentation;  ///< of a key: what the schema says
+  Range range;                ///< what it replaces
+  std::string insert;
+};
+
+struct Explanation {
+  std::string markdown;
+  Range range;
+};
+
+struct TextEdit {
+  std::string path;  ///< empty: the specification
+  Range range;
+  std::string text;
+  bool sure = true;  ///< false: only a compiler knows whether this is the same name
+};
+
+struct Renaming {
+  std::vector<TextEdit> edits;
+  std::string problem;  ///< why the name cannot be changed; empty: it can
+};
+
+/// An offer to correct something.
+struct Fix {
+  std::string title;
+  std::vector<TextEdit> edits;
+  std::string code;  ///< of the diagnostic that it corrects: "W324"; empty: none
+  Range at;          ///< of that diagnostic
+};
+
+/// A name with the names inside it.
+struct Heading {
+  std::string name, detail;
+  Kind kind = Kind::type;
+  Range whole, name_range;
+  std::vector<Heading> inside;
+};
+
+/// One text of a specification, with its names.
+///
+/// Threads: immutable; any.
+class Document {
+ public:
+  /// grammar: outlives the document. Linear in the text.
+  Document(std::string text, const Grammar& grammar);
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const Lines& lines() const { return lines_; }
+  [[nodiscard]] const Index& index() const { return index_; }
+  [[nodiscard]] const Outline& outline() const { return outline_; }
+  [[nodiscard]] const Grammar& grammar() const { return grammar_; }
+
+ private:
+  std::string text_;
+  const Grammar& grammar_;
+  Lines lines_;
+  Outline outline_;
+  Index index_;
+};
+
+/// What may stand at the cursor, most likely first. At most 1000.
+[[nodiscard]] std::vector<Proposal> complete(const Document& document, Position position);
+
+/// What the word under the cursor means. nullopt: nothing is known of it.
+[[nodiscard]] std::optional<Explanation> explain(const Document& document, Position position);
+
+/// Where the name at the cursor is defined. At its definition itself: the transition function of a behaviour.
+[[nodiscard]] std::vector<Location> definition(const Document& document, Position position,
+                                               std::span<const Source> sources);
+/// The same for a cursor in a C++ source of the project.
+[[nodiscard]] std::vector<Location> definition_from_code(const Document& document, const Source& source,
+                                                         Position position);
+
+/// All uses of the name at the cursor. in: nullptr if the cursor is in the specification, else the source that
+/// it is in.
+[[nodiscard]] std::vector<Location> references(const Document& document, const Source* in, Position position,
+                                               std::span<const Source> sources, bool with_definition);
+
+/// The range of the name at the cursor that can be renamed.
+[[nodiscard]] std::optional<Range> renameable(const Document& document, const Source* in, Position position);
+
+/// Gives the name at the cursor another one, in the specification and all sources. Refuses names that are taken or
+/// not allowed, and whatever would bring the specification a new error.
+[[nodiscard]] Renaming rename(const Document& document, const Source* in, Position position,
+                              std::span<const Source> sources, const std::string& name);
+
+/// Offers for what is in `range`. found: the diagnostics of the text.
+[[nodiscard]] std::vector<Fix> fixes(const Document& document, Range range,
+                                     const std::vector<diagnostics::Diagnostic>& found);
+
+/// All names as a tree.
+[[nodiscard]] std::vector<Heading> headings(const Document& document);
+
+/// The range of a diagnostic: its columns count bytes from 1.
+[[nodiscard]] Range range_of(const Document& document, const diagnostics::Span& span);
+
+}  // namespace tessera::language

@@ -1,0 +1,64 @@
+#include "language/names/index.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tessera::language {
+
+std::string_view words_of(Kind kind) {
+  constexpr std::array<std::string_view, 14> words{
+      "structure",     "field",       "parameter",           "memory cell", "input buffer",
+      "output buffer", "real buffer", "behaviour",           "condition",   "subsystem",
+      "agent",         "template",    "communication model", "process"};
+  return words[static_cast<std::size_t>(kind)];
+}
+
+const Use* Index::at(std::size_t offset) const {
+  const Use* best = nullptr;
+  auto use = std::upper_bound(uses_.begin(), uses_.end(), offset,
+                              [](std::size_t value, const Use& one) { return value < one.extent.begin; });
+  while (use != uses_.begin()) {
+    --use;
+    if (use->extent.touches(offset)) {
+      best = &*use;
+      break;
+    }
+    if (use->extent.begin + 256 < offset) break;  // a name is short
+  }
+  return best;
+}
+
+const UnitNames* Index::unit_at(const Way& way) const {
+  for (const DefinitionNames& definition : definitions_)
+    for (const UnitNames& unit : definition.units)
+      if (unit.way.size() <= way.size() && std::equal(unit.way.begin(), unit.way.end(), way.begin()))
+        return &unit;
+  return nullptr;
+}
+
+const DefinitionNames* Index::definition_of(std::string_view agent) const {
+  std::string_view name = agent;
+  bool through_use = false;
+  for (int step = 0; step < 64; ++step) {
+    const auto use = use_of_.find(std::string(through_use ? "templates." : "agents.") + std::string(name));
+    if (use == use_of_.end()) break;
+    name = use->second;
+    through_use = true;
+  }
+  const Kind kind = through_use ? Kind::agent_template : Kind::agent;
+  const auto found = std::find_if(definitions_.begin(), definitions_.end(), [&](const DefinitionNames& one) {
+    return one.name == name && symbols_[one.symbol].kind == kind;
+  });
+  return found == definitions_.end() ? nullptr : &*found;
+}
+
+const NamesOf* Index::fields_of(std::string_view type) const {
+  const std::size_t begin = std::min(type.find_first_not_of(" \t"), type.size());
+  const std::size_t end = std::min(type.find_first_of(" \t[<", begin), type.size());
+  const auto structure = types_.find(type.substr(begin, end - begin));
+  if (structure == types_.end()) return nullptr;
+  const auto fields = fields_.find(structure->second);
+  return fields == fields_.end() ? nullptr : &fields->second;
+}
+
+}  // namespace tessera::language

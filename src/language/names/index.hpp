@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/names/code.hpp"
+#include "language/schema/grammar.hpp"
+#include "language/text/outline.hpp"
+
+/// The names of a specification: what each is, and everywhere that it is used.
+namespace tessera::language {
+
+using SymbolId = std::uint32_t;
+inline constexpr SymbolId no_symbol = UINT32_MAX;
+
+enum class Kind : std::uint8_t {
+  type,
+  field,
+  parameter,
+  memory,
+  input,
+  output,
+  real,
+  behaviour,
+  condition,
+  subsystem,
+  agent,
+  agent_template,
+  model,
+  process
+};
+/// In words: "an input buffer".
+[[nodiscard]] std::string_view words_of(Kind kind);
+
+struct Symbol {
+  Kind kind = Kind::type;
+  std::string name;
+  std::string path;   ///< for people: "robot.control.line"
+  std::string type;   ///< of data: "float64 m/s"; empty: it has none
+  Extent definition;  ///< the name itself
+  Extent whole;       ///< with everything that belongs to it
+  SymbolId owner = no_symbol;
+  Way way;  ///< of its value
+};
+
+struct Use {
+  Extent extent;
+  SymbolId symbol = no_symbol;
+  bool defines = false;
+};
+
+enum class SubsystemRole : std::uint8_t { control, receptor, effector };
+
+using NamesOf = std::map<std::string, SymbolId, std::less<>>;
+
+/// A subsystem of a definition, with the names that its functions and conditions may use.
+struct UnitNames {
+  SymbolId symbol = no_symbol;
+  SubsystemRole role = SubsystemRole::control;
+  std::string name;
+  Way way;
+  NamesOf inputs, outputs, memory, real, parameters, behaviours;
+  std::map<std::string, NamesOf, std::less<>> conditions;  ///< by behaviour: named expressions
+};
+
+/// An agent described in full, or a template.
+struct DefinitionNames {
+  SymbolId symbol = no_symbol;
+  std::string name;
+  std::vector<UnitNames> units;
+};
+
+class Index {
+ public:
+  /// text: of which `outline` is.
+  Index(std::string_view text, const Outline& outline);
+
+  [[nodiscard]] const std::vector<Symbol>& symbols() const { return symbols_; }
+  [[nodiscard]] const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
+  /// By position, without duplicates.
+  [[nodiscard]] const std::vector<Use>& uses() const { return uses_; }
+  /// The use that a cursor touches.
+  [[nodiscard]] const Use* at(std::size_t offset) const;
+
+  [[nodiscard]] const std::string& system() const { return system_; }
+  [[nodiscard]] const std::vector<DefinitionNames>& definitions() const { return definitions_; }
+  /// The unit that contains the place `way`, or nullptr.
+  [[nodiscard]] const UnitNames* unit_at(const Way& way) const;
+  /// The definition of an agent, through `use`; or nullptr.
+  [[nodiscard]] const DefinitionNames* definition_of(std::string_view agent) const;
+  [[nodiscard]] const NamesOf& types() const { return types_; }
+  [[nodiscard]] const NamesOf& agents() const { return agents_; }
+  [[nodiscard]] const NamesOf& templates() const { return templates_; }
+  [[nodiscard]] const NamesOf& models() const { return models_; }
+  [[nodiscard]] const NamesOf& parameters() const { return parameters_; }
+  /// The fields of the structure that a type such as "Pose[3]" names; or nullptr.
+  [[nodiscard]] const NamesOf* fields_of(std::string_view type) const;
+  /// Whether an agent is a fleet, so that paths need an index.
+  [[nodiscard]] bool is_fleet(std::string_view agent) const { return fleets_.contains(agent); }
+
+  /// What `in`, `out`, `memory` or `parameters` hold in that unit; nullptr: `base` is none of them. A receptor
+  /// finds its real buffers in `in`, an effector in `out`.
+  [[nodiscard]] std::optional<NamesOf> members(const UnitNames& unit, std::string_view base) const;
+
+ private:
+  friend class IndexBuilder;
+  std::string system_;
+  std::vector<Symbol> symbols_;
+  std::vector<Use> uses_;
+  std::vector<DefinitionNames> definitions_;
+  NamesOf types_, agents_, templates_, models_, parameters_, fleets_;
+  std::map<SymbolId, NamesOf> fields_;
+  std::map<std::string, std::string, std::less<>> use_of_;  ///< agent or template -> template
+};
+
+using FoundUse = std::function<void(Extent, SymbolId)>;
+
+/// The uses of names in code of a unit: `in.line.left`, `memory.count`, `context.parameters.v`.
+///
+/// base: what the names `in`, `out`, `memory` and `parameters` mean; tokens: of the code, or a part of it.
+void resolve_members(const Index& index, const UnitNames& unit, const std::vector<Token>& tokens,
+                     const FoundUse& found);
+
+}  // namespace tessera::language

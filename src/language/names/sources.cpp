@@ -1,0 +1,253 @@
+#include "language/names/sources.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace tessera::language {
+namespace {
+
+/// Follows namespaces and braces through one source.
+class CodeReader {
+ public:
+  CodeReader(const Index& index, std::string_view source)
+      : index_(index), source_(source), tokens_(tokens_of(source)) {}
+
+  std::vector<CodeUse> read() {
+    for (at_ = 0; at_ < tokens_.size(); ++at_) {
+      const std::string_view text = tokens_[at_].text;
+      if (text == "namespace" && !is(at_ - 1, "using")) {
+        enter_namespace();
+      } else if (text == "{") {
+        ++depth_;
+      } else if (text == "}") {
+        leave();
+      } else if (tokens_[at_].kind == Token::Kind::name) {
+        name();
+      }
+    }
+    end_run();
+    includes();
+    members_of_others();
+    return std::move(found_);
+  }
+
+ private:
+  struct Scope {
+    std::size_t depth = 0;  ///< of the braces inside
+    std::size_t names = 0;  ///< how many this namespace added
+  };
+
+  [[nodiscard]] bool is(std::size_t at, std::string_view text) const {
+    return at < tokens_.size() && tokens_[at].text == text;
+  }
+  [[nodiscard]] bool follows_access() const { return is(at_ - 1, ".") || is(at_ - 1, "->"); }
+
+  void add(Extent extent, SymbolId symbol, bool defines = false, bool sure = true) {
+    if (symbol != no_symbol && known_.insert(extent.begin).second)
+      found_.push_back({extent, symbol, defines, sure});
+  }
+
+  void enter_namespace() {
+    std::vector<std::size_t> parts;
+    std::size_t next = at_ + 1;
+    while (next < tokens_.size() && tokens_[next].kind == Token::Kind::name) {
+      parts.push_back(next++);
+      if (!is(next, "::")) break;
+      ++next;
+    }
+    if (!is(next, "{")) return;  // an alias
+    ++depth_;
+    for (const std::size_t part : parts) {
+      spaces_.push_back(tokens_[part].text);
+      name_of_space(tokens_[part].extent, spaces_);
+    }
+    scopes_.push_back({depth_, parts.size()});
+    at_ = next;
+    change_unit();
+  }
+
+  void leave() {
+    if (!scopes_.empty() && scopes_.back().depth == depth_) {
+      spaces_.resize(spaces_.size() - scopes_.back().names);
+      scopes_.pop_back();
+      change_unit();
+    }
+    if (depth_ > 0) --depth_;
+  }
+
+  const DefinitionNames* definition(std::string_view name) const {
+    const auto& all = index_.definitions();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+    return found == all.end() ? nullptr : &*found;
+  }
+  static const UnitNames* unit(const DefinitionNames* definition, std::string_view name) {
+    if (definition == nullptr) return nullptr;
+    const auto found = std::find_if(definition->units.begin(), definition->units.end(),
+                                    [&](const UnitNames& one) { return one.name == name; });
+    return found == definition->units.end() ? nullptr : &*found;
+  }
+
+  /// SYSTEM::DEFINITION::SUBSYSTEM: what the last of these names is.
+  void name_of_space(Extent extent, const std::vector<std::string_view>& spaces) {
+    if (spaces.size() < 2 || spaces[0] != index_.system()) return;
+    const DefinitionNames* owner = definition(spaces[1]);
+    if (owner == nullptr) return;
+    if (spaces.size() == 2) add(extent, owner->symbol);
+    if (const UnitNames* inside = spaces.size() == 3 ? unit(owner, spaces[2]) : nullptr)
+      add(extent, inside->symbol);
+  }
+
+  void change_unit() {
+    end_run();
+    unit_ = spaces_.size() >= 3 && spaces_[0] == index_.system() ? unit(definition(spaces_[1]), spaces_[2])
+                                                                 : nullptr;
+    run_begin_ = at_ + 1;
+  }
+
+  /// The members in the code of a unit, from the last change of namespace to here.
+  void end_run() {
+    if (unit_ != nullptr && at_ > run_begin_) {
+      const auto first = tokens_.begin() + static_cast<std::ptrdiff_t>(run_begin_);
+      const auto last = tokens_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, tokens_.size()));
+      resolve_members(index_, *unit_, {first, last},
+                      [this](Extent extent, SymbolId symbol) { add(extent, symbol); });
+    }
+  }
+
+  void name() {
+    if (follows_access()) return;
+    const Token& token = tokens_[at_];
+    if (is(at_ - 1, "::")) {
+      qualified();
+      return;
+    }
+    if (const auto type = index_.types().find(token.text);
+        type != index_.types().end() && !spaces_.empty() && spaces_[0] == index_.system())
+      add(token.extent, type->second);
+    if (unit_ == nullptr || !is(at_ + 1, "(")) return;
+    const auto behaviour = unit_->behaviours.find(token.text);
+    if (behaviour == unit_->behaviours.end()) return;
+    const bool declared = is(at_ - 1, "void");
+    if (declared && !is(at_ + 2, "Context")) return;
+    const bool other_type = at_ > 0 && tokens_[at_ - 1].kind == Token::Kind::name && !declared &&
+                            tokens_[at_ - 1].text != "return" && tokens_[at_ - 1].text != "else";
+    if (other_type) return;
+    add(token.extent, behaviour->second, declared && has_body());
+  }
+
+  /// Whether the parameters from here on are followed by a body.
+  [[nodiscard]] bool has_body() const {
+    int open = 0;
+    for (std::size_t at = at_ + 1; at < tokens_.size(); ++at) {
+      if (tokens_[at].text == "(") ++open;
+      if (tokens_[at].text == ")" && --open == 0) return is(at + 1, "{") || is(at + 1, "try");
+    }
+    return false;
+  }
+
+  /// SYSTEM::Type, SYSTEM::DEFINITION::SUBSYSTEM::behaviour.
+  void qualified() {
+    std::size_t first = at_;
+    while (first >= 2 && is(first - 1, "::") && tokens_[first - 2].kind == Token::Kind::name) first -= 2;
+    std::vector<std::string_view> path;
+    for (std::size_t part = first; part <= at_; part += 2) path.push_back(tokens_[part].text);
+    if (path.front() != index_.system()) return;
+    const Token& token = tokens_[at_];
+    if (path.size() == 2)
+      if (const auto type = index_.types().find(token.text); type != index_.types().end())
+        return add(token.extent, type->second);
+    name_of_space(token.extent, path);
+    const UnitNames* inside = path.size() == 4 ? unit(definition(path[1]), path[2]) : nullptr;
+    if (inside == nullptr) return;
+    if (const auto behaviour = inside->behaviours.find(token.text); behaviour != inside->behaviours.end())
+      add(token.extent, behaviour->second);
+  }
+
+  /// #include "robot/control.hpp"
+  void includes() {
+    constexpr std::string_view word = "#include \"";
+    for (std::size_t at = source_.find(word); at != std::string_view::npos; at = source_.find(word, at + 1)) {
+      const std::size_t begin = at + word.size();
+      const std::size_t end = source_.find_first_of("\"\n", begin);
+      if (end == std::string_view::npos) return;
+      const std::string_view file = source_.substr(begin, end - begin);
+      const std::size_t slash = file.find('/');
+      if (slash == std::string_view::npos || !file.ends_with(".hpp")) continue;
+      const DefinitionNames* owner = definition(file.substr(0, slash));
+      const UnitNames* inside = unit(owner, file.substr(slash + 1, file.size() - slash - 5));
+      if (inside == nullptr) continue;
+      add({begin, begin + slash}, owner->symbol);
+      add({begin + slash + 1, end - 4}, inside->symbol);
+    }
+  }
+
+  /// `.left` of something that only a compiler knows. Only where the system is used at all.
+  void members_of_others() {
+    if (std::none_of(tokens_.begin(), tokens_.end(),
+                     [this](const Token& one) { return one.text == index_.system(); }))
+      return;
+    for (std::size_t at = 1; at < tokens_.size(); ++at) {
+      if (tokens_[at].kind != Token::Kind::name || !(is(at - 1, ".") || is(at - 1, "->"))) continue;
+      if (known_.contains(tokens_[at].extent.begin)) continue;
+      for (const auto& [name, type] : index_.types()) {
+        const NamesOf* fields = index_.fields_of(name);
+        if (fields == nullptr) continue;
+        if (const auto field = fields->find(tokens_[at].text); field != fields->end())
+          found_.push_back({tokens_[at].extent, field->second, false, false});
+      }
+    }
+  }
+
+  const Index& index_;
+  std::string_view source_;
+  std::vector<Token> tokens_;
+  std::size_t at_ = 0;
+  std::size_t depth_ = 0;
+  std::size_t run_begin_ = 0;
+  std::vector<std::string_view> spaces_;
+  std::vector<Scope> scopes_;
+  const UnitNames* unit_ = nullptr;
+  std::vector<CodeUse> found_;
+  std::set<std::size_t> known_;  ///< where sure uses begin
+};
+
+}  // namespace
+
+std::vector<CodeUse> uses_in_code(const Index& index, std::string_view source) {
+  return CodeReader(index, source).read();
+}
+
+std::vector<CodeUse> uses_in_parameter_file(const Index& index, std::string_view text) {
+  std::vector<CodeUse> found;
+  const Outline outline(text);
+  for (const Entry& entry : outline.root().entries) {
+    if (entry.extent.end - entry.extent.begin != entry.key.size()) continue;
+    const auto add = [&](const PathWord& word, SymbolId symbol) {
+      found.push_back({{entry.extent.begin + word.extent.begin, entry.extent.begin + word.extent.end},
+                       symbol,
+                       false,
+                       true});
+    };
+    for (const DottedPath& path : paths_in(entry.key)) {
+      const auto& words = path.words;
+      const auto system = index.parameters().find(words.back().name);
+      if (words.size() == 1 && system != index.parameters().end()) add(words[0], system->second);
+      const auto agent = index.agents().find(words[0].name);
+      if (words.size() < 3 || agent == index.agents().end()) continue;
+      add(words[0], agent->second);
+      const DefinitionNames* definition = index.definition_of(words[0].name);
+      if (definition == nullptr) continue;
+      for (const UnitNames& unit : definition->units) {
+        if (unit.name != words[1].name) continue;
+        add(words[1], unit.symbol);
+        if (const auto own = unit.parameters.find(words[2].name); own != unit.parameters.end())
+          add(words[2], own->second);
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace tessera::language

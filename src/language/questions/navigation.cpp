@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "language/language.hpp"
+#include "language/names/sources.hpp"
+#include "spec/document/names.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::language {
+namespace {
+
+std::vector<CodeUse> uses_in(const Index& index, const Source& source) {
+  return source.path.ends_with(".yaml") ? uses_in_parameter_file(index, source.text)
+                                        : uses_in_code(index, source.text);
+}
+
+/// The name under a cursor.
+struct AtCursor {
+  SymbolId symbol = no_symbol;
+  Range range;
+  bool defines = false;
+};
+
+std::optional<AtCursor> at_cursor(const Document& document, const Source* in, Position position) {
+  if (in == nullptr) {
+    const Use* use = document.index().at(document.lines().offset(position));
+    if (use == nullptr) return std::nullopt;
+    return AtCursor{use->symbol, document.lines().range(use->extent), use->defines};
+  }
+  const Lines lines(in->text);
+  const std::size_t offset = lines.offset(position);
+  for (const CodeUse& use : uses_in(document.index(), *in))
+    if (use.sure && use.extent.touches(offset))
+      return AtCursor{use.symbol, lines.range(use.extent), use.defines};
+  return std::nullopt;
+}
+
+Location definition_of(const Document& document, SymbolId symbol) {
+  return {"", document.lines().range(document.index()[symbol].definition)};
+}
+
+/// The names beside that of `symbol`. What else may not be equal to it, the parser knows.
+std::vector<SymbolId> neighbours(const Index& index, SymbolId symbol) {
+  const Symbol& own = index[symbol];
+  std::vector<SymbolId> all;
+  for (SymbolId id = 0; id < index.symbols().size(); ++id)
+    if (id != symbol && index[id].owner == own.owner && index[id].kind == own.kind) all.push_back(id);
+  return all;
+}
+
+std::multiset<std::string> errors_of(const std::string& text,
+                                     std::vector<diagnostics::Diagnostic>* all = nullptr) {
+  diagnostics::Diagnostics out("spec.yaml", text);
+  (void)spec::parse(out);
+  std::multiset<std::string> codes;
+  for (const diagnostics::Diagnostic& one : out.sorted()) {
+    if (one.severity != diagnostics::Severity::error) continue;
+    codes.insert(one.code);
+    if (all != nullptr) all->push_back(one);
+  }
+  return codes;
+}
+
+/// The text with all edits of the specification.
+std::string edited(const Document& document, const std::vector<TextEdit>& edits) {
+  std::vector<std::pair<Extent, std::string_view>> parts;
+  for (const TextEdit& edit : edits)
+    if (edit.path.empty())
+      parts.push_back(
+          {{document.lines().offset(edit.range.start), document.lines().offset(edit.range.end)}, edit.text});
+  std::sort(parts.begin(), parts.end());
+  std::string text;
+  std::size_t at = 0;
+  for (const auto& [extent, with] : parts) {
+    if (extent.begin < at) continue;
+    text += document.text().substr(at, extent.begin - at);
+    text += with;
+    at = extent.end;
+  }
+  return text + document.text().substr(at);
+}
+
+/// Why a specification with `edits` would be worse; empty: it is not.
+std::string new_error(const Document& document, const std::vector<TextEdit>& edits) {
+  const std::multiset<std::string> before = errors_of(document.text());
+  std::vector<diagnostics::Diagnostic> found;
+  const std::multiset<std::string> after = errors_of(edited(document, edits), &found);
+  for (const diagnostics::Diagnostic& one : found)
+    if (after.count(one.code) > before.count(one.code))
+      return fmt::format("then line {} would be wrong: {} ({})", one.span.line, one.message, one.code);
+  return {};
+}
+
+}  // namespace
+
+Range range_of(const Document& document, const diagnostics::Span& span) {
+  if (span.line == 0) return {};
+  const std::size_t start = document.lines().start_of(span.line - 1);
+  const std::size_t end = start + document.lines().line(span.line - 1).size();
+  const std::size_t begin = std::min(start + (span.column == 0 ? 0 : span.column - 1), end);
+  return document.lines().range({begin, std::min(begin + span.length, end)});
+}
+
+std::vector<Location> definition(const Document& document, Position position,
+                                 std::span<const Source> sources) {
+  const std::optional<AtCursor> here = at_cursor(document, nullptr, position);
+  if (!here) return {};
+  std::vector<Location> all;
+  if (here->defines && document.index()[here->symbol].kind == Kind::behaviour) {
+    for (const Source& source : sources) {
+      const Lines lines(source.text);
+      for (const CodeUse& use : uses_in(document.index(), source))
+        if (use.symbol == here->symbol && use.defines) all.push_back({source.path, lines.range(use.extent)});
+    }
+  }
+  if (all.empty()) all.push_back(definition_of(document, here->symbol));
+  return all;
+}
+
+std::vector<Location> definition_from_code(const Document& document, const Source& source,
+                                           Position position) {
+  const std::optional<AtCursor> here = at_cursor(document, &source, position);
+  if (!here) return {};
+  return {definition_of(document, here->symbol)};
+}
+
+std::vector<Location> references(const Document& document, const Source* in, Position position,
+                                 std::span<const Source> sources, bool with_definition) {
+  const std::optional<AtCursor> here = at_cursor(document, in, position);
+  if (!here) return {};
+  std::vector<Location> all;
+  for (const Use& use : document.index().uses())
+    if (use.symbol == here->symbol && (with_definition || !use.defines))
+      all.push_back({"", document.lines().range(use.extent)});
+  for (const Source& source : sources) {
+    const Lines lines(source.text);
+    for (const CodeUse& use : uses_in(document.index(), source))
+      if (use.symbol == here->symbol && use.sure) all.push_back({source.path, lines.range(use.extent)});
+  }
+  return all;
+}
+
+std::optional<Range> renameable(const Document& document, const Source* in, Position position) {
+  const std::optional<AtCursor> here = at_cursor(document, in, position);
+  if (!here) return std::nullopt;
+  // The control subsystem has its name from the format.
+  const Symbol& symbol = document.index()[here->symbol];
+  if (symbol.kind == Kind::subsystem && symbol.name == "control") return std::nullopt;
+  return here->range;
+}
+
+Renaming rename(const Document& document, const Source* in, Position position,
+                std::span<const Source> sources, const std::string& name) {
+  const std::optional<AtCursor> here = at_cursor(document, in, position);
+  if (!here) return {{}, "there is no name of the specification here"};
+  const Index& index = document.index();
+  const Symbol& symbol = index[here->symbol];
+  if (!renameable(document, in, position))
+    return {{}, "'control' is the name that every control subsystem has"};
+  if (name == symbol.name) return {};
+  diagnostics::Diagnostics judged("", name);
+  if (!spec::check_name(name, {1, 1, 1}, words_of(symbol.kind), judged)) {
+    const diagnostics::Diagnostic problem = judged.sorted().front();
+    return {{}, problem.message + (problem.hint.empty() ? "" : "; " + problem.hint)};
+  }
+  for (const SymbolId other : neighbours(index, here->symbol))
+    if (index[other].name == name)
+      return {{},
+              fmt::format("'{}' is taken by the {} on line {}", name, words_of(index[other].kind),
+                          document.lines().position(index[other].definition.begin).line + 1)};
+  Renaming renaming;
+  for (const Use& use : index.uses())
+    if (use.symbol == here->symbol)
+      renaming.edits.push_back({"", document.lines().range(use.extent), name, true});
+  if (std::string problem = new_error(document, renaming.edits); !problem.empty())
+    return {{}, std::move(problem)};
+  for (const Source& source : sources) {
+    const Lines lines(source.text);
+    for (const CodeUse& use : uses_in(index, source))
+      if (use.symbol == here->symbol)
+        renaming.edits.push_back({source.path, lines.range(use.extent), name, use.sure});
+  }
+  return renaming;
+}
+
+}  // namespace tessera::language

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/text/lines.hpp"
+
+/// The outline of a YAML text that is being typed.
+///
+/// yaml-cpp refuses such a text: a bracket is still open, a key has no colon yet. This reader takes every text.
+/// Of a text that is right, it makes the same tree as the parser of the specification (a test compares).
+namespace tessera::language {
+
+struct Node;
+
+/// A key of a map with its value.
+struct Entry {
+  std::string key;
+  Extent extent;                ///< of the key without quotes
+  const Node* value = nullptr;  ///< never null
+  bool complete = true;         ///< false: there is no colon yet
+};
+
+struct Node {
+  enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
+  Extent extent;     ///< of a scalar: its text without quotes. Of the others: from the first to the last byte
+  std::string text;  ///< of a scalar
+  bool quoted = false;     ///< '...', "..." or a block (|, >)
+  bool verbatim = false;   ///< text is exactly the bytes of `extent`
+  bool flow = false;       ///< { } or [ ]
+  std::size_t column = 0;  ///< of a block map or sequence: bytes before its entries
+  std::vector<Entry> entries;
+  std::vector<const Node*> items;
+
+  [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
+  [[nodiscard]] bool is_map() const { return kind == Kind::map; }
+  [[nodiscard]] bool is_sequence() const { return kind == Kind::sequence; }
+  /// The first entry of that key, or nullptr.
+  [[nodiscard]] const Entry* find(std::string_view key) const;
+  /// The value of that key; a null node if there is none.
+  [[nodiscard]] const Node& operator[](std::string_view key) const;
+};
+
+/// The tree of one text. Aliases share nodes.
+class Outline {
+ public:
+  /// Linear in the text. What is nested deeper than 64 levels is left out.
+  explicit Outline(std::string_view text);
+  [[nodiscard]] const Node& root() const { return *root_; }
+
+ private:
+  std::deque<Node> nodes_;
+  const Node* root_ = nullptr;
+};
+
+}  // namespace tessera::language

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+
+namespace tessera::language_server {
+
+/// The diagnostics of a text: those of project::draft_of, which `tessera check` finds too.
+[[nodiscard]] std::vector<diagnostics::Diagnostic> check(const std::string& name, const std::string& text);
+
+/// Checks texts in a thread of its own, some time after they were changed for the last time.
+///
+/// Threads: any.
+class Checker {
+ public:
+  struct Text {
+    std::string uri;
+    std::string text;
+    std::int64_t version = 0;
+  };
+  using Told = std::function<void(const Text&, const std::vector<diagnostics::Diagnostic>&)>;
+  /// told: called by the thread; `delay`: of the check after a change.
+  Checker(std::chrono::milliseconds delay, Told told);
+  ~Checker();
+  Checker(const Checker&) = delete;
+  Checker& operator=(const Checker&) = delete;
+
+  /// Replaces an earlier text of that URI that was not checked yet.
+  void changed(Text text);
+  void forget(const std::string& uri);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Waiting {
+    Text text;
+    Clock::time_point due;
+  };
+  void work();
+
+  std::chrono::milliseconds delay_;
+  Told told_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, Waiting> waiting_;
+  std::string checked_now_;
+  bool forgotten_ = false;
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tessera::language_server

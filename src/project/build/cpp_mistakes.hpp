@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "project/build/compiler_messages.hpp"
+#include "project/build/transition_functions.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::project {
+
+/// A mistake in C++ in terms of the project.
+struct CppMistake {
+  std::string code;     ///< E500 - E509; E500: only the compiler explains it
+  std::string message;  ///< one line
+  std::string hint;     ///< may be empty
+};
+
+/// What an error of the compiler means in a project with that model.
+[[nodiscard]] CppMistake understand(const CompilerError& error, const spec::Model& model,
+                                    const TransitionFunctions& functions);
+
+}  // namespace tessera::project

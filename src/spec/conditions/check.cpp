@@ -1,0 +1,25 @@
+#include "spec/conditions/check.hpp"
+
+#include "spec/conditions/operators.hpp"
+
+namespace tessera::spec {
+namespace {
+
+/// An expression with more tokens was not written by hand, and is left to the compiler.
+constexpr std::size_t most_tokens = 4096;
+
+}  // namespace
+
+void check_expression(Expression& expression, const Node& text, const ConditionScope& scope,
+                      const std::vector<std::string>& others, Diagnostics& out) {
+  const std::vector<Token> tokens = tokens_of(text.text);
+  if (tokens.size() > most_tokens) return;
+  const Positions positions(text, out);
+  const std::size_t errors = out.error_count();
+  const ConditionNames names(tokens, positions, scope, others, out);
+  expression.references = names.references();
+  if (!names.declares_names() && out.error_count() == errors)
+    ConditionOperators(tokens, positions, scope, names, text.text, out).check();
+}
+
+}  // namespace tessera::spec

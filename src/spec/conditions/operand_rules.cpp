@@ -1,0 +1,171 @@
+// The rules of the operators: which operands go together.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/conditions/operators.hpp"
+
+namespace tessera::spec {
+
+namespace {
+
+using diagnostics::quoted;
+using Is = Value::Kind;
+
+}  // namespace
+
+Value ConditionOperators::combine(const Token& mark, const Value& left, const Value& right) {
+  if (mark.is_one_of({"&&", "||", "and", "or"})) return combine_logical(mark, left, right);
+  if (mark.is_one_of({"==", "!=", "not_eq", "<", ">", "<=", ">="})) return compare(mark, left, right);
+  if (mark.is_one_of({"+", "-"})) return add(mark, left, right);
+  if (mark.is_one_of({"*", "/"})) return multiply(mark, left, right);
+  return {};
+}
+
+Value ConditionOperators::combine_logical(const Token& mark, const Value& left, const Value& right) {
+  need_truth(left, quoted(mark.text));
+  need_truth(right, quoted(mark.text));
+  Value both;
+  both.kind = Is::boolean;
+  return both;
+}
+
+void ConditionOperators::need_truth(const Value& value, const std::string& where) {
+  if (value.kind == Is::unknown || value.is_plain()) return;
+  std::string hint;
+  if (value.kind == Is::duration) hint = "compare it: " + text_of(value) + " > 500 ms";
+  if (value.kind == Is::structure && value.declared) {
+    const Structure& shape = scope_.types.structures()[value.type.structure];
+    if (!shape.fields.empty()) hint = "choose a field: " + text_of(value) + "." + shape.fields.front().name;
+  }
+  if (value.kind == Is::array) hint = "choose an element: " + text_of(value) + "[0]";
+  mistake("E212", value, where + " needs true or false; " + described(value), hint);
+}
+
+Value ConditionOperators::compare(const Token& mark, const Value& left, const Value& right) {
+  Value result;
+  result.kind = Is::boolean;
+  result.comparison = true;
+  if (left.comparison && !mark.is_one_of({"==", "!=", "not_eq"})) {
+    mistake_at(mark, "E212", "a comparison of a comparison compares true or false",
+               "write two comparisons: a < b && b < c");
+    return result;
+  }
+  for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
+    if (one.kind == Is::unknown || other.kind == Is::unknown) return result;
+    if (one.kind == other.kind) continue;
+    if (one.kind == Is::duration && other.is_plain()) {
+      std::string hint = "compare it with a duration such as 500 ms";
+      if (other.literal)
+        hint = fmt::format("write the unit: {0} s or {0} ms", text_of(other));
+      else if (other.declared && other.type.unit == "s")
+        hint = fmt::format("write tessera::seconds({})", text_of(one));
+      if (one.literal && other.declared && !other.type.unit.empty())
+        hint = fmt::format("{} is in {}: write the number alone", text_of(other), other.type.unit);
+      mistake("E212", other, described(one) + ", " + described(other), hint);
+      return result;
+    }
+    if (one.kind == Is::time) {
+      mistake("E212", other, described(one) + ", " + described(other),
+              "an input has its age too: in.NAME.age > 500 ms");
+      return result;
+    }
+    const bool is_null = other.literal && text_of(other) == "0";
+    if (one.is_compound() && (other.is_plain() || other.kind == Is::duration) &&
+        !(one.kind == Is::text && is_null)) {
+      std::string hint;
+      if (one.kind == Is::structure && one.declared) {
+        const Structure& shape = scope_.types.structures()[one.type.structure];
+        if (!shape.fields.empty()) hint = "choose a field: " + text_of(one) + "." + shape.fields.front().name;
+      }
+      if (one.kind == Is::array) hint = "choose an element: " + text_of(one) + "[0]";
+      if (one.kind == Is::text) hint = "compare it with text in quotes: " + text_of(one) + R"( == "...")";
+      mistake("E212", one, described(one) + ", " + described(other), hint);
+      return result;
+    }
+  }
+  check_units(mark, left, right);
+  return result;
+}
+
+/// Warns of m and mm; false: it has.
+bool ConditionOperators::check_units(const Token& mark, const Value& left, const Value& right) {
+  const bool known = left.kind == Is::number && right.kind == Is::number && left.declared && right.declared &&
+                     !left.type.unit.empty() && !right.type.unit.empty();
+  if (!known || left.type.unit == right.type.unit) return true;
+  mistakes_.push_back({true, "W325", positions_.part(mark.position, mark.text.size()),
+                       fmt::format("{} is in {}, {} is in {}", quoted(text_of(left)), left.type.unit,
+                                   quoted(text_of(right)), right.type.unit),
+                       "units are compared as they are written; numbers are not converted"});
+  return false;
+}
+
+Value ConditionOperators::add(const Token& mark, const Value& left, const Value& right) {
+  if (left.kind == Is::unknown || right.kind == Is::unknown) return {};
+  Value result;
+  if (left.is_compound() || right.is_compound()) {
+    if (left.kind != Is::text && right.kind != Is::text)
+      mistake("E212", left.is_compound() ? left : right,
+              quoted(mark.text) + " needs numbers; " + described(left.is_compound() ? left : right));
+    return result;
+  }
+  const bool durations = left.kind == Is::duration || right.kind == Is::duration;
+  if (durations && (left.is_plain() || right.is_plain())) {
+    const Value& plain = left.is_plain() ? left : right;
+    mistake("E212", plain, described(left.is_plain() ? right : left) + ", " + described(plain),
+            plain.literal ? fmt::format("write the unit: {0} s or {0} ms", text_of(plain)) : "");
+    return result;
+  }
+  if (left.kind == Is::time && right.kind == Is::time) {
+    result.kind = Is::duration;
+  } else if (left.kind == Is::time || right.kind == Is::time) {
+    result.kind = durations ? Is::time : Is::unknown;
+  } else {
+    result.kind = durations ? Is::duration : Is::number;
+    if (!durations && !check_units(mark, left, right)) return result;
+    result.declared = result.kind == Is::number && left.declared && right.declared;
+    if (result.declared) result.type = left.type;
+  }
+  return result;
+}
+
+Value ConditionOperators::multiply(const Token& mark, const Value& left, const Value& right) {
+  Value result;
+  if (left.kind == Is::unknown || right.kind == Is::unknown) return result;
+  if (left.is_compound() || right.is_compound()) {
+    const Value& compound = left.is_compound() ? left : right;
+    mistake("E212", compound, quoted(mark.text) + " needs numbers; " + described(compound));
+    return result;
+  }
+  if (left.is_plain() && right.is_plain()) result.kind = Is::number;
+  if (left.kind == Is::duration && right.is_plain()) result.kind = Is::duration;
+  if (left.kind == Is::duration && right.kind == Is::duration && mark.is("/")) result.kind = Is::number;
+  if (left.is_plain() && right.kind == Is::duration && mark.is("*")) result.kind = Is::duration;
+  return result;
+}
+
+void ConditionOperators::mistake(std::string code, const Value& value, std::string message,
+                                 std::string hint) {
+  mistakes_.push_back({false, std::move(code),
+                       positions_.part(value.begin, std::max(value.end, value.begin + 1) - value.begin),
+                       std::move(message), std::move(hint)});
+}
+
+void ConditionOperators::mistake_at(const Token& mark, std::string code, std::string message,
+                                    std::string hint) {
+  mistakes_.push_back({false, std::move(code), positions_.part(mark.position, mark.text.size()),
+                       std::move(message), std::move(hint)});
+}
+
+std::string ConditionOperators::text_of(const Value& value) const {
+  return std::string(text_.substr(value.begin, value.end - value.begin));
+}
+
+std::string ConditionOperators::described(const Value& value) const {
+  return quoted(text_of(value)) + " is " + in_words(value, scope_.types);
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spec/model/model.hpp"
+#include "spec/values/types.hpp"
+
+namespace tessera::spec {
+
+/// What the conditions of one subsystem may name.
+struct ConditionScope {
+  SubsystemKind kind;
+  const std::vector<Field>& inputs;
+  const std::vector<Field>& outputs;
+  const std::vector<Field>& real;
+  const std::vector<Field>& memory;
+  const std::vector<Parameter>& parameters;
+  const std::vector<Parameter>& system_parameters;
+  const Types& types;
+};
+
+}  // namespace tessera::spec

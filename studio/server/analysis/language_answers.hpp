@@ -1,0 +1,26 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <memory>
+#include <string>
+
+#include "language/language.hpp"
+
+namespace tessera::server {
+
+/// What the editor of the page asks about a text (docs/studio.md, `POST /api/language`).
+///
+/// Threads: any.
+class LanguageAnswers {
+ public:
+  /// schema: spec.schema.json. If it cannot be read, there is nothing to complete and to explain.
+  explicit LanguageAnswers(const std::string& schema);
+
+  void handle(const httplib::Request& request, httplib::Response& response) const;
+
+ private:
+  std::unique_ptr<const language::Grammar> grammar_;
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "server/analysis/analysis.hpp"
+#include "server/analysis/spec_file.hpp"
+
+namespace tessera::server {
+
+/// The C++ sources of a project, src/**: the transition functions of the user. No symbolic link is followed
+/// to read or write them.
+///
+/// Threads: any.
+class Sources {
+ public:
+  explicit Sources(std::filesystem::path project) : project_(std::move(project)) {}
+
+  /// [{"subsystem", "function", "state", "file", "line", "stub"}]: one for each behaviour of each definition.
+  /// "state" is "defined", "missing", or "unclear" (only the linker can tell). "line" is null if it is not
+  /// known.
+  [[nodiscard]] nlohmann::json functions(const spec::Model& model) const;
+
+  struct Added {
+    std::string file;   ///< relative to the project
+    std::string error;  ///< empty: it was added, or was there already
+  };
+  /// Adds the function of a behaviour to its file, in its namespace, if it is missing.
+  [[nodiscard]] Added add(const spec::Model& model, const std::string& subsystem,
+                          const std::string& function) const;
+
+  /// The file, if there may be one of that name: "src/control.cpp". nullopt: it is no source of this project.
+  [[nodiscard]] std::optional<SpecFile::Content> read(const std::string& file) const;
+  [[nodiscard]] std::optional<SpecFile::Outcome> write(const std::string& file, const std::string& text,
+                                                       const std::string& revision) const;
+
+ private:
+  /// nullopt: the name leads out of src/, through a symbolic link or to something that is no source.
+  [[nodiscard]] std::optional<std::filesystem::path> path_of(const std::string& file) const;
+
+  std::filesystem::path project_;
+};
+
+}  // namespace tessera::server

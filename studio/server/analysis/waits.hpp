@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "net/net.hpp"
+#include "verify/subsystem_at_end.hpp"
+
+namespace tessera::server {
+
+/// The subsystems that can fire nothing in a marking and have not ended, and whom they wait for. They may go
+/// on once another subsystem has acted: this is about now, not for ever.
+///
+/// marked: the places that hold a token; numbers beyond the net's are ignored.
+/// Threads: pure. Linear in the net times its subsystems.
+[[nodiscard]] std::vector<verify::SubsystemAtEnd> waits_in(const net::Net& net,
+                                                           const std::vector<std::uint32_t>& marked);
+
+}  // namespace tessera::server

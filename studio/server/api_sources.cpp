@@ -1,0 +1,81 @@
+#include <nlohmann/json.hpp>
+
+#include "server/analysis/examples.hpp"
+#include "server/analysis/sources.hpp"
+#include "server/api.hpp"
+#include "server/http/answer.hpp"
+
+namespace tessera::server {
+
+namespace {
+
+constexpr const char* no_source = "this is no source of the project: those are the C++ files in src/";
+
+nlohmann::json content_json(const SpecFile::Content& content) {
+  return {{"text", content.text}, {"revision", content.revision}};
+}
+
+}  // namespace
+
+void Api::serve_sources(HttpServer& server) {
+  const auto model_of = [this](const std::string& text, Response& response) {
+    std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+    if (!analysis->model) {
+      answer_error(response, 422, "the specification has errors");
+      analysis = nullptr;
+    }
+    return analysis;
+  };
+  server.Post("/api/functions", [this, model_of](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text");
+    if (!body.good()) return;
+    if (const auto analysis = model_of(text, response))
+      answer(response, text_of(Sources(parts_.file.folder()).functions(*analysis->model)));
+  });
+  server.Post("/api/functions/add", [this, model_of](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text"), subsystem = body.text("subsystem"),
+                      function = body.text("function");
+    if (!body.good()) return;
+    const auto analysis = model_of(text, response);
+    if (!analysis) return;
+    const Sources::Added added = Sources(parts_.file.folder()).add(*analysis->model, subsystem, function);
+    if (!added.error.empty()) return answer_error(response, 409, added.error);
+    answer(response, text_of(nlohmann::json{{"file", added.file}}));
+  });
+  server.Get("/api/sources", [this](const Request& request, Response& response) {
+    const auto content = Sources(parts_.file.folder()).read(request.get_param_value("file"));
+    if (!content || !content->error.empty())
+      return answer_error(response, 404, no_source, content ? content->error : "");
+    answer(response, text_of(content_json(*content)));
+  });
+  server.Put("/api/sources", [this](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string file = body.text("file"), text = body.text("text"), revision = body.text("revision");
+    if (!body.good()) return;
+    const auto outcome = Sources(parts_.file.folder()).write(file, text, revision);
+    if (!outcome) return answer_error(response, 404, no_source);
+    if (outcome->written == SpecFile::Written::failed)
+      return answer_error(response, 500, "the file cannot be written: " + outcome->now.error);
+    if (outcome->written == SpecFile::Written::yes)
+      return answer(response, text_of(nlohmann::json{{"revision", outcome->now.revision}}));
+    nlohmann::json conflict = content_json(outcome->now);
+    conflict["error"] = file + " was changed by somebody else";
+    conflict["hint"] = "look at both, then save again with the revision that is there now";
+    answer(response, text_of(conflict), 409);
+  });
+  server.Get("/api/examples", [this](const Request&, Response& response) {
+    answer(response, text_of(examples_in(options_.share / "examples")));
+  });
+  server.Post("/api/begin", [this](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string name = body.text("example");
+    if (!body.good()) return;
+    const Begun begun = begin_with(options_.share / "examples", name, parts_.file.path());
+    if (!begun.error.empty()) return answer_error(response, 409, begun.error);
+    answer(response, text_of(nlohmann::json{{"files", begun.files}, {"kept", begun.kept}}));
+  });
+}
+
+}  // namespace tessera::server

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/process/deployment_watch.hpp"
+#include "server/analysis/analysis.hpp"
+#include "server/recordings/run_follower.hpp"
+
+namespace tessera::server {
+
+/// Puts together what is known of all processes of a deployed system on this machine: what their control
+/// sockets tell, and the firings and values of their recordings. Ready to be sent. The processes do not notice.
+///
+/// Times are those of the process that was found first; those of the others are moved by the difference of
+/// their clocks, as it was seen when they were found. So they agree within some milliseconds.
+///
+/// Threads: one.
+class DeploymentFollower {
+ public:
+  /// analysis: of a specification with `deploy:`; it and `reached` must outlive this object.
+  DeploymentFollower(const Analysis& analysis, Reached& reached);
+
+  struct News {
+    nlohmann::json firings, values, subsystems, deployment;  ///< data of the events; null: nothing new
+    std::optional<std::vector<std::uint32_t>> marking;
+    std::int64_t time_ns = 0;
+    std::uint64_t total_firings = 0;
+  };
+  /// Waits for something new for some milliseconds.
+  [[nodiscard]] News poll();
+  /// Whether some process runs, or did a moment ago: one that has failed may be started again.
+  [[nodiscard]] bool is_going_on() const;
+  /// Why there is nothing to see. Only while no process was found.
+  [[nodiscard]] std::string why_nothing() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// One start of a process.
+  struct Followed {
+    std::unique_ptr<RunFollower> recording;  ///< nullptr: it cannot be read here
+    std::vector<std::uint32_t> marked;       ///< by what this process has fired
+    std::uint64_t firings = 0;
+    std::int64_t behind_ns = 0;  ///< its clock is so much behind that of the first
+  };
+  void follow_new_ones();
+  void read_recordings(News& news);
+  [[nodiscard]] std::vector<std::uint32_t> joint_marking() const;
+  [[nodiscard]] nlohmann::json processes() const;
+  [[nodiscard]] nlohmann::json links() const;
+  [[nodiscard]] nlohmann::json waits() const;
+  [[nodiscard]] nlohmann::json subsystems() const;
+
+  const Analysis& analysis_;
+  Reached& reached_;
+  project::DeploymentWatch watch_;
+  std::vector<std::uint32_t> initial_;
+  std::map<std::string, Followed> followed_;  ///< by the name of the socket
+  std::optional<Clock::time_point> first_began_;
+  std::int64_t time_ns_ = 0;
+  std::uint64_t gone_firings_ = 0;  ///< of starts that are followed no more
+  Clock::time_point seen_, read_{}, marking_told_{}, told_{}, subsystems_told_{};
+};
+
+}  // namespace tessera::server

@@ -1,0 +1,54 @@
+import { concernedIn, stuckIn, titleOf, waitsIn, type Wait } from "../model/causes";
+import type { Api } from "./api";
+import { message, type Draft } from "./draft";
+import type { SubsystemAtEnd } from "./protocol";
+import { Store } from "./store";
+
+/** Who is stuck, as the drawings show it. */
+export interface Stuck {
+  title: string;
+  atEnd: readonly SubsystemAtEnd[];
+  /** Subsystems that cannot go on. */
+  stuck: readonly string[];
+  /** They, and whom they wait for: all that is not grey. */
+  concerned: readonly string[];
+  waits: readonly Wait[];
+}
+
+export interface LensState {
+  shown: Stuck | null;
+  /** Grows with each request, so that the camera flies again. */
+  request: number;
+  problem: string;
+}
+
+/** The lens that shows who is stuck: in the net and in the structure, until it is closed. */
+export class Lens {
+  readonly store = new Store<LensState>({ shown: null, request: 0, problem: "" });
+
+  constructor(
+    private readonly api: Api,
+    private readonly draft: Draft,
+  ) {}
+
+  show(atEnd: readonly SubsystemAtEnd[], title = titleOf(atEnd)): void {
+    const shown = { title, atEnd, stuck: stuckIn(atEnd), concerned: concernedIn(atEnd), waits: waitsIn(atEnd) };
+    this.store.set({ shown: atEnd.length > 0 ? shown : null, request: this.store.get().request + 1, problem: "" });
+  }
+
+  close(): void {
+    this.store.set({ shown: null, problem: "" });
+  }
+
+  /** Asks who can do nothing in a marking: of a run that has stopped, or stands still. */
+  async look(marking: Int32Array): Promise<void> {
+    const marked = [...marking.entries()].flatMap(([place, tokens]) => (tokens > 0 ? [{ place }] : []));
+    try {
+      const { at_end: atEnd } = await this.api.waits(this.draft.store.get().text, marked);
+      if (atEnd.length > 0) return this.show(atEnd);
+      this.store.set({ shown: null, problem: "Nobody waits for another subsystem at this moment." });
+    } catch (error) {
+      this.store.set({ problem: message(error) });
+    }
+  }
+}

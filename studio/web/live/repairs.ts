@@ -1,0 +1,110 @@
+import { causesOf, type Cause } from "../model/causes";
+import { candidatesFor, type Candidate } from "../model/repair_edits";
+import { readStructure } from "../model/structure";
+import type { Api } from "./api";
+import { message } from "./draft";
+import type { Verdict } from "./protocol";
+import { Store } from "./store";
+
+/** An edit that was verified: with it, the violations of the cause are gone and nothing that held is lost. */
+export interface Repair {
+  title: string;
+  meaning: string;
+  /** The whole text after the edit. */
+  text: string;
+  mends: string[];
+}
+
+export interface RepairState {
+  state: "idle" | "searching" | "done" | "failed";
+  tried: number;
+  found: readonly Repair[];
+  /** The text that the edits change. */
+  text: string;
+  /** The cause that they mend, by its title. */
+  cause: string;
+  problem: string;
+}
+
+/** Verifications for one search, repairs that are enough to choose from, and edits of one repair. */
+const mostTried = 30;
+const enough = 3;
+const mostEdits = 3;
+
+function further(before: Candidate & { edits: number }, verdicts: readonly Verdict[]) {
+  const structure = readStructure(before.text);
+  return causesOf(verdicts)
+    .filter(({ warning, atEnd }) => !warning && atEnd.length > 0)
+    .flatMap((cause) => candidatesFor(cause, structure))
+    .map(({ title, meaning, text }) => ({
+      title: `${before.title}; ${title.charAt(0).toLowerCase()}${title.slice(1)}`,
+      meaning: `${before.meaning} ${meaning}`,
+      text,
+      edits: before.edits + 1,
+    }));
+}
+
+const nothing: RepairState = { state: "idle", tried: 0, found: [], text: "", cause: "", problem: "" };
+
+/** Looks for edits that mend a violation. Each is verified before it is offered. */
+export class Repairs {
+  readonly store = new Store<RepairState>(nothing);
+  private search = 0;
+
+  constructor(private readonly api: Api) {}
+
+  forget(): void {
+    this.search += 1;
+    this.store.set(nothing);
+  }
+
+  /** text, verdicts: what was verified. */
+  async find(cause: Cause, text: string, verdicts: readonly Verdict[]): Promise<void> {
+    const search = ++this.search;
+    // An edit that leaves another standstill leads to the edits that mend that one.
+    const queue = candidatesFor(cause, readStructure(text)).map((one) => ({ ...one, edits: 1 }));
+    const seen = new Set([text]);
+    this.store.set({ ...nothing, state: "searching", text, cause: cause.title });
+    try {
+      for (let next = queue.shift(); next; next = queue.shift()) {
+        const { found, tried } = this.store.get();
+        if (tried >= mostTried || found.length >= enough) break;
+        if (seen.has(next.text)) continue;
+        seen.add(next.text);
+        const after = await this.verdictsOf(next.text, () => search !== this.search);
+        if (search !== this.search) return;
+        const mends = after ? mended(cause, verdicts, after) : [];
+        this.store.set({ tried: tried + 1 });
+        if (mends.length > 0) this.store.set({ found: [...found, { ...next, mends }] });
+        else if (after && next.edits < mostEdits) queue.push(...further(next, after));
+      }
+      this.store.set({ state: "done" });
+    } catch (error) {
+      if (search === this.search) this.store.set({ state: "failed", problem: message(error) });
+    }
+  }
+
+  /** null: the text has no net, or the verification failed. */
+  private async verdictsOf(text: string, stopped: () => boolean): Promise<readonly Verdict[] | null> {
+    const { diagnostics } = await this.api.check(text);
+    if (diagnostics.some(({ severity }) => severity === "error")) return null;
+    const { job } = await this.api.verify(text, "10s");
+    for (;;) {
+      const answer = await this.api.verifyState(job);
+      if (answer.state !== "running") return "error" in answer.result ? null : answer.result.properties;
+      if (stopped()) {
+        await this.api.stopVerify(job);
+        return null;
+      }
+      await new Promise((done) => setTimeout(done, 60));
+    }
+  }
+}
+
+/** The violations of the cause that are gone; none, if one of them is left or a property that held is lost. */
+export function mended(cause: Cause, before: readonly Verdict[], after: readonly Verdict[]): string[] {
+  const now = new Map(after.map(({ name, verdict }) => [name, verdict]));
+  const wanted = cause.verdicts.filter(({ warning }) => !warning || cause.warning).map(({ name }) => name);
+  const kept = before.every(({ name, verdict }) => verdict !== "holds" || now.get(name) === "holds");
+  return kept && wanted.every((name) => now.get(name) === "holds") ? wanted : [];
+}

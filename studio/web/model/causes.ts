@@ -1,0 +1,128 @@
+/** What a subsystem does where a run has stopped, as the server tells it (docs/studio.md). */
+export interface SubsystemAtEnd {
+  path: string;
+  state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";
+  awaited: "nothing" | "value" | "acknowledgement" | "memory";
+  behaviour: string;
+  channel: string;
+  from: string[];
+  text: string;
+}
+
+/** What matters here of a verdict of the server. */
+export interface Judged {
+  name: string;
+  verdict: "holds" | "violated" | "unknown";
+  why: string;
+  hint?: string;
+  warning: boolean;
+  waits: readonly string[];
+  at_end: readonly SubsystemAtEnd[];
+  behaviours: readonly { path: string; line: number }[];
+  steps: number[] | null;
+  narrative: string | null;
+}
+
+/** An arrow of the chain of waiting: who waits, for whom, and at which channel. */
+export interface Wait {
+  who: string;
+  whom: string;
+  channel: string;
+  awaited: SubsystemAtEnd["awaited"];
+}
+
+/** What one mistake of a system does: the violations that it explains, and who is stuck. */
+export interface Cause {
+  title: string;
+  /** The violations, the one with a run to show first. */
+  verdicts: Judged[];
+  atEnd: readonly SubsystemAtEnd[];
+  /** Behaviours that never run. */
+  dead: readonly { path: string; line: number }[];
+  /** Only a warning: it needs a failure, or the network, to go wrong. */
+  warning: boolean;
+}
+
+/** Those who cannot go on, without those that go on or have ended. */
+export const stuckIn = (atEnd: readonly SubsystemAtEnd[]) => [
+  ...new Set(atEnd.filter(({ state }) => state === "waits" || state === "no_successor").map(({ path }) => path)),
+];
+
+export const waitsIn = (atEnd: readonly SubsystemAtEnd[]): Wait[] =>
+  atEnd.flatMap(({ state, path, from, channel, awaited }) =>
+    state === "waits" ? from.map((whom) => ({ who: path, whom, channel, awaited })) : [],
+  );
+
+/** All that has to do with it: the stuck ones, and whom they wait for. */
+export const concernedIn = (atEnd: readonly SubsystemAtEnd[]) => [...new Set(atEnd.flatMap(({ path, from }) => [path, ...from]))];
+
+/** Those of the waits that lead back to where they began; empty: nobody waits for itself in the end. */
+export function circleIn(waits: readonly Wait[]): string[] {
+  for (const { who } of waits) {
+    const way: string[] = [];
+    for (let at: string | undefined = who; at !== undefined && !way.includes(at); at = nextOf(waits, at)) way.push(at);
+    if (nextOf(waits, way.at(-1)!) === who) return way;
+  }
+  return [];
+}
+const nextOf = (waits: readonly Wait[], who: string) => waits.find((one) => one.who === who)?.whom;
+
+/** Says who is stuck and why, in one sentence. */
+export function titleOf(atEnd: readonly SubsystemAtEnd[]): string {
+  const circle = circleIn(waitsIn(atEnd));
+  if (circle.length === 1) return `${circle[0]!} waits for itself`;
+  if (circle.length > 1)
+    return circle.length <= 3
+      ? `${listed(circle)} wait for each other`
+      : `${circle.length} subsystems wait for each other in a circle: ${listed(circle)}`;
+  const lost = atEnd.find(({ state }) => state === "no_successor");
+  if (lost) return `${lost.path} leaves ${lost.behaviour || "a behaviour"}, and nothing follows`;
+  const ended = new Set(atEnd.filter(({ state }) => state === "ended").map(({ path }) => path));
+  const left = waitsIn(atEnd).find(({ whom }) => ended.has(whom));
+  if (left) return `${left.who} waits for ${left.whom}, which has ended`;
+  const stuck = stuckIn(atEnd);
+  if (stuck.length > 0) return `${listed(stuck)} ${stuck.length === 1 ? "gets" : "get"} stuck`;
+  return atEnd[0]?.text ?? "";
+}
+
+const most = 4;
+const listed = (names: readonly string[]) =>
+  names.length > most
+    ? `${names.slice(0, most).join(", ")} and ${names.length - most} more`
+    : names.length > 1
+      ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)!}`
+      : names.join("");
+
+const isViolated = ({ verdict }: Judged) => verdict === "violated";
+const key = ({ path, channel, state }: SubsystemAtEnd) => `${state} ${path} ${channel}`;
+
+/**
+ * Groups violations by what is wrong: those in which the same subsystem waits at the same channel have one
+ * cause. The causes that are no warnings come first.
+ */
+export function causesOf(verdicts: readonly Judged[]): Cause[] {
+  const causes: { verdicts: Judged[]; keys: Set<string>; warning: boolean }[] = [];
+  // A violation that needs no failure explains more than one that does.
+  const violated = verdicts.filter(isViolated).sort((a, b) => Number(a.warning) - Number(b.warning));
+  for (const verdict of violated) {
+    const keys = verdict.at_end.filter(({ state }) => state === "waits" || state === "no_successor").map(key);
+    const same = causes.find((cause) => keys.length > 0 && keys.some((one) => cause.keys.has(one)));
+    if (!same) causes.push({ verdicts: [verdict], keys: new Set(keys), warning: verdict.warning });
+    else {
+      same.verdicts.push(verdict);
+      keys.forEach((one) => same.keys.add(one));
+    }
+  }
+  return causes.map(({ verdicts: all, warning }) => {
+    const telling = [...all].sort((a, b) => Number(b.at_end.length > 0) - Number(a.at_end.length > 0) || runOf(a) - runOf(b));
+    const { at_end: atEnd } = telling[0]!;
+    const dead = all.flatMap(({ behaviours }) => behaviours);
+    return { title: titleOf(atEnd) || deadTitle(dead) || telling[0]!.why, verdicts: telling, atEnd, dead, warning };
+  });
+}
+
+/** Shorter runs are easier to follow; none at all is the worst. */
+const runOf = ({ steps }: Judged) => steps?.length ?? Infinity;
+
+const deadTitle = (dead: Cause["dead"]) =>
+  dead.length === 0 ? "" : dead.length === 1 ? `${dead[0]!.path} never runs` : `${dead.length} behaviours never run`;

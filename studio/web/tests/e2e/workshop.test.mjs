@@ -1,0 +1,259 @@
+// The studio as a workshop: who is stuck and what mends it, the structure of a system of real size, and a robot that is built
+// in the browser alone.
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { button, changes, draftText, folder, judges, onPage, tab, until } from "./page.mjs";
+
+const parent = mkdtempSync(join(tmpdir(), "studio-workshop-"));
+after(() => rmSync(parent, { recursive: true, force: true }));
+
+const card = (page, title) => page.getByRole("region", { name: title });
+
+test("who is stuck is seen and named after one click, and a verified repair mends it", () =>
+  onPage(folder("greeting"), async (page, server) => {
+    await tab(page, "Verify").click();
+    await button(page, "Verify").click();
+    const cause = card(page, "left.control and right.control wait for each other");
+    await cause.getByText("deadlock free, goes on").waitFor();
+    assert.equal(await page.locator('[data-testid="lens"] [data-lens]').count(), 2);
+    assert.equal(await page.locator(".lens-wait").count(), 2);
+    await tab(page, "Structure").click();
+    await until(page, async () => (await page.locator(".lens-wait").count()) === 2, "the lens in the structure");
+    // The camera is at the two boxes.
+    const area = await page.locator(".canvas-area").boundingBox();
+    for (const path of ["left.control", "right.control"]) {
+      const box = await page.locator(`.lens [data-lens="${path}"]`).boundingBox();
+      assert.ok(box.x >= area.x && box.x + box.width <= area.x + area.width && box.y >= area.y, path);
+    }
+    assert.equal(await page.locator(".channel-label.stuck").count(), 2);
+    await cause.getByText("How it comes to that").click();
+    await cause.getByLabel("The run in words").getByText("waits for the acknowledgement").first().waitFor();
+    await cause.getByRole("button", { name: "Find a repair" }).click();
+    const repair = cause.locator(".repair").first();
+    await repair.waitFor();
+    await repair.getByText(/^Verified: deadlock free/).waitFor();
+    await repair.getByRole("button", { name: "Apply" }).click();
+    await until(page, async () => (await page.locator(".mark.holds").count()) >= 7, "the properties hold");
+    assert.equal(await page.locator(".cause:not(.warning)").count(), 0);
+    const changed = changes(server.text(), await draftText(page));
+    assert.ok(changed.length >= 2 && changed.length <= 6, changed.join("\n"));
+  }));
+
+/** Texts of the structure that overlap each other or are cut without saying so, and lines through boxes. */
+const faults = () => {
+  const found = [];
+  const inside = (box, point) =>
+    point.x > box.left + 1 && point.x < box.right - 1 && point.y > box.top + 1 && point.y < box.bottom - 1;
+  const texts = [...document.querySelectorAll(".agent-name .cut, .subsystem-name, .port button, .chip, .channel-label")].map(
+    (element) => ({ element, box: element.getBoundingClientRect(), text: element.textContent }),
+  );
+  texts.forEach(({ box, text }, at) =>
+    texts.slice(at + 1).forEach((other) => {
+      const [wide, high] = [
+        Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left),
+        Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top),
+      ];
+      if (wide > 0.5 && high > 0.5) found.push(`${text} over ${other.text}`);
+    }),
+  );
+  for (const { element, text } of texts)
+    if (element.scrollWidth > element.clientWidth + 1 && !element.closest("[title]")) found.push(`${text} is cut without a tip`);
+  const boxes = [...document.querySelectorAll(".subsystem-box, .device-box")].map((one) => one.getBoundingClientRect());
+  for (const path of document.querySelectorAll("path.channel")) {
+    const matrix = path.getScreenCTM();
+    for (let at = 0, length = path.getTotalLength(); at <= length; at += 6) {
+      const point = path.getPointAtLength(at).matrixTransform(matrix);
+      if (boxes.some((box) => inside(box, point)))
+        found.push(`channel ${path.parentElement.dataset.channels} goes through a box`);
+    }
+  }
+  return [...new Set(found)];
+};
+
+test("twelve subsystems with twenty-eight channels are drawn without overlap, at any width", () =>
+  onPage(folder("orchard"), async (page) => {
+    await tab(page, "Structure").click();
+    await page.locator(".channel-label").nth(27).waitFor();
+    for (const width of [640, 1440]) {
+      await page.setViewportSize({ width, height: 900 });
+      assert.deepEqual(await page.evaluate(faults), []);
+    }
+    // A channel ends where its buffer is drawn, also after the buffer has moved.
+    const ends = () =>
+      page.evaluate(() => {
+        const near = (path, point) => {
+          const box = document.querySelector(`[data-handle="${path}"]`).getBoundingClientRect();
+          return Math.hypot(box.x + box.width / 2 - point.x, box.y + box.height / 2 - point.y);
+        };
+        const [wire] = document.querySelectorAll('g[data-channels="0"] path.channel');
+        const matrix = wire.getScreenCTM();
+        const at = (part) => wire.getPointAtLength(part * wire.getTotalLength()).matrixTransform(matrix);
+        return [near("dispatcher.button_panel.pressed", at(0)), near("dispatcher.control.pressed", at(1))];
+      });
+    for (const distance of await ends()) assert.ok(distance < 4, `${distance} px`);
+    await page.locator('.subsystem-head[data-path="dispatcher.control"]').click();
+    await button(page, "Add input").click();
+    await page.locator('[data-handle="dispatcher.control.input"]').waitFor();
+    for (const distance of await ends()) assert.ok(distance < 4, `${distance} px`);
+    const found = [];
+    const judge = await judges(page, found);
+    for (const width of [640, 1024, 1440]) {
+      await page.setViewportSize({ width, height: 900 });
+      for (const name of ["Structure", "Net", "Element", "Verify", "Play", "Run", "Recordings"]) {
+        await tab(page, name).click();
+        await judge(`${name} at ${width}`);
+      }
+    }
+    assert.deepEqual(found, []);
+  }));
+
+test("a patrol robot is built in the browser alone, and drives", () => {
+  const root = join(parent, "patrol");
+  mkdirSync(root);
+  return onPage(
+    root,
+    async (page) => {
+      const field = (name, exact = true) => page.getByRole("textbox", { name, exact });
+      const either = (name) => page.getByLabel(name, { exact: true });
+      const fill = async (locator, text) => {
+        await locator.fill(text);
+        await locator.press("Enter");
+      };
+      const group = (name) => page.getByRole("group", { name, exact: true });
+      /** Adds an entry to a map of the specification. */
+      const entry = async (map, one, fresh, name, value) => {
+        await group(map)
+          .getByRole("button", { name: `Add ${one}` })
+          .click();
+        if (name !== fresh) await fill(group(map).getByLabel(`New name of ${fresh}`), name);
+        if (value !== undefined) await fill(group(map).getByLabel(name, { exact: true }), value);
+      };
+      const nothing = () => page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
+      const head = (path) => page.locator(`.subsystem-head[data-path="${path}"]`).click();
+      const chip = (path) => page.locator(`.chip[data-path="${path}"]`).click();
+      const buffer = async (subsystem, what, fresh, name, type) => {
+        await head(subsystem);
+        await button(page, `Add ${what}`).click();
+        await fill(field("Name"), name);
+        await fill(either("Type"), type);
+      };
+
+      await button(page, "An empty system").click();
+      await page.locator('.chip[data-path="robot.control.run"]').waitFor();
+      await entry("Types", "type", "Value", "Light", "{ left: bool, middle: bool, right: bool }");
+      await entry("Types", "type", "Value", "Motion", "{ linear: float64 m/s, angular: float64 rad/s }");
+      await entry("Parameters", "parameter", "speed", "v", "0.1 m/s");
+      await page.locator('[data-path="robot"]').first().click();
+      await button(page, "Add receptor").click();
+      await head("robot.sensor");
+      for (const name of ["left", "middle", "right"]) await buffer("robot.sensor", "real buffer", "device", name, "float64");
+      await buffer("robot.sensor", "output", "output", "light", "Light");
+      await page.locator('[data-path="robot"]').first().click();
+      await button(page, "Add effector").click();
+      await head("robot.motor");
+      for (const name of ["left", "right"]) await buffer("robot.motor", "real buffer", "device", name, "float64 rad/s");
+      await buffer("robot.motor", "input", "input", "motion", "Motion");
+      await head("robot.motor");
+      await fill(field("Inputs are stale after"), "500 ms");
+      await entry("Safe command", "safe value", "left", "left", "0");
+      await entry("Safe command", "safe value", "left_2", "right", "0");
+      await buffer("robot.control", "input", "input", "light", "Light");
+      await buffer("robot.control", "output", "output", "motion", "Motion");
+      const line = (from, to) => page.locator(`[data-handle="${from}"]`).dragTo(page.locator(`[data-handle="${to}"]`));
+      await line("robot.sensor.light", "robot.control.light");
+      await page.locator('.channel-label[data-path="channel:0"]').waitFor();
+      await line("robot.control.motion", "robot.motor.motion");
+      await page.locator('.channel-label[data-path="channel:1"]').waitFor();
+      await chip("robot.control.run");
+      await fill(field("Name"), "cruise");
+      for (const name of ["turn_left", "turn_right", "back_off", "rest", "recover"]) {
+        await head("robot.control");
+        await button(page, "Add behaviour").click();
+        await fill(field("Name"), name);
+        await page.locator(`.chip[data-path="robot.control.${name}"]`).waitFor();
+      }
+      const conditions = {
+        cruise: {
+          terminal: "!in.light.middle",
+          error: "in.light.left && in.light.right",
+          next: ["recover when error", "turn_left when in.light.left", "turn_right"],
+        },
+        turn_left: { terminal: "in.light.middle", next: ["cruise"] },
+        turn_right: { terminal: "in.light.middle", next: ["cruise"] },
+        recover: { terminal: "true", next: ["back_off"] },
+        back_off: { terminal: "in.light.middle", next: ["rest"] },
+        rest: { terminal: "true", next: ["cruise"] },
+      };
+      for (const [name, { terminal, error, next }] of Object.entries(conditions)) {
+        await chip(`robot.control.${name}`);
+        await fill(field("Terminal condition"), terminal);
+        if (error) await fill(field("Error condition"), error);
+        for (const [at, one] of next.entries()) {
+          const [to, when] = one.split(" when ");
+          await button(page, "Add what follows").click();
+          await fill(page.getByRole("combobox", { name: `Then ${at + 1}: to` }), to);
+          if (when) await fill(page.getByRole("combobox", { name: "when", exact: true }).nth(at), when);
+        }
+      }
+      // A name that is taken is refused.
+      await chip("robot.control.rest");
+      await field("Name").fill("cruise");
+      await page.getByText("There is a cruise here already").waitFor();
+      await field("Name").press("Escape");
+      await nothing();
+      await entry("Simulated world", "entry", "world", "world", "line_world.xml");
+      await entry(
+        "Simulated world",
+        "entry",
+        "world_2",
+        "track",
+        "{ image: oval.png, metres_per_pixel: 0.005, start: [1.2, 0.1, 0 deg], footprint: 8 mm }",
+      );
+      for (const name of ["left", "middle", "right"])
+        await entry(
+          "Drivers in the world",
+          "driver",
+          name === "left" ? "robot.sensor.left" : "robot.sensor.left_2",
+          `robot.sensor.${name}`,
+          `{ reflectance: eye_${name} }`,
+        );
+      for (const name of ["left", "right"])
+        await entry(
+          "Drivers in the world",
+          "driver",
+          "robot.sensor.left_2",
+          `robot.motor.${name}`,
+          `{ velocity: wheel_${name} }`,
+        );
+      await page.getByText("No problems").waitFor();
+      /** The function of a behaviour: begun by a click, then typed. */
+      const code = async (path, body) => {
+        await chip(path);
+        await page.getByRole("button", { name: /^Write it into / }).click();
+        const area = page.getByLabel(/^src\/.*line \d+$/);
+        await area.waitFor();
+        if (!body) return;
+        const text = await area.inputValue();
+        await area.fill(`${text.slice(0, text.indexOf("{") + 1)}\n  ${body}\n}`);
+        await button(page, "Save the function").click();
+        await button(page, "Discard").waitFor({ state: "detached" });
+      };
+      await code("robot.control.cruise", "out.motion = {context.parameters.v, 0};");
+      for (const name of ["turn_left", "turn_right", "back_off", "rest", "recover"]) await code(`robot.control.${name}`);
+      await code("robot.sensor.run", "out.light = {in.left < 0.5, in.middle < 0.5, in.right < 0.5};");
+      await code("robot.motor.run", "out.left = out.right = in.motion.linear / 0.03;");
+      await tab(page, "Run").click();
+      await fill(field("For"), "2s");
+      await button(page, "Save and run").click();
+      await page.getByTestId("run-state").getByText("Ended").waitFor();
+      const values = page.locator(".value-list").getByText("robot.control.motion.linear");
+      await values.waitFor();
+      assert.ok(existsSync(join(root, "src/control.cpp")));
+      assert.match(readFileSync(join(root, "spec.yaml"), "utf8"), /recover/);
+    },
+    { server: { copy: false } },
+  );
+});

@@ -1,0 +1,160 @@
+import { describe, expect, it } from "vitest";
+import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
+import { mended } from "../../live/repairs";
+import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";
+import { changedLines } from "../../model/changed_lines";
+import { buildMessages, functionAt } from "../../model/cpp_function";
+import { csvOf } from "../../model/csv";
+import { renameParameter, renameType } from "../../model/edits";
+import { candidatesFor } from "../../model/repair_edits";
+import { readStructure } from "../../model/structure";
+import { unitOf } from "../../model/units";
+
+const atEnd = (known: Partial<SubsystemAtEnd>): SubsystemAtEnd => ({
+  path: "a.control",
+  state: "waits",
+  awaited: "value",
+  behaviour: "",
+  channel: "b.control.y->a.control.x",
+  from: ["b.control"],
+  text: "",
+  ...known,
+});
+const verdict = (name: string, known: Partial<Verdict> = {}): Verdict => ({
+  name,
+  asks: "",
+  verdict: "violated",
+  method: "",
+  why: "",
+  meaning: "",
+  explanation: "",
+  seconds: 0,
+  states: 0,
+  warning: false,
+  waits: [],
+  at_end: [],
+  behaviours: [],
+  trace: null,
+  steps: null,
+  narrative: null,
+  ...known,
+});
+
+describe("causesOf", () => {
+  const back = atEnd({ path: "b.control", from: ["a.control"], channel: "a.control.y->b.control.x" });
+  it("groups the violations in which the same subsystem waits at the same channel", () => {
+    const causes = causesOf([
+      verdict("survives_exceptions", { warning: true, at_end: [atEnd({})] }),
+      verdict("deadlock_free", { at_end: [atEnd({}), back] }),
+      verdict("goes_on", { at_end: [atEnd({})], steps: [1, 2] }),
+      verdict("live_behaviours", { behaviours: [{ path: "a.control.rest", line: 3 }] }),
+      verdict("safe", { verdict: "holds" }),
+    ]);
+    expect(causes.map(({ verdicts }) => verdicts.map(({ name }) => name))).toEqual([
+      ["goes_on", "deadlock_free", "survives_exceptions"],
+      ["live_behaviours"],
+    ]);
+    expect(causes.map(({ warning }) => warning)).toEqual([false, false]);
+    expect(causes[1]!.title).toBe("a.control.rest never runs");
+  });
+  it("says in one sentence who is stuck and why", () => {
+    expect(circleIn(waitsIn([atEnd({}), back]))).toEqual(["a.control", "b.control"]);
+    expect(titleOf([atEnd({}), back])).toBe("a.control and b.control wait for each other");
+    expect(titleOf([atEnd({}), atEnd({ path: "b.control", state: "ended", from: [] })])).toBe(
+      "a.control waits for b.control, which has ended",
+    );
+    expect(titleOf([atEnd({ state: "no_successor", behaviour: "go", from: [] })])).toBe(
+      "a.control leaves go, and nothing follows",
+    );
+  });
+});
+
+describe("candidatesFor", () => {
+  const text =
+    "agents:\n  a: { control: { inputs: { x: bool }, behaviours: { go: { terminal: in.x, next: [{ to: rest, when: in.x }] }, rest: { next: go } } } }\n  b: { control: { outputs: { y: bool }, behaviours: { run: {} } } }\nchannels:\n  - { from: b.control.y, to: a.control.x, receive: blocking }\n";
+  const of = (one: SubsystemAtEnd) =>
+    candidatesFor({ title: "", verdicts: [], atEnd: [one], dead: [], warning: false }, readStructure(text)).map((candidate) =>
+      changedLines(text, candidate.text),
+    );
+  it("gives the side that waits a timeout, or lets it go on", () => {
+    expect(of(atEnd({}))).toEqual([
+      [
+        "- - { from: b.control.y, to: a.control.x, receive: blocking }",
+        "+ - { from: b.control.y, to: a.control.x, receive: blocking, timeout: 1 s }",
+      ],
+      ["- - { from: b.control.y, to: a.control.x, receive: blocking }", "+ - { from: b.control.y, to: a.control.x }"],
+    ]);
+  });
+  it("lets something follow where nothing does", () => {
+    const [again] = of(atEnd({ state: "no_successor", behaviour: "go", channel: "", from: [] }));
+    expect(again![1]).toContain("next: [{ to: rest, when: in.x }, go]");
+  });
+});
+
+it("a repair mends all of its cause and loses nothing", () => {
+  const cause = causesOf([verdict("goes_on", { at_end: [atEnd({})] }), verdict("deadlock_free", { at_end: [atEnd({})] })])[0]!;
+  const before = [verdict("goes_on"), verdict("deadlock_free"), verdict("safe", { verdict: "holds" })];
+  const after = (lost: string) => before.map((one) => verdict(one.name, { verdict: one.name === lost ? "unknown" : "holds" }));
+  expect(mended(cause, before, after(""))).toEqual(["goes_on", "deadlock_free"]);
+  expect(mended(cause, before, after("goes_on"))).toEqual([]);
+  expect(mended(cause, before, after("safe"))).toEqual([]);
+});
+
+describe("functionAt", () => {
+  const source =
+    'int x;\nvoid go(Context& c) {\n  // not the end: }\n  log("}", \'}\', 1\'000, R"(})");\n  if (x) { y(); }\n}\nvoid other();\n';
+  it("ends where the body ends, whatever is in strings and comments", () => {
+    const found = functionAt(source, 2)!;
+    expect([found.firstLine, found.lastLine]).toEqual([2, 6]);
+    expect(source.slice(found.from, found.to)).toBe(found.text);
+    expect(found.text.endsWith("y(); }\n}")).toBe(true);
+  });
+  it("finds no body of a declaration, or beyond the end", () => {
+    expect(functionAt(source, 7)).toBeNull();
+    expect(functionAt(source, 70)).toBeNull();
+  });
+});
+
+it("messages of a build are found by their file", () => {
+  const build = [
+    "/home/x/p/src/control.cpp:12:3: error: no y",
+    "src/control.cpp:13:1: warning: odd",
+    "src/other.cpp:1:1: error: z",
+  ];
+  expect(buildMessages(build, "src/control.cpp")).toEqual([
+    { line: 12, severity: "error", text: "no y" },
+    { line: 13, severity: "warning", text: "odd" },
+  ]);
+});
+
+it("a table has a row for each time, with the values that hold then", () => {
+  const series = [
+    { path: "a", samples: { times: [1e9, 3e9], values: [1, 2] } },
+    { path: "b", samples: { times: [2e9], values: [5] } },
+  ];
+  expect(csvOf(series)).toBe("time_s,a,b\n1.000000000,1,\n2.000000000,1,5\n3.000000000,2,5\n");
+});
+
+const typed =
+  "types:\n  Speed: { linear: float64 m/s, SpeedUp: bool }\n  Both: { one: Speed }\nparameters: { v: 1 m/s }\nagents:\n  a: { control: { inputs: { s: Speed, all: 'Speed[3]' }, behaviours: { go: { terminal: in.s.linear > parameters.v } } } }\n";
+
+it("a value has the unit of its type", () => {
+  const structure = readStructure(typed);
+  expect(unitOf(structure, "a.control.s.linear")).toBe("m/s");
+  expect(unitOf(structure, "a[2].control.all[1].linear")).toBe("m/s");
+  expect(unitOf(structure, "a.control.s.SpeedUp")).toBe("");
+  expect(unitOf(structure, "nobody.control.s")).toBe("");
+});
+
+it("a type and a parameter are renamed where they are used, and nowhere else", () => {
+  expect(renameType(typed, "Speed", "Motion")).toBe(
+    typed
+      .replace("  Speed:", "  Motion:")
+      .replace("one: Speed", "one: Motion")
+      .replace("s: Speed", "s: Motion")
+      .replace("'Speed[3]'", "'Motion[3]'"),
+  );
+  expect(renameParameter(typed, "v", "limit")).toBe(
+    typed.replace("{ v: 1", "{ limit: 1").replace("parameters.v", "parameters.limit"),
+  );
+});

@@ -1,0 +1,387 @@
+// Clients and servers of services against Fast DDS, whose types are written by hand, and against each other.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "eventually.hpp"
+#include "fast_peer.hpp"
+#include "ros2/dds/drivers.hpp"
+#include "ros2/definitions/resolver.hpp"
+#include "tessera/bounded_string.hpp"
+#include "tessera/fields.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+struct Request {
+  std::uint32_t call{};
+  bool data{};
+  TESSERA_FIELDS(Request, call, data)
+};
+struct Reply {
+  BoundedString<16> message{};
+  std::uint8_t outcome{};
+  bool success{};
+  std::uint32_t call{};
+  TESSERA_FIELDS(Reply, message, outcome, success, call)
+};
+struct SentReply {
+  std::uint32_t call{};
+  BoundedString<16> message{};
+  bool success{};
+  TESSERA_FIELDS(SentReply, call, message, success)
+};
+struct BareReply {
+  bool success{};
+  BoundedString<4> message{};
+  std::uint64_t call{};
+  TESSERA_FIELDS(BareReply, success, message, call)
+};
+
+enum Outcome : std::uint8_t { answered = 1, no_server = 2, no_reply = 3, replaced = 4, unreadable = 5 };
+
+/// Not that of the tests of topics, which run in the same process.
+std::uint32_t service_domain() { return 60 + static_cast<std::uint32_t>(getpid() + 75) % 150; }
+
+template <class Value>
+Ros2Binding side_of_service(const std::string& role, bool request) {
+  std::vector<Mistake> mistakes;
+  const DefinitionFolders folders({std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"});
+  const auto service = resolve_service("std_srvs/srv/SetBool", folders, mistakes);
+  Ros2Binding made;
+  made.path = "robot." + role + ".buffer";
+  made.topic = "/enable";
+  made.type = "std_srvs/srv/SetBool";
+  made.role = role;
+  made.definition = bundle_of(request ? *service->request : *service->response);
+  made.interface = "lo";
+  made.domain = service_domain();
+  made.encoding = value_encoding_of<Value>();
+  return made;
+}
+
+template <class Driver, class Make>
+std::unique_ptr<Driver> opened(Make make, const Ros2Binding& binding) {
+  std::string error;
+  std::unique_ptr<Driver> driver = make(binding, error);
+  if (driver == nullptr) throw std::runtime_error(error);
+  EXPECT_TRUE(driver->open());
+  return driver;
+}
+
+/// The two drivers of a client whose buffer of replies is a ReplyValue.
+template <class ReplyValue = Reply>
+struct Client {
+  explicit Client(Duration timeout = std::chrono::seconds(30), Duration wait = Duration::zero()) {
+    Ros2Binding sends = side_of_service<Request>("client", true);
+    sends.timeout = timeout;
+    sends.wait = wait;
+    requests = opened<RealEffector>(make_effector, sends);
+    replies = opened<RealReceptor>(make_receptor, side_of_service<ReplyValue>("client", false));
+  }
+  ~Client() {
+    replies->close();
+    requests->close();
+  }
+  bool call(std::uint32_t number, bool data) {
+    const Request request{number, data};
+    return requests->write(std::as_bytes(std::span(&request, 1)));
+  }
+  bool read() { return replies->read(std::as_writable_bytes(std::span(&reply, 1))); }
+  std::unique_ptr<RealEffector> requests;
+  std::unique_ptr<RealReceptor> replies;
+  ReplyValue reply;
+};
+
+struct Server {
+  explicit Server(Duration timeout = std::chrono::seconds(30)) {
+    Ros2Binding sends = side_of_service<SentReply>("server", false);
+    sends.timeout = timeout;
+    replies = opened<RealEffector>(make_effector, sends);
+    requests = opened<RealReceptor>(make_receptor, side_of_service<Request>("server", true));
+  }
+  ~Server() {
+    requests->close();
+    replies->close();
+  }
+  bool read() { return requests->read(std::as_writable_bytes(std::span(&request, 1))); }
+  bool reply(std::uint32_t number, bool success, std::string_view message) {
+    SentReply value{number, {}, success};
+    value.message = message;
+    return replies->write(std::as_bytes(std::span(&value, 1)));
+  }
+  std::unique_ptr<RealReceptor> requests;
+  std::unique_ptr<RealEffector> replies;
+  Request request;
+};
+
+class WithFastService : public testing::Test {
+ protected:
+  using Reader = eprosima::fastdds::dds::DataReader;
+  using Writer = eprosima::fastdds::dds::DataWriter;
+  fast::Peer peer{service_domain()};
+
+  struct FastServer {
+    Reader* requests;
+    Writer* replies;
+  };
+  FastServer fast_server(const std::string& user_data = "serviceid=01.0f.2;") {
+    return {peer.reader<fast::SetBoolRequest>("rq/enableRequest", false, user_data),
+            peer.writer<fast::SetBoolResponse>("rr/enableReply", true, user_data)};
+  }
+  static bool is_found(const FastServer& server) {
+    return fast::Peer::is_matched(*server.requests) && fast::Peer::is_matched(*server.replies);
+  }
+  static void answer(const FastServer& server, const fast::SetBoolRequest& request, const std::string& text) {
+    fast::SetBoolResponse reply;
+    reply.client = request.client;
+    reply.sequence = request.sequence;
+    reply.success = request.data;
+    reply.message = text;
+    server.replies->write(&reply);
+  }
+
+  /// Calls with new numbers until the server gets one: a request is lost if it is sent before the server has
+  /// found the client, though the client has found the server.
+  template <class AnyClient>
+  fast::SetBoolRequest first_request(AnyClient& client, const FastServer& server, bool data) {
+    std::optional<fast::SetBoolRequest> got;
+    EXPECT_TRUE(eventually([&] { return is_found(server); }));
+    EXPECT_TRUE(eventually([&] {
+      if (!client.call(++number, data)) return false;
+      const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+      while (!got && std::chrono::steady_clock::now() < until) {
+        EXPECT_TRUE(client.call(number, data));
+        got = fast::Peer::take<fast::SetBoolRequest>(*server.requests);
+      }
+      return got.has_value();
+    }));
+    return got.value_or(fast::SetBoolRequest{});
+  }
+  std::uint32_t number = 0;
+};
+
+TEST_F(WithFastService, ClientIsAnsweredOnceForEachCall) {
+  Client client;
+  const FastServer server = fast_server();
+  const fast::SetBoolRequest request = first_request(client, server, true);
+  EXPECT_TRUE(request.data);
+  while (client.read()) EXPECT_EQ(client.reply.outcome, replaced);
+  fast::SetBoolRequest other = request;
+  other.client ^= 1;
+  answer(server, other, "not for us");
+  answer(server, request, "on");
+  answer(server, request, "twice");
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.call, number);
+  EXPECT_EQ(client.reply.outcome, answered);
+  EXPECT_TRUE(client.reply.success);
+  EXPECT_EQ(client.reply.message.view(), "on");
+  // The same number is the same call. The next one comes after whatever was on the way.
+  ASSERT_TRUE(client.call(number, false));
+  ASSERT_TRUE(client.call(0, false));
+  const std::uint32_t before = number;
+  const fast::SetBoolRequest next = first_request(client, server, false);
+  EXPECT_EQ(number, before + 1);
+  EXPECT_FALSE(next.data);
+  EXPECT_EQ(next.sequence, request.sequence + 1);
+  answer(server, next, "off");
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.call, number);
+  EXPECT_EQ(client.reply.message.view(), "off");
+  EXPECT_FALSE(client.read());
+}
+
+TEST_F(WithFastService, NewerCallReplacesOneThatIsPending) {
+  Client client;
+  const FastServer server = fast_server();
+  const fast::SetBoolRequest first = first_request(client, server, true);
+  while (client.read()) EXPECT_EQ(client.reply.outcome, replaced);
+  const std::uint32_t old = number;
+  const fast::SetBoolRequest second = first_request(client, server, false);
+  answer(server, first, "late");
+  answer(server, second, "new");
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.call, old);
+  EXPECT_EQ(client.reply.outcome, replaced);
+  EXPECT_EQ(client.reply.message.view(), "");
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.call, number);
+  EXPECT_EQ(client.reply.message.view(), "new");
+}
+
+TEST_F(WithFastService, ReplyThatDoesNotFitIsAnOutcome) {
+  Client client;
+  const FastServer server = fast_server();
+  const fast::SetBoolRequest request = first_request(client, server, true);
+  while (client.read()) EXPECT_EQ(client.reply.outcome, replaced);
+  answer(server, request, "longer than sixteen bytes");
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.outcome, unreadable);
+  EXPECT_EQ(client.reply.call, number);
+}
+
+TEST_F(WithFastService, ServerThatWouldMisunderstandGetsNoRequest) {
+  testing::internal::CaptureStderr();
+  Client client(std::chrono::milliseconds(200));
+  const FastServer server = fast_server(/*user_data=*/"");
+  ASSERT_TRUE(eventually([&] { return is_found(server); }));
+  std::string told;
+  ASSERT_TRUE(eventually([&] {  // the client may not have found the server yet
+    EXPECT_TRUE(client.call(++number, true));
+    EXPECT_TRUE(eventually([&] { return client.read(); }));
+    EXPECT_EQ(client.reply.outcome, no_server);
+    told += testing::internal::GetCapturedStderr();
+    testing::internal::CaptureStderr();
+    return told.find("would misunderstand it") != std::string::npos;
+  }));
+  told += testing::internal::GetCapturedStderr();
+  EXPECT_FALSE(fast::Peer::take<fast::SetBoolRequest>(*server.requests).has_value());
+}
+
+TEST_F(WithFastService, ServerAnswersOneAfterTheOther) {
+  Server server;
+  auto* const requests = peer.writer<fast::SetBoolRequest>("rq/enableRequest", true, "clientid=01.0f.3;");
+  auto* const replies = peer.reader<fast::SetBoolResponse>("rr/enableReply", false, "clientid=01.0f.3;");
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*requests) && fast::Peer::is_matched(*replies); }));
+  fast::SetBoolRequest request;
+  request.client = 77;
+  request.data = true;
+  ASSERT_TRUE(eventually([&] {
+    ++request.sequence;
+    requests->write(&request);
+    return server.read();
+  }));
+  EXPECT_EQ(server.request.call, 1U);
+  EXPECT_TRUE(server.request.data);
+  EXPECT_FALSE(server.read()) << "the first has no reply yet";
+  EXPECT_TRUE(server.reply(0, true, "nobody"));
+  EXPECT_TRUE(server.reply(1, true, "done"));
+  EXPECT_TRUE(server.reply(1, true, "twice"));
+  std::optional<fast::SetBoolResponse> reply;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(server.reply(1, true, "again"));  // it may not have found the client yet
+    return (reply = fast::Peer::take<fast::SetBoolResponse>(*replies)).has_value();
+  }));
+  EXPECT_EQ(reply->client, 77U);
+  EXPECT_EQ(reply->message, "done");
+  EXPECT_TRUE(reply->success);
+  // What was sent while the first was pending is waiting in order.
+  request.data = false;
+  const std::int64_t last = request.sequence += 2;
+  requests->write(&request);
+  std::uint32_t call = 1;
+  ASSERT_TRUE(eventually([&] {
+    if (!server.read()) return false;
+    EXPECT_EQ(server.request.call, ++call);
+    EXPECT_TRUE(server.reply(call, false, "next"));
+    return !server.request.data;
+  }));
+  ASSERT_TRUE(eventually([&] {
+    while ((reply = fast::Peer::take<fast::SetBoolResponse>(*replies)))
+      if (reply->sequence == last) return true;
+    return false;
+  }));
+  EXPECT_EQ(reply->message, "next");
+}
+
+TEST_F(WithFastService, ServerDropsRequestsWithoutAHeader) {
+  testing::internal::CaptureStderr();
+  Server server;
+  auto* const requests = peer.writer<fast::BareSetBoolRequest>("rq/enableRequest");
+  ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*requests); }));
+  fast::BareSetBoolRequest request{true};
+  std::string told;
+  EXPECT_TRUE(eventually([&] {
+    requests->write(&request);
+    EXPECT_FALSE(server.read());
+    told += testing::internal::GetCapturedStderr();
+    testing::internal::CaptureStderr();
+    return told.find("is not one of rmw_cyclonedds_cpp") != std::string::npos;
+  }));
+  told += testing::internal::GetCapturedStderr();
+}
+
+TEST(Services, OfTwoControllersFindEachOther) {
+  Server server;
+  Client<BareReply> client(std::chrono::seconds(30), /*wait=*/std::chrono::seconds(60));
+  std::uint32_t number = 0, call = 0;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(client.call(++number, true));
+    for (int tries = 0; tries < 20 && !server.read(); ++tries) usleep(5'000);
+    return server.request.call != call;
+  }));
+  call = server.request.call;
+  ASSERT_TRUE(server.reply(call, true, "yes"));
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(server.reply(call, true, "yes"));
+    return client.read();
+  })) << "results without a reply are not given to a buffer without `outcome`";
+  EXPECT_EQ(client.reply.call, number);
+  EXPECT_TRUE(client.reply.success);
+  EXPECT_EQ(client.reply.message.view(), "yes");
+}
+
+/// The safe command of a controller that ends.
+TEST(Services, RequestOfAClientThatHasGoneIsExecuted) {
+  Server server;
+  std::uint32_t call = 0;
+  EXPECT_TRUE(eventually([&] {
+    {
+      Client client(std::chrono::seconds(30), /*wait=*/std::chrono::seconds(60));
+      EXPECT_TRUE(client.call(++call, false));
+    }
+    for (int tries = 0; tries < 20; ++tries) {
+      if (server.read()) return true;
+      usleep(5'000);
+    }
+    return false;
+  }));
+  EXPECT_TRUE(server.reply(server.request.call, true, "nobody hears it"));
+}
+
+TEST(Services, CallWithoutAServerEnds) {
+  Client client(std::chrono::milliseconds(20));
+  ASSERT_TRUE(client.call(5, true));
+  ASSERT_TRUE(eventually([&] { return client.read(); }));
+  EXPECT_EQ(client.reply.call, 5U);
+  EXPECT_EQ(client.reply.outcome, no_server);
+  EXPECT_FALSE(client.reply.success);
+  EXPECT_FALSE(client.read());
+}
+
+TEST(Services, CallWithoutAReplyEndsOnBothSides) {
+  Server server(std::chrono::milliseconds(20));
+  Client client(std::chrono::milliseconds(500), /*wait=*/std::chrono::seconds(60));
+  std::uint32_t number = 0;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(client.call(++number, true));
+    for (int tries = 0; tries < 20; ++tries) {
+      if (server.read()) return true;
+      usleep(5'000);
+    }
+    return false;
+  }));
+  EXPECT_TRUE(eventually([&] { return client.read() && client.reply.outcome == no_reply; }));
+  EXPECT_EQ(client.reply.call, number);
+  EXPECT_TRUE(server.reply(server.request.call, true, "too late"));
+  // The request that was given up keeps nobody from the next one.
+  const std::uint32_t before = server.request.call;
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_TRUE(client.call(++number, false));
+    for (int tries = 0; tries < 20; ++tries) {
+      if (server.read()) return true;
+      usleep(5'000);
+    }
+    return false;
+  }));
+  EXPECT_GT(server.request.call, before);
+}
+
+}  // namespace
+}  // namespace tessera::ros2

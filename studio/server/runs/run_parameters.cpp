@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/runs/or_null.hpp"
+
 namespace tessera::server {
 
 using nlohmann::json;
@@ -28,8 +30,6 @@ std::string plain(const spec::Parameter& parameter) {
   const bool quoted = parameter.type.kind == spec::Type::Kind::string && text.size() > 1;
   return quoted && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
 }
-
-json or_null(const std::optional<double>& number) { return number ? json(*number) : json(nullptr); }
 
 }  // namespace
 

@@ -293,6 +293,8 @@ void Api::control_run(const Request& request, Response& response) {
                           .speed = body.number("value"),
                           .path = body.text_or("path", ""),
                           .text = body.text_or("text", ""),
+                          .who = body.text_or("operator", ""),
+                          .inputs = body.inputs("inputs"),
                           .places = body.indices("breakpoints", "place"),
                           .transitions = body.indices("breakpoints", "transition"),
                           .conditions = body.indices("breakpoints", "condition")};

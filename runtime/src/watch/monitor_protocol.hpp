@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "drivers/panel.hpp"
+
 namespace tessera {
 
 // The lines that a monitor and its clients send each other. tessera/monitor.hpp describes them.
@@ -87,6 +89,10 @@ struct Malformed {};
 struct SetParameter {
   std::string path, value;
 };
+/// Of an operator, or of one who lets go.
+struct FeedPanel {
+  PanelInput input;
+};
 struct EmergencyStop {
   std::string why;
 };
@@ -119,8 +125,8 @@ using SimulationCommand =
     std::variant<commands::Unknown, commands::Pause, commands::Resume, commands::StepFiring,
                  commands::StepIteration, commands::SetSpeed, commands::SetBreakpoints>;
 /// Commands that are answered by a line each.
-using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::EmergencyStop,
-                                     commands::Reset, SimulationCommand>;
+using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::FeedPanel,
+                                     commands::EmergencyStop, commands::Reset, SimulationCommand>;
 using Command = std::variant<AnsweredCommand, commands::SendRecording, commands::SendScene, commands::Own>;
 
 struct Request {

@@ -11,6 +11,7 @@ import type {
   Events,
   FiringsEvent,
   Outcome,
+  PanelShown,
   ParameterShown,
   PoseEvent,
   PoseFrame,
@@ -57,6 +58,7 @@ export interface RunnerState {
   behaviours: ReadonlyMap<string, string>;
   /** The parameters of the run, with what they hold. */
   parameters: readonly ParameterShown[];
+  panels: readonly PanelShown[];
   /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
   /** Whether it has a pane of the drawing; a run continues without one, too. */
@@ -81,6 +83,7 @@ const idle: RunnerState = {
   problem: "",
   behaviours: new Map(),
   parameters: [],
+  panels: [],
   breakpoints: [],
   shown: false,
 };
@@ -229,7 +232,7 @@ export class Runner {
     this.setMarked(marking, firings);
     if ("values" in info) {
       for (const take of this.informed) take(info);
-      this.store.set({ parameters: info.parameters });
+      this.store.set({ parameters: info.parameters, panels: info.panels });
       this.counted(firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);

@@ -6,6 +6,7 @@ import { sentence } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { Choice } from "./field";
 import { Icon, IconButton } from "./icons";
+import { OperatorPanels } from "./operator_panel";
 import { OutcomeOf } from "./outcome";
 import { reason, stateTitles } from "./pane_title";
 import { ParametersNow } from "./parameters_now";
@@ -32,6 +33,7 @@ export function RunPanel() {
       {active ? <Controls /> : <StartForm />}
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
       {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
+      {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
       {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
       <Breakpoints />

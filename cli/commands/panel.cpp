@@ -7,6 +7,7 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <memory>
 #include <optional>
@@ -41,7 +42,7 @@ std::optional<PanelCommand::Value> panel_value(const std::string& text) {
   if (text == "true" || text == "false") return text == "true";
   double number = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (problem == std::errc() && end == text.data() + text.size()) return number;
+  if (problem == std::errc() && end == text.data() + text.size() && std::isfinite(number)) return number;
   complain("'" + text + "' is neither a number nor true or false");
   return std::nullopt;
 }

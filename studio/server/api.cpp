@@ -247,6 +247,7 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   wanted.seed = static_cast<std::uint64_t>(std::clamp(body.number("seed").value_or(1), 0.0, 9e15));
   wanted.speed = body.number("speed").value_or(1);
   wanted.paused = body.flag("paused");
+  wanted.skip_to_s = body.number("skip_to").value_or(0);
   wanted.records_all = body.text_or("values", "small") == "all";
   if (!body.good()) return std::nullopt;
   if (kind != "simulate" && kind != "run" && kind != "attach" && kind != "deployment")
@@ -255,17 +256,19 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
     return refuse("nobody listens at " + wanted.socket, "/api/controllers names those who do");
   if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
   try {
+    double end_s = 1e9;
     if (!wanted.duration.empty())
-      wanted.duration = fmt::format("{}s", project::parse_seconds(wanted.duration, "for"));
+      wanted.duration = fmt::format("{}s", end_s = project::parse_seconds(wanted.duration, "for"));
+    if (!(wanted.skip_to_s >= 0 && wanted.skip_to_s < end_s))
+      return refuse(fmt::format("skip_to is a number of seconds, at least 0 and less than {}", end_s));
   } catch (const std::exception& error) {
     return refuse(error.what());
   }
-  const fs::path folder = parts_.file.folder();
   if (!wanted.world.empty() &&
-      !assets_named(options_.share / "worlds", folder, ".xml").contains(wanted.world))
+      !assets_named(options_.share / "worlds", parts_.file.folder(), ".xml").contains(wanted.world))
     return refuse("there is no world " + wanted.world, "/api/project names them");
   if (!wanted.track.empty() &&
-      !assets_named(options_.share / "tracks", folder, ".png").contains(wanted.track))
+      !assets_named(options_.share / "tracks", parts_.file.folder(), ".png").contains(wanted.track))
     return refuse("there is no track " + wanted.track, "/api/project names them");
   return wanted;
 }

@@ -129,6 +129,33 @@ TEST_F(RunOfTheStudio, ParametersAreShownAndChangedWhileItRuns) {
   ASSERT_FALSE(await_state(run, "ended").is_null());
 }
 
+TEST_F(RunOfTheStudio, SkipsToAMomentAndPausesThere) {
+  const json asked{{"kind", "simulate"}, {"for", "100s"}, {"speed", 1}, {"paused", true}, {"skip_to", 42.5}};
+  const std::string run = start(asked);
+  ASSERT_FALSE(await_state(run, "running").is_null());
+  ASSERT_FALSE(await_state(run, "paused").is_null());
+  // Everything before the moment has happened, and nothing after it.
+  const json there = info(run);
+  EXPECT_LE(there.at("t"), 42'500'000'000);
+  EXPECT_GT(there.at("t"), 42'300'000'000);
+  const json values = there.at("values");
+  const std::uint64_t firings = there.at("firings");
+  ASSERT_EQ(control(run, {{"command", "step_firing"}}), 200);
+  EXPECT_FALSE(
+      events_->next("firings", [&](const json& data) { return data.at("total") == firings + 1; }).is_null());
+  ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
+  ASSERT_FALSE(await_state(run, "ended").is_null());
+  // The same run again comes to the same place.
+  const std::string again = start(asked);
+  ASSERT_FALSE(await_state(again, "paused").is_null());
+  EXPECT_EQ(info(again).at("firings"), firings);
+  EXPECT_EQ(info(again).at("values"), values);
+  ASSERT_EQ(control(again, {{"command", "stop"}}), 200);
+  json late = asked;
+  late["skip_to"] = 100;
+  EXPECT_EQ(post("/api/runs", late).status, 400);
+}
+
 TEST_F(RunOfTheStudio, WhatTheCompilerSaysReachesThePage) {
   const fs::path source = folder_ / "project/src/control.cpp";
   write(source, content_of(source) + "\nint broken = \"text\";\n");

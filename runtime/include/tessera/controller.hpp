@@ -58,8 +58,11 @@ struct RunOptions {
   bool monitor = false;       ///< the run can be watched (tessera/monitor.hpp)
   /// Simulated clock, with `monitor`: the run begins paused.
   bool paused = false;
-  // Simulated clock, with `monitor`: simulated seconds per second of real time. 0: as fast as possible.
+  /// Simulated clock, with `monitor`: simulated seconds per second of real time. 0: as fast as possible.
   double speed = 1;
+  /// Simulated clock, with `monitor`: up to this time the run goes as fast as possible. `speed` and `paused`
+  /// count from then on.
+  std::optional<Duration> skip_to;
   /// File of a run that is followed first (tessera verify --scenario). When it has been followed,
   /// everything runs freely, and `duration` begins. Simulated clock only.
   std::string scenario;

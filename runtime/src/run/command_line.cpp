@@ -22,7 +22,7 @@ constexpr unsigned most_jobs = 4096;
 
 /// The options as the user wrote them, before they are interpreted.
 struct Words {
-  std::string duration, parameter_file, record_limit, simulation;
+  std::string duration, parameter_file, record_limit, simulation, skip_to;
   std::vector<std::string> parameters, drivers;
   std::vector<double> start;
   int domain = -1;
@@ -126,6 +126,15 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
     options.duration = parse_duration(words.duration);
     if (!options.duration)
       return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+  }
+  if (!words.skip_to.empty()) {
+    if (!words.controlled) return "--skip-to needs --controlled";
+    options.skip_to = parse_duration(words.skip_to);
+    if (!options.skip_to)
+      return fmt::format("--skip-to {}: expected a time such as 60s, 2min or 500ms", words.skip_to);
+    if (options.duration && *options.skip_to >= *options.duration)
+      return fmt::format("--skip-to {}: the run ends after {} already (--for)", words.skip_to,
+                         words.duration);
   }
   if (!words.record_limit.empty()) {
     const auto limit = parse_record_limit(words.record_limit);
@@ -274,6 +283,9 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                    "With --controlled: simulated seconds a second; 0: as fast as possible")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
+  simulate->add_option("--skip-to", words.skip_to,
+                       "With --controlled: as fast as possible up to this time; --speed and --paused count "
+                       "from then on");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

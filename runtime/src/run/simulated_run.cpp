@@ -175,7 +175,9 @@ bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, co
 
 Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals) {
   if (assembly.options.monitor) {
-    remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused, assembly.options.speed);
+    skip_to_ = assembly.options.skip_to;
+    remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused && !skip_to_,
+                                              assembly.options.speed);
     monitor_.emplace(assembly, clock_, remote_.get());
     monitor_->warn_of_failure(clock_.now());
   }
@@ -307,12 +309,19 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     stuck_.look(assembly, clock_.now());
     if (!beats_.empty()) next = std::min(next, beats_.first_time());
     if (remote_ != nullptr) remote_->keep_recording_live();
+    const bool skips = skip_to_ && std::min(next, end) < Time(*skip_to_);
+    if (skip_to_ && !skips) {
+      skip_to_.reset();
+      pace.restart(clock_.now());
+      if (assembly.options.paused) remote_->pause();
+      continue;
+    }
     if (published_ && published_->next() < std::min(next, end)) {
-      if (pace.wait_for(published_->next(), clock_.now(), assembly.recorder.get()))
+      if (skips || pace.wait_for(published_->next(), clock_.now(), assembly.recorder.get()))
         published_->publish(published_->next());
       continue;
     }
-    if (!pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
+    if (!skips && !pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
     if (next >= end) {
       move_to(assembly, end);
       return ending("duration", assembly.control.failed());

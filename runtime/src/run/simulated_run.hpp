@@ -68,6 +68,7 @@ class SimulatedRun final : public Waker {
   std::vector<bool> is_ready_, has_ended_;
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn has not ended
   std::unique_ptr<RemoteControl> remote_;    // only for a run that is watched
+  std::optional<Duration> skip_to_;          // until the run has come there
   DeadlineQueue deadlines_, beats_;
   ProcessLives lives_;
   Time last_firing_{};

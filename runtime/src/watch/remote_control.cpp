@@ -144,6 +144,12 @@ void RemoteControl::abandon() {
 
 // -------------------------------------------------------------------------------------------- the run's
 
+void RemoteControl::pause() {
+  const std::lock_guard lock(mutex_);
+  set_paused(true);
+  update();
+}
+
 void RemoteControl::update() { one_by_one_ = paused_ || !breakpoints_.empty(); }
 
 void RemoteControl::take_news() const {

@@ -36,6 +36,8 @@ class RemoteControl {
   void abandon();
 
   // ---- the run's
+  /// As the command does.
+  void pause();
   [[nodiscard]] double speed() const { return speed_.load(std::memory_order_relaxed); }
   /// Whether `fired` must be called after every single firing.
   [[nodiscard]] bool one_by_one() const { return one_by_one_.load(std::memory_order_relaxed); }

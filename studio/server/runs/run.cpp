@@ -228,8 +228,10 @@ void Run::execute(project::Controller controller) {
   if (simulated) {
     command.insert(command.end(), {"--controlled", fmt::format("--speed={}", request_.speed)});
     if (request_.paused) command.emplace_back("--paused");
+    if (request_.skip_to_s > 0) command.push_back(fmt::format("--skip-to={:.9f}s", request_.skip_to_s));
   }
-  set_state(request_.paused && simulated ? State::paused : State::running);
+  const bool begins_paused = request_.paused && request_.skip_to_s <= 0;
+  set_state(begins_paused && simulated ? State::paused : State::running);
   const std::filesystem::path note = folder.path() / "death.txt";
   const project::Exit exit = project::capture_apart(
       project::with_death_note(command, note), stop_,

@@ -37,6 +37,7 @@ struct RunRequest {
   std::uint64_t seed = 1;
   double speed = 1;
   bool paused = false;
+  double skip_to_s = 0;      ///< of simulate: as fast as possible up to this time of the run
   bool records_all = false;  ///< also values of more than 4 KiB, such as pictures
 };
 

@@ -80,7 +80,8 @@ json RunParameters::shown() const {
   for (const Shown& one : all_) {
     if (one.values.empty()) continue;
     const std::optional<std::string>& value = one.values.begin()->second;
-    const bool differs = std::ranges::any_of(one.values, [&](const auto& each) { return each.second != value; });
+    const bool differs =
+        std::ranges::any_of(one.values, [&](const auto& each) { return each.second != value; });
     rows.push_back({{"path", one.path},
                     {"type", one.type},
                     {"unit", one.unit},

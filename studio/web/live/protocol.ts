@@ -431,6 +431,8 @@ export interface StartRequest {
   /** Simulated seconds a second; 0: as fast as possible. */
   speed?: number;
   paused?: boolean;
+  /** Of simulate: as fast as possible up to this second of the run; `speed` and `paused` count from then on. */
+  skip_to?: number;
   /** What is recorded; all: also values of more than 4 KiB, such as pictures. */
   values?: "small" | "all";
 }

@@ -22,6 +22,7 @@ import type {
   RunRequest,
   RunState,
   SceneShown,
+  StartRequest,
   SubsystemsEvent,
   ValuesEvent,
 } from "./protocol";
@@ -61,6 +62,8 @@ export interface RunnerState {
   panels: readonly PanelShown[];
   /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
+  /** What it was started with from this page; null: somewhere else. */
+  request: StartRequest | null;
   /** Whether it has a pane of the drawing; a run continues without one, too. */
   shown: boolean;
 }
@@ -71,6 +74,7 @@ export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
 
 /** Somebody else has started it. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
+const isStarted = (request: RunRequest): request is StartRequest => !isWatched(request);
 
 const idle: RunnerState = {
   run: null,
@@ -85,6 +89,7 @@ const idle: RunnerState = {
   parameters: [],
   panels: [],
   breakpoints: [],
+  request: null,
   shown: false,
 };
 
@@ -162,9 +167,10 @@ export class Runner {
       breakpoints: this.store.get().breakpoints,
       state: "building",
       kind: request.kind,
-      speed: isWatched(request) ? 1 : (request.speed ?? 1),
+      speed: isStarted(request) ? (request.speed ?? 1) : 1,
+      request: isStarted(request) ? request : null,
     });
-    this.watch(net, isWatched(request) ? null : request.track);
+    this.watch(net, isStarted(request) ? request.track : null);
     await this.beforeEvents(async () => {
       try {
         const { run } = await this.api.start(request);
@@ -346,6 +352,20 @@ export class Runner {
     } catch (error) {
       this.store.set({ problem: message(error) });
     }
+  }
+
+  /** Stops the run, and waits until it has ended. */
+  async stop(): Promise<void> {
+    if (!this.active) return;
+    const ended = new Promise<void>((done) => {
+      const leave = this.store.subscribe(() => {
+        if (this.active) return;
+        leave();
+        done();
+      });
+    });
+    await this.control({ command: "stop" });
+    await ended;
   }
 
   /** Returns why the controller refuses the value; empty: it takes it. */

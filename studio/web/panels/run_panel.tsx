@@ -4,6 +4,7 @@ import { useStore, useStudio } from "../hooks/use";
 import type { Breakpoint } from "../live/protocol";
 import { sentence } from "../model/labels";
 import type { NetModel } from "../model/net";
+import { Again } from "./again";
 import { Choice } from "./field";
 import { Icon, IconButton } from "./icons";
 import { OperatorPanels } from "./operator_panel";
@@ -31,6 +32,7 @@ export function RunPanel() {
         </div>
       )}
       {active ? <Controls /> : <StartForm />}
+      <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
       {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
       {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}

@@ -75,6 +75,28 @@ async function seenInSpace(page, server) {
   assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify(issues.messages));
 }
 
+test("a run is made again with the code as it is now, and goes on from a moment", () =>
+  onBuilt(lineFollower, async (page) => {
+    await tab(page, "Run").click();
+    await button(page, "Run").click();
+    await page.locator(".running-now").getByText("follow").waitFor();
+    await button(page, "Pause").click();
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    const from = page.getByLabel("Again from, in seconds");
+    await from.fill("soon");
+    assert.ok(await button(page, "Again from").isDisabled());
+    await from.fill("8.5");
+    await button(page, "Again from").click();
+    const seconds = async () => parseFloat(await page.getByTestId("run-facts").innerText());
+    await until(page, async () => (await seconds()) > 8, "the moment");
+    await page.getByTestId("run-state").getByText("Paused").waitFor();
+    assert.ok((await seconds()) <= 8.5, String(await seconds()));
+    await button(page, "Go on").click();
+    await until(page, async () => (await seconds()) > 8.6, "it goes on");
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+  }));
+
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
   onBuilt(lineFollower, async (page, server) => {
     await tab(page, "Run").click();

@@ -1,0 +1,20 @@
+/** The request of a run that is made again from its beginning, and shown from a moment on. */
+
+import type { StartRequest } from "../live/protocol";
+
+/** Of a simulated run that is given no other. */
+const defaultTime = "600s";
+
+/** at: seconds. A run that had ended there, since its time was over, gets as much time again. */
+export function againFrom(request: StartRequest, at: number, paused: boolean): StartRequest {
+  const end = secondsOf(request.for ?? defaultTime);
+  const more = end !== null && at >= end ? { for: `${at + end}s` } : {};
+  return { ...request, ...more, paused, skip_to: at };
+}
+
+/** null: no duration. */
+function secondsOf(text: string): number | null {
+  const found = /^\s*([\d.]+)\s*(ns|us|ms|s|min|h)\s*$/.exec(text);
+  const units: Record<string, number> = { ns: 1e-9, us: 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
+  return found ? Number(found[1]) * units[found[2]!]! : null;
+}

@@ -24,7 +24,7 @@ constexpr const char* panel_hint =
     "for example { panel: { turn: { stick_x: [-2, 2] }, forward: { stick_y: [-0.5, 0.5] }, horn: button } }";
 constexpr const char* control_hint = "button, switch, slider, stick_x or stick_y, or { slider: [0, 0.5] }";
 constexpr std::size_t most_controls = 32;
-constexpr std::chrono::seconds longest_stale{5};
+constexpr std::chrono::milliseconds shortest_stale{100}, longest_stale{5000};
 
 constexpr std::array<std::pair<std::string_view, ControlKind>, 5> control_kinds{
     {{"button", ControlKind::button},
@@ -269,6 +269,9 @@ Panel read_panel(const Entry& entry, const Type& type, const Model& model, Diagn
   }
   if (const Entry* const stale = section.find("stale")) {
     panel.stale = read_duration(*stale->value, stale->span, "stale", out).value_or(panel.stale);
+    if (panel.stale < shortest_stale)
+      out.error("E206", stale->value->span, "an input of an operator counts for at least 100 ms",
+                "a page repeats its inputs, but not more often than it can");
     if (panel.stale > longest_stale)
       out.error("E206", stale->value->span, "an input of an operator counts for at most 5 s",
                 "the robot goes on for so long when the operator is gone");

@@ -12,8 +12,8 @@ export interface OperatorState {
   problems: ReadonlyMap<string, string>;
 }
 
-/** An input is repeated so often, in milliseconds. */
-const repetition = 80;
+/** How often inputs are repeated, in milliseconds: several times while one counts. */
+const repetition = (panels: Iterable<PanelShown>) => Math.min(80, ...[...panels].map(({ stale_s }) => stale_s * 250));
 
 /**
  * Operates panels of the running controller. It repeats the inputs as long as the page is looked at. Once the
@@ -47,7 +47,8 @@ export class Operator {
   take(panel: PanelShown): void {
     this.panels.set(panel.path, panel);
     this.put(panel.path, neutralInputs(panel.controls), "");
-    this.timer ??= setInterval(() => this.repeat(), repetition);
+    clearInterval(this.timer);
+    this.timer = setInterval(() => this.repeat(), repetition(this.panels.values()));
     void this.send(panel.path);
   }
 

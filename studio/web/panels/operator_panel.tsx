@@ -1,21 +1,38 @@
-import { useId, useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
+import { useEffect, useId, useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { PanelControl, PanelShown } from "../live/protocol";
 import { deflected, deflectionOf, neutralOf, pushOf, stepOfSlider, type Inputs } from "../model/panel_inputs";
+
+/** Fleets have more than anybody operates. */
+const few = 6;
 
 /** The panels of the controller that runs: an operator moves their controls. */
 export function OperatorPanels() {
   const studio = useStudio();
   const { panels, kind } = useStore(studio.runner.store, (all) => all);
+  const [filter, setFilter] = useState("");
   if (kind === "deployment" || panels.length === 0) return null;
+  const found = panels.filter(({ path }) => path.includes(filter));
   return (
     <details open>
       <summary>
         <h3>Teleoperation</h3>
       </summary>
-      {panels.map((panel) => (
+      {panels.length > few && (
+        <div className="field">
+          <label htmlFor="panel-filter">Show</label>
+          <input
+            id="panel-filter"
+            placeholder="part of a path"
+            value={filter}
+            onChange={(event) => setFilter(event.target.value)}
+          />
+        </div>
+      )}
+      {found.slice(0, few).map((panel) => (
         <OperatorPanel key={panel.path} panel={panel} />
       ))}
+      {found.length > few && <p className="faint">{found.length - few} more: type a part of their path.</p>}
     </details>
   );
 }
@@ -26,6 +43,8 @@ function OperatorPanel({ panel }: { panel: PanelShown }) {
   const inputs = all.get(panel.path);
   const problem = problems.get(panel.path);
   const operated = inputs !== undefined;
+  // Nobody operates what is not on the screen.
+  useEffect(() => () => operator.letGo(panel.path), [operator, panel.path]);
   const move = (change: Inputs) => operator.move(panel.path, change);
   const held = inputs ?? Object.fromEntries(panel.controls.map((one) => [one.field, neutralOf(one)]));
   const x = panel.controls.find(({ control }) => control === "stick_x");

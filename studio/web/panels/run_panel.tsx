@@ -19,6 +19,7 @@ export function RunPanel() {
   const active = ["building", "running", "paused"].includes(runner.state);
   return (
     <div className="run-panel">
+      <h2 className="visually-hidden">Run</h2>
       {runner.state !== "idle" && (
         <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
           <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}

@@ -84,6 +84,16 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     }
     assert.deepEqual(objections, []);
 
+    // Who leaves the controls lets go of them.
+    await stick.focus();
+    await page.keyboard.down("ArrowUp");
+    await is({ left: 0.5 / 0.03 }, "ahead");
+    await tab(page, "Verify").click();
+    await is({ left: 0, gear: 1 }, "it stops when the tab is left");
+    await page.keyboard.up("ArrowUp");
+    await tab(page, "Run").click();
+    await drive.getByRole("button", { name: "Operate" }).click();
+
     // A second page is refused as long as the first operates the panel.
     const second = await open();
     await second.goto(server.url);

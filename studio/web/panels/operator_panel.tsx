@@ -58,7 +58,7 @@ function OperatorPanel({ panel }: { panel: PanelShown }) {
         </button>
       </div>
       <p className="faint" role="status">
-        {operated ? "This page operates it. It is neutral when the page is hidden or closed." : "Neutral."}
+        {operated ? "This page operates it. It is neutral when the page is hidden or closed." : "This page does not operate it."}
       </p>
       {problem && (
         <p className="problem-hint" role="alert">

@@ -35,8 +35,8 @@ export function RunPanel() {
       {active ? <Controls /> : <StartForm />}
       <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
-      {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
       {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
+      {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
       {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
       <Breakpoints />

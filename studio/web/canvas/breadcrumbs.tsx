@@ -55,7 +55,7 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
           </button>
         </>
       )}
-      <ExportButtons name={net.page(page).path} />
+      <ExportButtons film name={net.page(page).path} />
     </nav>
   );
 }

@@ -26,8 +26,14 @@ export interface Picture {
   height: number;
 }
 
-/** The part of `areas` (elements with a flow in each) that is visible now. */
-export function takePicture(areas: readonly Element[]): Picture {
+/** Classes that a film gives and takes. */
+const changing = ["fired", "enabled", "occupied", "runs", "selected"];
+
+/**
+ * The part of `areas` (elements with a flow in each) that is visible now.
+ * moves: it is the first picture of a film, so what comes and goes stays in it, hidden, with its classes.
+ */
+export function takePicture(areas: readonly Element[], moves = false): Picture {
   const frames = areas.map((area) => area.getBoundingClientRect());
   const [left, top] = [Math.min(...frames.map((one) => one.left)), Math.min(...frames.map((one) => one.top))];
   const width = Math.max(...frames.map((one) => one.right)) - left;
@@ -42,7 +48,7 @@ export function takePicture(areas: readonly Element[]): Picture {
     const size = { width: round(frame.width), height: round(frame.height) };
     const inner = make("svg", { x: round(frame.left - left), y: round(frame.top - top), ...size });
     inner.append(make("rect", { ...size, fill: getComputedStyle(area).getPropertyValue("--net-bg") || "#fff" }));
-    for (const part of stacked(area)) add(part, inner, frame);
+    for (const part of stacked(area)) add(part, inner, frame, moves);
     root.append(inner);
   });
   return { text: new XMLSerializer().serializeToString(root), width, height };
@@ -56,7 +62,7 @@ function stacked(area: Element): Element[] {
 }
 
 /** HTML becomes boxes and texts at their positions on the screen; SVG is copied with its style. */
-function add(element: Element, to: Element, frame: DOMRect): void {
+function add(element: Element, to: Element, frame: DOMRect, moves: boolean): void {
   const style = getComputedStyle(element);
   if (hidden(style)) return;
   if (element instanceof SVGSVGElement) {
@@ -65,7 +71,7 @@ function add(element: Element, to: Element, frame: DOMRect): void {
       at &&
       make("g", { transform: `matrix(${[at.a, at.b, at.c, at.d, at.e - frame.left, at.f - frame.top].map(exact).join(" ")})` });
     if (!copied) return;
-    for (const child of element.children) copied.append(copy(child));
+    for (const child of element.children) copied.append(copy(child, moves));
     to.append(copied);
     return;
   }
@@ -73,7 +79,7 @@ function add(element: Element, to: Element, frame: DOMRect): void {
   const scale = element instanceof HTMLElement && element.offsetWidth > 0 ? box.width / element.offsetWidth : 1;
   addBox(style, box, scale, to, frame);
   for (const node of element.childNodes) {
-    if (node instanceof Element) add(node, to, frame);
+    if (node instanceof Element) add(node, to, frame, moves);
     else if (node.nodeType === Node.TEXT_NODE && node.textContent?.trim()) addText(node, style, scale, to, frame);
   }
 }
@@ -137,19 +143,24 @@ function addText(node: Node, style: CSSStyleDeclaration, scale: number, to: Elem
   to.append(text);
 }
 
-function copy(element: Element): Element {
+function copy(element: Element, moves = false): Element {
   const same = element.cloneNode(false) as Element;
   const style = getComputedStyle(element);
-  if (hidden(style) && !(element instanceof SVGMarkerElement)) return make("g", {});
+  if (hidden(style) && !(element instanceof SVGMarkerElement)) {
+    if (!moves) return make("g", {});
+    same.setAttribute("display", "none");
+  }
   for (const property of kept) {
     const value = style.getPropertyValue(property);
     if (value && value !== "none" && value !== "normal")
       same.setAttribute(property, plainColour(value.replace(/url\("[^"#]*#/, 'url("#')));
     else if (value === "none" && (property === "fill" || property === "stroke")) same.setAttribute(property, value);
   }
-  for (const name of ["class", "style", "role", "aria-label", "tabindex"]) same.removeAttribute(name);
+  for (const name of ["style", "role", "aria-label", "tabindex"]) same.removeAttribute(name);
+  if (moves) same.classList.remove(...changing);
+  else same.removeAttribute("class");
   if (!(element instanceof SVGMarkerElement)) same.removeAttribute("id");
-  for (const child of element.childNodes) same.append(child instanceof Element ? copy(child) : child.cloneNode(true));
+  for (const child of element.childNodes) same.append(child instanceof Element ? copy(child, moves) : child.cloneNode(true));
   return same;
 }
 

@@ -1,4 +1,5 @@
 import { fire, markingBefore, runningBehaviours } from "../model/game";
+import type { Scenes } from "../model/film";
 import type { NetModel } from "../model/net";
 import { count } from "../model/sorted";
 import type { FiringRow, PathRow, Recording } from "./protocol";
@@ -163,6 +164,19 @@ export class Replay {
     this.stage.setMarking(marking);
     this.stage.setCounts(counts);
     this.index = index;
+  }
+
+  /** What happens from the moment shown on, as far as it is loaded; at its end: all that is loaded. */
+  scenes(most: number): Scenes {
+    const rest = this.index < this.firings.length;
+    const firings = this.firings.slice(rest ? this.index : 0).slice(0, most);
+    return {
+      title: this.name,
+      from: rest ? this.stage.marking.slice() : this.checkpoints[0]!,
+      firings: firings.map(([, transition]) => transition),
+      times: firings.map(([time]) => time),
+      begin: rest ? this.track.now : this.begin,
+    };
   }
 
   /** Goes to the next or the previous time at which a transition fired. */

@@ -1,4 +1,7 @@
 import assert from "node:assert/strict";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
 import validator from "gltf-validator";
 import { button, drawn, example, find, onBuilt, serve, tab, until } from "./page.mjs";
@@ -74,6 +77,54 @@ async function seenInSpace(page, server) {
   const { issues } = await validator.validateBytes(glb);
   assert.deepEqual([issues.numErrors, issues.numWarnings], [0, 0], JSON.stringify(issues.messages));
 }
+
+test("a recording is saved as a film that shows the same without the studio", () =>
+  onBuilt(lineFollower, async (page, _server, open) => {
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed" }).fill("0");
+    await page.getByRole("textbox", { name: "For" }).fill("6s");
+    await button(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    await button(page, "Close this run").click();
+    await tab(page, "Recordings").click();
+    await page.locator(".recordings button").first().click();
+    const slider = page.getByRole("slider", { name: "Time" });
+    await slider.waitFor();
+    await find(page, "robot.control");
+    await until(page, async () => (await page.locator(".sheet [data-place]").count()) > 6, "the net of the subsystem");
+    await drawn(page);
+    const saved = page.waitForEvent("download");
+    await button(page, "Film").click();
+    const film = await open();
+    const file = join(mkdtempSync(join(tmpdir(), "film-")), "film.html");
+    await (await saved).saveAs(file);
+    await film.goto(`file://${file}`);
+    const tokens = (on) =>
+      on.evaluate(() =>
+        [...document.querySelectorAll("[data-place]")]
+          .filter((group) => getComputedStyle(group).display !== "none")
+          .map((group) => group.getAttribute("data-place"))
+          .sort()
+          .join(),
+      );
+    const first = Number(await slider.getAttribute("min"));
+    for (const seconds of [0.5, 3.21, 5.9, 1.7]) {
+      await slider.fill(String(seconds * 1e9));
+      await film.getByRole("slider", { name: "Position" }).fill(String(seconds - first / 1e9));
+      const there = await tokens(film);
+      assert.ok(there.length > 0);
+      await until(page, async () => (await tokens(page)) === there, `the tokens of ${seconds} s: ${there}`);
+    }
+    await film.getByRole("button", { name: "Play" }).click();
+    await until(film, async () => parseFloat(await film.locator("#time").innerText()) > 1.9, "it plays");
+    await film.getByRole("button", { name: "Pause" }).click();
+    const now = await film.locator("#time").innerText();
+    await film.getByRole("button", { name: "One firing on" }).click();
+    assert.notEqual(await film.locator("#time").innerText(), now);
+    assert.match(await film.locator("#last").innerText(), /robot\./);
+    if (process.env.PICTURES) await film.screenshot({ path: `${process.env.PICTURES}/film.png` });
+    rmSync(dirname(file), { recursive: true });
+  }));
 
 test("a run is made again with the code as it is now, and goes on from a moment", () =>
   onBuilt(lineFollower, async (page) => {

@@ -1,0 +1,67 @@
+import { describe, expect, it } from "vitest";
+import { filmPage } from "../../canvas/film_page";
+import { drawnIn, filmOf, type Drawn } from "../../model/film";
+import { initialMarking, runningBehaviours, Walk } from "../../model/game";
+import { activeTransitions } from "../../model/game";
+import { lineFollower } from "./line_follower";
+
+const net = lineFollower();
+
+/** So many firings of the token game, drawn by a rule. */
+function played(length: number): number[] {
+  const walk = new Walk(net);
+  while (walk.position < length) {
+    const active = activeTransitions(net, walk.marking);
+    walk.choose(active[(walk.position * 7) % active.length]!);
+  }
+  return walk.steps;
+}
+
+const firings = played(300);
+const everything: Drawn = {
+  places: new Set(net.places.keys()),
+  pages: new Set(net.pages.keys()),
+  subsystems: [...net.pages.keys()],
+};
+const scenes = { title: "a run", from: initialMarking(net), firings, times: firings.map((_, at) => 5e9 + at * 1e7), begin: 5e9 };
+
+describe("a film", () => {
+  it("shows the marking of every moment, the pages with tokens inside, and what runs", () => {
+    const film = filmOf(scenes, net, everything);
+    const walk = new Walk(net, firings);
+    const tokens = new Map(film.start);
+    const running = new Map<number, string>();
+    for (let at = 0; ; at += 1) {
+      for (const [after, page, behaviour] of film.running) if (after === at) running.set(page, behaviour);
+      net.places.forEach((_, place) => expect(tokens.get(place) ?? 0).toBe(walk.marking[place]));
+      for (const [index, page] of net.pages.entries()) {
+        if (page.layer === "system") continue;
+        let inside = 0;
+        net.places.forEach((place, flat) => {
+          for (let up = place.page; up !== null; up = net.page(up).parent) if (up === index) inside += walk.marking[flat]!;
+        });
+        expect(tokens.get(-1 - index) ?? 0).toBe(inside);
+      }
+      const now = runningBehaviours(net, walk.marking);
+      for (const page of running.keys()) expect(net.page(page).layer).toBe("subsystem");
+      for (const page of net.subsystemPages()) expect(running.get(page)).toBe(now.get(net.page(page).subsystem!) ?? "");
+      if (at === firings.length) break;
+      for (const [place, change] of film.effects[film.fired[at]!]!) tokens.set(place, (tokens.get(place) ?? 0) + change);
+      expect(walk.forward()).toBe(true);
+    }
+    expect(film.times!.slice(0, 2)).toEqual([0, 1e7]);
+    expect(film.begin).toBe(5);
+  });
+  it("holds what the drawing shows, and no more", () => {
+    const drawn = drawnIn('<svg><g data-place="3"/><g data-page="2"/><text data-running="2"/><g data-place="3"/></svg>');
+    expect(drawn).toEqual({ places: new Set([3]), pages: new Set([2]), subsystems: [2] });
+    const film = filmOf(scenes, net, drawn);
+    for (const changes of Object.values(film.effects)) for (const [place] of changes) expect([3, -3]).toContain(place);
+  });
+  it("is a page that no name can break", () => {
+    const page = filmPage(filmOf({ ...scenes, title: '</script><b>&"' }, net, everything), "<svg/>", "#123", "#456");
+    expect(page.match(/<\/script>/g)).toHaveLength(2);
+    expect(page).toContain("<title>&#60;/script&#62;&#60;b&#62;&#38;&#34;</title>");
+    expect(page).not.toMatch(/https?:/);
+  });
+});

@@ -16,8 +16,9 @@ namespace tessera {
 namespace {
 
 [[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
-  for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
-                               Recording::Direction::real_input, Recording::Direction::real_output})
+  for (const auto direction :
+       {Recording::Direction::input, Recording::Direction::output, Recording::Direction::real_input,
+        Recording::Direction::real_output, Recording::Direction::memory})
     if (name_of(direction) == name) return direction;
   return std::nullopt;
 }
@@ -110,7 +111,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
   const std::string_view name = recording_magic.substr(0, recording_magic.size() - 1);
   if (!bytes.starts_with(name.substr(0, bytes.size()))) return "is no recording of Tessera";
   if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return "";
-  const bool is_newer = bytes.back() > recording_magic_with_poses.back() && bytes.back() <= '9';
+  const bool is_newer = bytes.back() > recording_magic_with_memory.back() && bytes.back() <= '9';
   return is_newer ? "was recorded by a newer version of Tessera, which has to read it"
                   : "is no recording of Tessera";
 }
@@ -266,6 +267,8 @@ std::string_view name_of(Recording::Direction direction) {
       return "real_in";
     case Recording::Direction::real_output:
       return "real_out";
+    case Recording::Direction::memory:
+      return "memory";
   }
   return "";
 }

@@ -81,6 +81,54 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   EXPECT_TRUE(recording.at("values").at("robot.control.line.middle").front()[1].is_boolean());
 }
 
+TEST_F(RunOfTheStudio, ParametersAreShownAndChangedWhileItRuns) {
+  const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 10}});
+  ASSERT_FALSE(await_state(run, "running").is_null());
+  const auto held = [](const json& rows, const std::string& path) {
+    for (const json& row : rows)
+      if (row.at("path") == path) return row;
+    return json(nullptr);
+  };
+  const json begun = info(run);
+  const json speed = held(begun.at("parameters"), "v");
+  ASSERT_FALSE(speed.is_null()) << begun.at("parameters");
+  EXPECT_EQ(speed.at("value"), "0.2");
+  EXPECT_EQ(speed.at("unit"), "m/s");
+  EXPECT_FALSE(speed.at("differs").get<bool>());
+  EXPECT_EQ(held(begun.at("parameters"), "robot.motor.r").at("value"), "0.03");
+
+  const auto set = [&](const std::string& path, const std::string& text) {
+    return control(run, {{"command", "set"}, {"path", path}, {"text", text}});
+  };
+  ASSERT_EQ(set("v", "0.15"), 200);
+  ASSERT_EQ(set("robot.motor.r", "0.04"), 200);
+  // Shown is what the recording says that it has taken, not what was asked for.
+  EXPECT_FALSE(events_
+                   ->next("parameters",
+                          [&](const json& data) {
+                            return held(data.at("parameters"), "v").at("value") == "0.15" &&
+                                   held(data.at("parameters"), "robot.motor.r").at("value") == "0.04";
+                          })
+                   .is_null());
+  const json changed = info(run);
+  EXPECT_EQ(held(changed.at("parameters"), "v").at("value"), "0.15");
+  // The robot drives slower.
+  EXPECT_FALSE(events_
+                   ->next("values",
+                          [](const json& data) {
+                            const json& values = data.at("values");
+                            return values.contains("robot.control.motion") &&
+                                   values.at("robot.control.motion").at("linear") == 0.15;
+                          })
+                   .is_null());
+  EXPECT_EQ(set("v", "fast"), 409);
+  EXPECT_EQ(set("robot.control.nothing", "1"), 409);
+  EXPECT_EQ(control(run, {{"command", "set"}}), 409);
+  EXPECT_EQ(held(info(run).at("parameters"), "v").at("value"), "0.15");
+  ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
+  ASSERT_FALSE(await_state(run, "ended").is_null());
+}
+
 TEST_F(RunOfTheStudio, WhatTheCompilerSaysReachesThePage) {
   const fs::path source = folder_ / "project/src/control.cpp";
   write(source, content_of(source) + "\nint broken = \"text\";\n");

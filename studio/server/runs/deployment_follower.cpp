@@ -10,6 +10,7 @@
 #include "project/process/waiting_chains.hpp"
 #include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/recording_stream.hpp"
+#include "server/runs/or_null.hpp"
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
@@ -29,8 +30,6 @@ constexpr std::size_t most_joint_firings = 2000, most_chains = 200, most_links =
 double seconds_since(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
-
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 }  // namespace
 

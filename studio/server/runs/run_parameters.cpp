@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "server/runs/or_null.hpp"
+
 namespace tessera::server {
 
 using nlohmann::json;
@@ -28,8 +30,6 @@ std::string plain(const spec::Parameter& parameter) {
   const bool quoted = parameter.type.kind == spec::Type::Kind::string && text.size() > 1;
   return quoted && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
 }
-
-json or_null(const std::optional<double>& number) { return number ? json(*number) : json(nullptr); }
 
 }  // namespace
 
@@ -80,7 +80,8 @@ json RunParameters::shown() const {
   for (const Shown& one : all_) {
     if (one.values.empty()) continue;
     const std::optional<std::string>& value = one.values.begin()->second;
-    const bool differs = std::ranges::any_of(one.values, [&](const auto& each) { return each.second != value; });
+    const bool differs =
+        std::ranges::any_of(one.values, [&](const auto& each) { return each.second != value; });
     rows.push_back({{"path", one.path},
                     {"type", one.type},
                     {"unit", one.unit},

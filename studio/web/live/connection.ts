@@ -23,6 +23,7 @@ const listened: Record<keyof Events, true> = {
   poses: true,
   subsystems: true,
   deployment: true,
+  parameters: true,
 };
 
 /** The event stream. It is opened again whenever it breaks. */

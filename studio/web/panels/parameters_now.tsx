@@ -23,7 +23,13 @@ export function ParametersNow() {
       {parameters.length > 12 && (
         <div className="field">
           <label htmlFor="parameter-filter">Show</label>
-          <input id="parameter-filter" placeholder="part of a path" value={filter} onChange={(event) => setFilter(event.target.value)} />
+          <input
+            id="parameter-filter"
+            type="text"
+            placeholder="part of a path"
+            value={filter}
+            onChange={(event) => setFilter(event.target.value)}
+          />
         </div>
       )}
       <div className="parameters-now">
@@ -74,7 +80,11 @@ function Parameter({ shown }: { shown: ParameterShown }) {
       <label htmlFor={id}>
         <span className="path">{path}</span> <strong>{said}</strong>
         {value !== null && !same(value, initial, type) && (
-          <IconButton name="undo" label={`${path} back to ${initial}, as the specification says`} onClick={() => void send(initial)} />
+          <IconButton
+            name="undo"
+            label={`${path} back to ${initial}, as the specification says`}
+            onClick={() => void send(initial)}
+          />
         )}
       </label>
       {control === "switch" && (
@@ -95,6 +105,7 @@ function Parameter({ shown }: { shown: ParameterShown }) {
       {(control === "number" || control === "text") && (
         <input
           id={id}
+          type="text"
           inputMode={control === "number" ? "decimal" : "text"}
           value={text}
           onChange={(event) => setTyped(event.target.value)}

@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "react";
+import { useLayoutEffect, useRef, useState } from "react";
 import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Replay } from "../live/replay";
 import type { Track } from "../live/track";
@@ -93,8 +93,11 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: Watc
 
 /** Counts that change all the time; a screen reader does not announce them. */
 function Facts({ track }: { track: Track }) {
+  const studio = useStudio();
+  const { state } = useStore(studio.runner.store, (all) => all);
   const ref = useRef<HTMLSpanElement>(null);
-  useEffect(() => {
+  // A run that is shown as paused has the counts of its pause.
+  useLayoutEffect(() => {
     const tell = () => {
       const dropped = track.dropped > 0 ? ` (${track.dropped.toLocaleString("en")} only counted)` : "";
       if (ref.current)
@@ -103,7 +106,7 @@ function Facts({ track }: { track: Track }) {
     tell();
     const timer = setInterval(tell, 100);
     return () => clearInterval(timer);
-  }, [track]);
+  }, [track, state]);
   const sampled = "Of a run that fires faster than can be sent, some firings are counted and not drawn one by one";
   return <span ref={ref} className="facts" data-testid="run-facts" title={sampled} />;
 }

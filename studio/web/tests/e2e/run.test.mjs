@@ -96,6 +96,18 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await until(page, async () => (await facts()) !== before, "more firings");
     await page.getByText("robot.control.motion.angular").waitFor();
     await seenInSpace(page, server);
+    // A parameter of the running controller is typed, and shown as the controller has taken it.
+    const speed = page.locator('[data-parameter="v"]');
+    await speed.getByText("0.2 m/s").waitFor();
+    await speed.getByRole("textbox").fill("fast");
+    await speed.getByRole("textbox").press("Enter");
+    await speed.getByRole("alert").waitFor();
+    await speed.getByRole("textbox").fill("0.15");
+    await speed.getByRole("textbox").press("Enter");
+    await speed.getByText("0.15 m/s").waitFor();
+    assert.equal(await speed.getByRole("alert").count(), 0);
+    await button(page, "v back to 0.2, as the specification says").click();
+    await speed.getByText("0.2 m/s").waitFor();
     await button(page, "3D").click();
     const painted = () => page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => canvas.toDataURL());
     const path = await painted();

@@ -36,6 +36,7 @@ async function watching() {
       [4, 1, 0, 0],
     ],
     subsystems: null,
+    parameters: [],
     deployment: null,
     verdicts: null,
     outcome: null,

@@ -16,9 +16,8 @@ namespace tessera {
 namespace {
 
 [[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
-  for (const auto direction :
-       {Recording::Direction::input, Recording::Direction::output, Recording::Direction::real_input,
-        Recording::Direction::real_output, Recording::Direction::memory})
+  using enum Recording::Direction;
+  for (const auto direction : {input, output, real_input, real_output, memory})
     if (name_of(direction) == name) return direction;
   return std::nullopt;
 }
@@ -258,19 +257,8 @@ std::string_view name_of(Fault fault) {
 }
 
 std::string_view name_of(Recording::Direction direction) {
-  switch (direction) {
-    case Recording::Direction::input:
-      return "in";
-    case Recording::Direction::output:
-      return "out";
-    case Recording::Direction::real_input:
-      return "real_in";
-    case Recording::Direction::real_output:
-      return "real_out";
-    case Recording::Direction::memory:
-      return "memory";
-  }
-  return "";
+  constexpr std::string_view names[] = {"in", "out", "real_in", "real_out", "memory"};
+  return names[static_cast<std::size_t>(direction)];
 }
 
 ValueEvent value_of(const Recording::Entry& entry) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "served.hpp"
@@ -24,19 +25,19 @@ class RecordingOfTheStudio : public Served {
   [[nodiscard]] std::string header(std::uint64_t segment, const json& scene = {}) const {
     json transitions = json::array();
     for (const auto& transition : analysis_.net->transitions()) transitions.push_back({transition.name, 0});
-    json header{
-        {"system", "line_follower"},
-        {"net_hash", analysis_.net_hash},
-        {"verification_hash", ""},
-        {"seed", 1},
-        {"clock", "steady"},
-        {"instances", {"robot.control"}},
-        {"transitions", transitions},
-        {"values",
-         {{"limit", 4096},
-          {"buffers",
-           {{"robot.control.line", 0, "in", "{left: bool}"},
-            {"robot.control.memory.count", 0, "memory", "uint8"}}}}}};
+    json header{{"system", "line_follower"},
+                {"net_hash", analysis_.net_hash},
+                {"verification_hash", ""},
+                {"seed", 1},
+                {"clock", "steady"},
+                {"instances", {"robot.control"}},
+                {"transitions", transitions},
+                {"values",
+                 {{"limit", 4096},
+                  {"buffers",
+                   {{"robot.control.line", 0, "in", "{left: bool}"},
+                    {"robot.control.memory.count", 0, "memory", "uint8"},
+                    {"robot.control.memory.free", 0, "memory", "float64"}}}}}};
     if (!scene.is_null()) header["scene"] = scene;
     std::string text = header.dump();
     text.back() = ',';
@@ -124,9 +125,9 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
 
 TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment) {
   const std::uint32_t first = transition("t_in"), second = transition("robot.t_in");
-  write(folder_ / "project/run.tsr",
-        header(0) + value("\1") + memory(5, 1) + firing(10, first) + memory(20, 2) + firing(40, second) +
-            memory(50, 3) + firing(70, first));
+  write(folder_ / "project/run.tsr", header(0) + value("\1") + memory(5, 1) + firing(10, first) +
+                                         memory(20, 2) + firing(40, second) + memory(50, 3) +
+                                         firing(70, first));
   serve();
   const json whole = get("/api/recordings/run.tsr").json();
   EXPECT_TRUE(whole.at("marking").is_null());
@@ -148,6 +149,20 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
   const json end = get("/api/recordings/run.tsr?from=100").json();
   EXPECT_EQ(end.at("firings"), json::array());
   EXPECT_EQ(end.at("values").at("robot.control.line.left"), json({{100, true}}));
+}
+
+TEST_F(RecordingOfTheStudio, NumbersThatJsonHasNotAreTexts) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::string events;
+  for (const double free : {-infinite, infinite, std::numeric_limits<double>::quiet_NaN(), 0.5}) {
+    std::string bytes(sizeof free, '\0');
+    std::memcpy(bytes.data(), &free, sizeof free);
+    events += event(10, Event::Kind::value, sizeof free, bytes, 2);
+  }
+  write(folder_ / "project/run.tsr", header(0) + events);
+  serve();
+  EXPECT_EQ(get("/api/recordings/run.tsr").json().at("values").at("robot.control.memory.free"),
+            json::parse(R"([[10, "-inf"], [10, "inf"], [10, "nan"], [10, 0.5]])"));
 }
 
 TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {

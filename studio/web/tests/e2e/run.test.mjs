@@ -26,10 +26,10 @@ test("a system without a world runs on the simulated clock, and what came of it 
     const values = page.locator(".value-list");
     await values.getByRole("textbox", { name: "Values whose path contains" }).fill("memory.missed");
     await values.getByText("watcher.control.memory.missed").click();
-    await page.getByLabel("Plot of watcher.control.memory.missed").waitFor();
+    await page.getByRole("img", { name: "Plot of watcher.control.memory.missed" }).waitFor();
     await find(page, "watcher.control");
     await tab(page, "Element").click();
-    const memory = page.getByRole("region", { name: "Memory" });
+    const memory = page.getByRole("region", { name: "Memory", exact: true });
     await memory.getByText("last").waitFor();
     assert.match(await memory.innerText(), /last\s+199\s+missed\s+0/);
     await tab(page, "Run").click();

@@ -22,7 +22,7 @@ export function MemoryNow({ subsystem }: { subsystem: string }) {
       key={pane.id}
       track={pane.track!}
       subsystem={subsystem}
-      title={watched.length > 1 ? `Memory in ${title(pane)}` : "Memory"}
+      title={watched.length > 1 ? `Memory now in ${title(pane)}` : "Memory now"}
     />
   ));
 }

@@ -29,7 +29,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await page.getByRole("img", { name: "Plot of watcher.control.memory.missed" }).waitFor();
     await find(page, "watcher.control");
     await tab(page, "Element").click();
-    const memory = page.getByRole("region", { name: "Memory", exact: true });
+    const memory = page.getByRole("region", { name: "Memory now" });
     await memory.getByText("last").waitFor();
     assert.match(await memory.innerText(), /last\s+199\s+missed\s+0/);
     await tab(page, "Run").click();

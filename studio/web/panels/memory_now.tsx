@@ -9,7 +9,7 @@ import { unitOf } from "../model/units";
 import { usePaneTitle } from "./pane_title";
 
 /** Large structures and fleets have more than anybody reads. */
-const most = 60;
+const most = 24;
 
 /** What a subsystem remembers at the time that is shown, of each run and recording in view. */
 export function MemoryNow({ subsystem }: { subsystem: string }) {

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "subsystem/memory_gauge.hpp"
+
 namespace tessera {
 
 // The lines that a monitor and its clients send each other. tessera/monitor.hpp describes them.
@@ -19,6 +21,7 @@ struct Snapshot {
     bool calling = false, ended = false;
     std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
     double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
+    std::vector<MemoryGauge::Field> memory;
   };
   struct Channel {
     std::string name;

@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -54,6 +54,25 @@ std::string state_of(const Snapshot::Subsystem& subsystem) {
   return *subsystem.behaviour + (subsystem.calling ? " *" : "");
 }
 
+/// "    free 0.35  side 1", on as many lines as it takes.
+std::string memory_of(const Snapshot::Subsystem& subsystem) {
+  constexpr std::size_t widest = 108, most_lines = 4;
+  std::vector<std::string> lines;
+  for (const auto& [name, value] : subsystem.memory) {
+    const std::string field = name + " " + value;
+    if (lines.empty() || (lines.back() + "  " + field).size() > widest)
+      lines.push_back("    " + field);
+    else
+      lines.back() += "  " + field;
+  }
+  const std::size_t shown = std::min(lines.size(), most_lines);
+  return fmt::format("{}{}",
+                     fmt::join(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(shown), "\n"),
+                     shown == 0             ? ""
+                     : lines.size() > shown ? " ...\n"
+                                            : "\n");
+}
+
 /// Both of one controller.
 std::string table(const Snapshot& now, const Snapshot& before) {
   const double elapsed_s = now.time_s - before.time_s;
@@ -68,6 +87,7 @@ std::string table(const Snapshot& now, const Snapshot& before) {
     text += fmt::format("{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n", one.path, state_of(one),
                         rate_of(one, before.subsystems[index], elapsed_s), duration_of(one.call_s),
                         duration_of(one.longest_call_s), one.overruns, one.errors);
+    text += memory_of(one);
   }
   text += fmt::format("\n{:<60} {}\n", "channel", "state");
   for (const Snapshot::Channel& channel : now.channels) {
@@ -201,8 +221,10 @@ void add_top(CommandLine& app, int& exit_code) {
   command.flag("--json", options->lines, "Print the lines of JSON that the controllers send");
   command.footer(
       "A * behind a behaviour: its transition function is being executed. `call` is what its last one took,\n"
-      "`in use`: one side writes or reads the channel's memory. A system of several processes is shown as a\n"
-      "whole, with those that wait for others for a second or more; name a process to see only that one.\n"
+      "the lines below are its memory after that, `in use`: one side writes or reads the channel's memory. "
+      "A\n"
+      "system of several processes is shown as a whole, with those that wait for others for a second or\n"
+      "more; name a process to see only that one, with its memory.\n"
       "Example: tessera run --world &  tessera top");
   command.callback([options, &exit_code] { exit_code = top_command(*options); });
 }

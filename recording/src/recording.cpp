@@ -16,8 +16,8 @@ namespace tessera {
 namespace {
 
 [[nodiscard]] std::optional<Recording::Direction> direction_of(std::string_view name) {
-  for (const auto direction : {Recording::Direction::input, Recording::Direction::output,
-                               Recording::Direction::real_input, Recording::Direction::real_output})
+  using enum Recording::Direction;
+  for (const auto direction : {input, output, real_input, real_output, memory})
     if (name_of(direction) == name) return direction;
   return std::nullopt;
 }
@@ -110,7 +110,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
   const std::string_view name = recording_magic.substr(0, recording_magic.size() - 1);
   if (!bytes.starts_with(name.substr(0, bytes.size()))) return "is no recording of Tessera";
   if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return "";
-  const bool is_newer = bytes.back() > recording_magic_with_poses.back() && bytes.back() <= '9';
+  const bool is_newer = bytes.back() > recording_magic_with_memory.back() && bytes.back() <= '9';
   return is_newer ? "was recorded by a newer version of Tessera, which has to read it"
                   : "is no recording of Tessera";
 }
@@ -257,17 +257,8 @@ std::string_view name_of(Fault fault) {
 }
 
 std::string_view name_of(Recording::Direction direction) {
-  switch (direction) {
-    case Recording::Direction::input:
-      return "in";
-    case Recording::Direction::output:
-      return "out";
-    case Recording::Direction::real_input:
-      return "real_in";
-    case Recording::Direction::real_output:
-      return "real_out";
-  }
-  return "";
+  constexpr std::string_view names[] = {"in", "out", "real_in", "real_out", "memory"};
+  return names[static_cast<std::size_t>(direction)];
 }
 
 ValueEvent value_of(const Recording::Entry& entry) {

@@ -77,6 +77,8 @@ std::string bind(const Project& project, const Unit& unit) {
     lines.push_back(fmt::format("bindings.input(\"{0}\", in.{0});", field.name));
   for (const spec::Field& field : subsystem.outputs)
     lines.push_back(fmt::format("bindings.output(\"{0}\", out.{0});", field.name));
+  for (const spec::Field& field : subsystem.memory)
+    lines.push_back(fmt::format("bindings.remember(\"{0}\", memory.{0});", field.name));
   for (const spec::Parameter* parameter : parameters) lines.push_back(bind_parameter(*parameter));
   return member_function(lines.empty() ? "void bind(tessera::Bindings&) override"
                                        : "void bind(tessera::Bindings& bindings) override",

@@ -62,6 +62,27 @@ TEST(ControlMessages, ASnapshotIsReadWholeAndPassedOnAsItCame) {
   EXPECT_EQ(json_of(snapshot.channels), channels);
 }
 
+TEST(ControlMessages, MemoryIsReadWithItsSubsystem) {
+  const auto read = [](const json& memory) {
+    json subsystem{{"path", "robot.control"}};
+    subsystem["memory"] = memory;
+    json line{{"system", "arm"}};
+    line["subsystems"].push_back(subsystem);
+    return read_control_line(line.dump());
+  };
+  json fields = json::array();
+  fields.push_back({{"name", "free"}, {"value", "0.35"}});
+  fields.push_back({{"name", "at"}, {"value", "{yaw: 1}"}, {"of_a_newer_version", 1}});
+  const std::optional<ControlLine> line = read(fields);
+  ASSERT_TRUE(line && std::holds_alternative<Snapshot>(*line));
+  const auto& memory = std::get<Snapshot>(*line).subsystems.at(0).memory;
+  ASSERT_EQ(memory.size(), 2U);
+  EXPECT_EQ(memory[1].name, "at");
+  EXPECT_EQ(memory[1].value, "{yaw: 1}");
+  for (const json& wrong : {json(3), json("a"), json::parse("[3]"), json::parse(R"([{"name":3}])")})
+    EXPECT_FALSE(read(wrong)) << wrong;
+}
+
 TEST(ControlMessages, EveryLineIsWhatItsMembersSay) {
   const auto is = [](const auto& wanted, const char* line) {
     schema_test::judge_line(json::parse(line));

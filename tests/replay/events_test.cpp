@@ -72,6 +72,32 @@ TEST(Events, ArePrintedWithTheValuesThatAreWanted) {
   EXPECT_EQ(printed(selection), "      2.000000 robot.control.motion = {linear: 0.25, angular: 7}\n");
 }
 
+TEST(Events, MemoryIsPrintedLikeABuffer) {
+  Constructed run({"robot.control"});
+  run.recording.buffers = {
+      {"robot.control.motion", 0, Recording::Direction::output, "float64"},
+      {"robot.control.memory.count", 0, Recording::Direction::memory, "uint32"},
+      {"robot.control.memory.last", 0, Recording::Direction::memory, "{x: float64, seen: bool}"}};
+  run.value(1.0, 0, 0, 0, bytes_of(0.5))
+      .value(1.0, 0, 1, 0, bytes_of(std::uint32_t{7}))
+      .value(1.5, 0, 2, 0, bytes_of(0.25) + "\1");
+  Selection selection;
+  selection.events = false;
+  selection.values = "control.memory.";
+  std::ostringstream text, table, trace;
+  tessera::replay::print_events(run.recording, selection, text);
+  EXPECT_EQ(text.str(),
+            "      1.000000 robot.control.memory.count = 7\n"
+            "      1.500000 robot.control.memory.last = {x: 0.25, seen: true}\n");
+  tessera::replay::write_values_csv(run.recording, selection, table);
+  EXPECT_EQ(table.str(),
+            "time_ns,buffer,status,stamp_ns,value,x,seen\n"
+            "1000000000,robot.control.memory.count,,,7,,\n"
+            "1500000000,robot.control.memory.last,,,,0.25,true\n");
+  tessera::replay::write_perfetto(run.recording, trace);
+  EXPECT_NE(trace.str().find("\"control.memory.last.x\""), std::string::npos) << trace.str();
+}
+
 TEST(Events, SafeCommandsArePrinted) {
   Constructed run({"robot.motor"});
   run.safe(1.0, 0, tessera::SafeEvent::given, "robot.motor.left: safe command: a fault")

@@ -62,8 +62,11 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   sender.call = [&](ScriptState& state) {
     allocations_at_last_call = allocations.load();
     state.out_x = 1;
+    state.word = state.context.iteration % 3 == 0 ? "a" : "another";
+    ++state.count;
     if (state.context.iteration % 10 == 0) state.context.log("iteration {}", state.context.iteration);
   };
+  sender.remembers = true;
   std::vector<double>& commands = system.devices.commands;
   commands.reserve(100'000);
   receiver.acts = true;
@@ -74,6 +77,7 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   RunOptions options = simulated(duration);
   options.clock = clock;
   options.recording = scratch_file("run");
+  options.monitor = clock == RunOptions::Clock::steady;  // without anybody who watches
   const Cost before{allocations.load(), locks.load()};
   EXPECT_GT(run(system, options).firings, 10u);
   // The device of the test locks whenever it is written to.

@@ -92,6 +92,11 @@ TEST(MonitorProtocol, WritesASnapshotInOneLine) {
             R"("firings":0,"iterations":2,"longest_call_s":0.0,"overruns":0,"path":"robot.a",)"
             R"("period_s":0.0}],"system":"line","time_s":1.5,"waits":[]})"
             "\n");
+  subsystem.memory = {{"count", "3"}, {"word", "\"a\xff\""}};
+  EXPECT_NE(to_line(snapshot).find(
+                "\"memory\":[{\"name\":\"count\",\"value\":\"3\"},{\"name\":\"word\",\"value\":"),
+            std::string::npos)
+      << to_line(snapshot);
   snapshot.recording = "r\xff";
   snapshot.simulation = {.paused = true, .pauses = 1, .speed = 0, .broke_at = ""};
   EXPECT_NE(to_line(snapshot).find(R"("paused":true,"pauses":1,"pid":12,"recording":"r)"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "controlled_run.hpp"
+#include "nets.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 
@@ -66,6 +67,30 @@ TEST_F(Controlled, AnIterationEndsWhenTheTransitionFunctionIsCalledAgain) {
     const std::uint64_t after = iterations_of_b(rest(step));
     EXPECT_EQ(after, before + 1);
     before = after;
+  }
+  finish();
+}
+
+TEST_F(Controlled, SnapshotsShowTheMemoryAtTheEndOfTheLastIteration) {
+  build_ = [](TestSystem& system) {
+    Script counter;
+    counter.remembers = true;
+    counter.call = [](ScriptState& state) { ++state.count; };
+    system.add("robot.a", nets::alone, {}, 10ms);
+    system.add("robot.b", nets::alone, counter, 10ms);
+  };
+  start();
+  const json first = rest(1);
+  EXPECT_FALSE(first.at("subsystems").at(0).contains("memory"));
+  EXPECT_EQ(first.at("subsystems").at(1).at("memory").at(0), (json{{"name", "count"}, {"value", "0"}}));
+  EXPECT_EQ(first.at("subsystems").at(1).at("memory").at(1), (json{{"name", "word"}, {"value", "\"\""}}))
+      << "the map is too large";
+  for (std::uint64_t step = 2; step < 6; ++step) {
+    EXPECT_EQ(command({{"command", "step_iteration"}, {"subsystem", "robot.b"}}), "");
+    const json line = rest(step);
+    const json& subsystem = line.at("subsystems").at(1);
+    EXPECT_EQ(subsystem.at("memory").at(0).at("value"),
+              std::to_string(subsystem.at("iterations").get<int>()));
   }
   finish();
 }

@@ -16,6 +16,7 @@ namespace {
 /// A sensor, a controller that integrates what it gets, and a motor.
 struct Robot {
   TestSystem system;
+  bool remembers = false;
   std::uint64_t readings = 0;
   std::function<void(ScriptState&)> steer = [sum = 0.0](ScriptState& state) mutable {
     sum += state.x * state.gain;
@@ -30,7 +31,11 @@ struct Robot {
     Script sensor, control, motor;
     sensor.senses = true;
     sensor.call = [](ScriptState& state) { state.out_x = state.sensed * (state.sensed.fresh ? 2 : 1); };
-    control.call = [this](ScriptState& state) { steer(state); };
+    control.remembers = remembers;
+    control.call = [this](ScriptState& state) {
+      ++state.count;
+      steer(state);
+    };
     motor.acts = true;
     motor.call = [](ScriptState& state) { state.command = -state.x; };
     const auto s = system.add("robot.sensor", nets::async_sender, sensor, 10ms, 0ms, Kind::receptor);
@@ -43,8 +48,9 @@ struct Robot {
 };
 
 /// Records a run of it; the file.
-[[nodiscard]] std::string record(RunOptions options = simulated(500ms)) {
+[[nodiscard]] std::string record(RunOptions options = simulated(500ms), bool remembers = false) {
   Robot robot;
+  robot.remembers = remembers;
   robot.build();
   options.recording = scratch_file("run");
   EXPECT_FALSE(run(robot.system, options).failed);
@@ -74,6 +80,18 @@ TEST(Rerun, TheSameCodeDoesTheSame) {
   EXPECT_GT(report.subsystems[1].iterations, 40U);
   EXPECT_EQ(robot.readings, 0U);  // nothing but the recording is asked
   EXPECT_TRUE(robot.system.devices.commands.empty());
+}
+
+TEST(Rerun, MemoryMayBeInTheRecordingAndNeedNot) {
+  for (const bool recorded : {false, true})
+    for (const bool remembers : {false, true}) {
+      const std::string recording = record(simulated(500ms), recorded);
+      Robot robot;
+      robot.remembers = remembers;
+      const RerunReport report = again(robot, recording);
+      EXPECT_FALSE(report.first) << rerun_text(report);
+      EXPECT_GT(report.subsystems.at(1).iterations, 40U);
+    }
 }
 
 TEST(Rerun, TheSameCodeDoesTheSameAfterARunOfThreads) {

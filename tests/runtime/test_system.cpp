@@ -35,6 +35,11 @@ class ScriptSubsystem final : public Subsystem {
       bindings.real_output("command", state_.command, script_.safe);
       bindings.limit("command", payload(state_.command), script_.limits);
     }
+    if (script_.remembers) {
+      bindings.remember("count", state_.count);
+      bindings.remember("map", state_.map);
+      bindings.remember("word", state_.word);
+    }
     bindings.parameter("gain", state_.gain, 0, 10);
     bindings.parameter("level", state_.level);
     bindings.parameter("flag", state_.flag);

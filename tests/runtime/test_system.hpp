@@ -24,6 +24,9 @@ struct ScriptState {
   bool flag = false;
   BoundedString<8> label;
   std::array<double, 3> points{1, 2, 3};
+  std::uint32_t count = 0;  // memory, as are the next two
+  BoundedString<8> word;
+  std::array<double, 600> map{};  // more than 4 KiB
   Context context;
   std::uint16_t behaviour = 0;
 };
@@ -33,6 +36,7 @@ struct Script {
   std::function<Outcome(const ScriptState&)> decide = [](const ScriptState&) { return Outcome::go_on; };
   std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
   bool senses = false, acts = false;  ///< has a real receptor, a real effector
+  bool remembers = false;             ///< has memory
   double safe = -1;
   Bindings::Limits limits{};  ///< of the command
 };

@@ -245,6 +245,88 @@ TEST(RecordedValues, OfARealInputSayWhenThereWasNone) {
   EXPECT_EQ(values.at("robot.a.sensed real_in"), (std::vector<std::string>{"5", "-", "5", "failed"}));
 }
 
+/// Two subsystems, of which the second one remembers, and fails at its fourth iteration.
+void add_one_that_remembers(TestSystem& system) {
+  Script script;
+  script.remembers = true;
+  script.call = [](ScriptState& state) {
+    state.count = static_cast<std::uint32_t>(state.context.iteration / 2);
+    if (state.context.iteration == 3) {
+      state.word = "found";
+      state.map[599] = 1;
+      throw std::runtime_error("after that");
+    }
+  };
+  system.add("robot.a", nets::alone, {}, 10ms);
+  system.add("robot.b", nets::alone, script, 10ms);
+}
+
+TEST(RecordedValues, OfMemoryAreThoseThatChange) {
+  TestSystem system;
+  add_one_that_remembers(system);
+  const Recording recording = recorded(system, simulated(55ms));
+  const ValuesByBuffer values = values_of(recording);
+  EXPECT_EQ(values.at("robot.b.memory.count memory"), (std::vector<std::string>{"0", "1"}));
+  EXPECT_EQ(values.at("robot.b.memory.word memory"), (std::vector<std::string>{"\"\"", "\"found\""}))
+      << "what a function has remembered before it failed stays remembered";
+  EXPECT_FALSE(values.contains("robot.a.memory.count memory"));
+  ASSERT_EQ(recording.buffers.size(), 4U + 4U + 2U);
+  EXPECT_EQ(recording.buffers[7].path, "robot.b.y") << "memory stands behind the buffers of all subsystems";
+  EXPECT_EQ(recording.buffers[8].path, "robot.b.memory.count");
+  EXPECT_EQ(recording.buffers[9].type, "string(8)");
+}
+
+TEST(RecordedValues, OfMemoryComeAtTheEndOfTheIterationThatChangedIt) {
+  TestSystem system;
+  add_one_that_remembers(system);
+  const Recording recording = recorded(system, simulated(55ms));
+  std::vector<std::int64_t> at_ms;
+  for (const Recording::Entry& entry : recording.entries)
+    if (entry.event.kind() == Event::Kind::value && value_of(entry).buffer == 8)
+      at_ms.push_back(entry.event.time_ns / 1'000'000);
+  EXPECT_EQ(at_ms, (std::vector<std::int64_t>{0, 20}));
+}
+
+TEST(RecordedValues, OfLargeMemoryAreRecordedOnlyWithAllValues) {
+  TestSystem system;
+  add_one_that_remembers(system);
+  RunOptions options = simulated(55ms);
+  EXPECT_FALSE(values_of(recorded(system, options)).contains("robot.b.memory.map memory"));
+  options.values = RunOptions::Values::all;
+  EXPECT_EQ(values_of(recorded(system, options)).at("robot.b.memory.map memory").size(), 2U);
+  options.values = RunOptions::Values::none;
+  EXPECT_TRUE(recorded(system, options).buffers.empty());
+}
+
+TEST(RecordedValues, OfMemoryAreRefusedByOlderVersionsByName) {
+  TestSystem system;
+  add_one_that_remembers(system);
+  RunOptions options = simulated(15ms);
+  const auto beginning = [&] {
+    options.recording = scratch_file("run");
+    static_cast<void>(run(system, options));
+    return bytes_of(options.recording).substr(0, 8);
+  };
+  EXPECT_EQ(beginning(), "TESSREC3");
+  options.values = RunOptions::Values::none;
+  EXPECT_EQ(beginning(), "TESSREC1");
+}
+
+TEST(RecordedValues, OfMemoryCountAgainstTheLimitOfARecording) {
+  TestSystem system;
+  Script script;
+  script.remembers = true;
+  script.call = [](ScriptState& state) { ++state.count; };
+  system.add("robot.a", nets::alone, script, 1ms);
+  RunOptions options = simulated(10s);
+  options.record_limit = {.segment_bytes = 20'000, .segments = 3};
+  const Recording recording = recorded(system, options);
+  EXPECT_GT(recording.segment.value_or(0), 10U);
+  const std::vector<std::string> counts = values_of(recording).at("robot.a.memory.count memory");
+  EXPECT_EQ(counts.back(), "10000");
+  EXPECT_LT(counts.size(), 60'000U / 48U);
+}
+
 TEST(RecordedValues, CallsSayWhenATransitionFunctionBegan) {
   TestSystem system;
   Script script;

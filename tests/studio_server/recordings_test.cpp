@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "served.hpp"
@@ -24,28 +25,35 @@ class RecordingOfTheStudio : public Served {
   [[nodiscard]] std::string header(std::uint64_t segment, const json& scene = {}) const {
     json transitions = json::array();
     for (const auto& transition : analysis_.net->transitions()) transitions.push_back({transition.name, 0});
-    json header{
-        {"system", "line_follower"},
-        {"net_hash", analysis_.net_hash},
-        {"verification_hash", ""},
-        {"seed", 1},
-        {"clock", "steady"},
-        {"instances", {"robot.control"}},
-        {"transitions", transitions},
-        {"values", {{"limit", 4096}, {"buffers", {{"robot.control.line", 0, "in", "{left: bool}"}}}}}};
+    json header{{"system", "line_follower"},
+                {"net_hash", analysis_.net_hash},
+                {"verification_hash", ""},
+                {"seed", 1},
+                {"clock", "steady"},
+                {"instances", {"robot.control"}},
+                {"transitions", transitions},
+                {"values",
+                 {{"limit", 4096},
+                  {"buffers",
+                   {{"robot.control.line", 0, "in", "{left: bool}"},
+                    {"robot.control.memory.count", 0, "memory", "uint8"},
+                    {"robot.control.memory.free", 0, "memory", "float64"}}}}}};
     if (!scene.is_null()) header["scene"] = scene;
     std::string text = header.dump();
     text.back() = ',';
     text += "\"segment\":" + std::to_string(segment) + "}";
     const auto length = static_cast<std::uint32_t>(text.size());
-    std::string bytes(scene.is_null() ? recording_magic : recording_magic_with_poses);
+    std::string bytes(scene.is_null() ? recording_magic_with_memory : recording_magic_with_poses);
     bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
     bytes.resize((bytes.size() + 7) / 8 * 8);
     return bytes;
   }
   static std::string event(std::int64_t time_ns, Event::Kind kind, std::uint32_t subject,
-                           const std::string& text = "") {
-    const Event event{.time_ns = time_ns, .subject = subject, .origin = static_cast<std::uint32_t>(kind)};
+                           const std::string& text = "", std::uint32_t version = 0) {
+    const Event event{.time_ns = time_ns,
+                      .subject = subject,
+                      .version = version,
+                      .origin = static_cast<std::uint32_t>(kind)};
     std::string bytes(reinterpret_cast<const char*>(&event), sizeof event);
     bytes += text;
     bytes.resize((bytes.size() + sizeof event - 1) / sizeof event * sizeof event);
@@ -65,6 +73,9 @@ class RecordingOfTheStudio : public Served {
   }
   static std::string value(const std::string& bytes) {
     return event(0, Event::Kind::value, static_cast<std::uint32_t>(bytes.size()), bytes);
+  }
+  static std::string memory(std::int64_t time_ns, char count) {
+    return event(time_ns, Event::Kind::value, 1, std::string(1, count), 1);
   }
   [[nodiscard]] std::uint32_t transition(std::string_view name) const {
     const auto& all = analysis_.net->transitions();
@@ -114,13 +125,16 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
 
 TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment) {
   const std::uint32_t first = transition("t_in"), second = transition("robot.t_in");
-  write(folder_ / "project/run.tsr",
-        header(0) + value("\1") + firing(10, first) + firing(40, second) + firing(70, first));
+  write(folder_ / "project/run.tsr", header(0) + value("\1") + memory(5, 1) + firing(10, first) +
+                                         memory(20, 2) + firing(40, second) + memory(50, 3) +
+                                         firing(70, first));
   serve();
   const json whole = get("/api/recordings/run.tsr").json();
   EXPECT_TRUE(whole.at("marking").is_null());
   EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
+  EXPECT_EQ(whole.at("values").at("robot.control.memory.count"), json({{5, 1}, {20, 2}, {50, 3}}));
   const json part = get("/api/recordings/run.tsr?from=40&to=60").json();
+  EXPECT_EQ(part.at("values").at("robot.control.memory.count"), json({{40, 2}, {50, 3}}));
   EXPECT_EQ(part.at("firings"), json({{40, second}}));
   server::MarkingTracker tokens(*analysis_.net);
   tokens.fire({first});
@@ -135,6 +149,20 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
   const json end = get("/api/recordings/run.tsr?from=100").json();
   EXPECT_EQ(end.at("firings"), json::array());
   EXPECT_EQ(end.at("values").at("robot.control.line.left"), json({{100, true}}));
+}
+
+TEST_F(RecordingOfTheStudio, NumbersThatJsonHasNotAreTexts) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::string events;
+  for (const double free : {-infinite, infinite, std::numeric_limits<double>::quiet_NaN(), 0.5}) {
+    std::string bytes(sizeof free, '\0');
+    std::memcpy(bytes.data(), &free, sizeof free);
+    events += event(10, Event::Kind::value, sizeof free, bytes, 2);
+  }
+  write(folder_ / "project/run.tsr", header(0) + events);
+  serve();
+  EXPECT_EQ(get("/api/recordings/run.tsr").json().at("values").at("robot.control.memory.free"),
+            json::parse(R"([[10, "-inf"], [10, "inf"], [10, "nan"], [10, 0.5]])"));
 }
 
 TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {
@@ -214,6 +242,10 @@ TEST_F(RecordingOfTheStudio, IsFollowedFromSegmentToSegment) {
   EXPECT_FALSE(tail.next().jumped);
   EXPECT_EQ(tail.take_changed_values(0), json::object());
   EXPECT_EQ(tail.take_changed_values(1), json::parse(R"({"robot.control.line": {"left": false}})"));
+
+  pieces = {{memory(60, 9), false, false}};
+  EXPECT_FALSE(tail.next().jumped);
+  EXPECT_EQ(tail.take_changed_values(), json::parse(R"({"robot.control.memory.count": 9})"));
 
   pieces = {{"damaged for ever and ever", false, false}, {firing(60, 1), false, false}};
   EXPECT_TRUE(tail.next().firings.empty());

@@ -35,12 +35,15 @@ enum class SafeEvent : std::uint8_t {
 
 /// Of a recording in a folder.
 inline constexpr const char* recording_file_name = "recording.tsr";
-/// The beginning of a recording, and of one with poses, which older versions of Tessera refuse.
-inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_with_poses = "TESSREC2";
+/// The beginning of a recording, of one with poses, and of one with memory of subsystems. Versions of Tessera
+/// that are too old for it refuse it.
+inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_with_poses = "TESSREC2",
+                                  recording_magic_with_memory = "TESSREC3";
 /// Whether this version reads a file that begins like that.
 [[nodiscard]] constexpr bool is_recording_magic(std::string_view bytes) {
   const std::string_view magic = bytes.substr(0, recording_magic.size());
-  return magic == recording_magic || magic == recording_magic_with_poses;
+  return magic == recording_magic || magic == recording_magic_with_poses ||
+         magic == recording_magic_with_memory;
 }
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
@@ -52,7 +55,7 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
 ///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
-///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]},
+///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}, those of memory last,
 ///      "process": {"name", "number", "incarnation": decimal}, "processes": [name...], "networked": [channel...],
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
@@ -82,7 +85,8 @@ struct Event {
     safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: SafeEvent
     parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
     /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene", in
-    /// files that begin with recording_magic_with_poses. Not counted in `sequence`.
+    /// files that begin with recording_magic_with_poses or recording_magic_with_memory. Not counted in
+    /// `sequence`.
     poses = 11,
     /// Like log: "CHANNEL\nINCARNATION": the start of the process at the other end of a channel that the
     /// instance deals with from here on. Of a receiver: before it reads a value of that start; of a sender:
@@ -114,7 +118,8 @@ struct Event {
 static_assert(sizeof(Event) == 24);
 
 /// The flags of a value event. The event is written when a value is read into an input (a real input: only if
-/// the value differs from the last), and when a transition function has changed an output.
+/// the value differs from the last), and when a transition function has changed an output or a field of the
+/// memory.
 struct ValueFlags {
   static constexpr std::uint32_t same = 1,  ///< as at the last event of this buffer; no bytes
       hashed = 2,   ///< more than "limit" bytes: their number and a hash, a uint64 each, replace them
@@ -145,9 +150,10 @@ struct Recording {
     Event event;
     std::string text;  ///< of log, stop, fault, safe and parameter; the bytes of a value
   };
-  enum class Direction : std::uint8_t { input, output, real_input, real_output };
+  enum class Direction : std::uint8_t { input, output, real_input, real_output, memory };
+  /// A field of the memory is listed like a buffer, after all buffers.
   struct Buffer {
-    std::string path;  ///< "robot.control.motion"
+    std::string path;  ///< "robot.control.motion", "robot.control.memory.count"
     std::uint32_t instance;
     Direction direction;
     std::string type;  ///< as tessera/value_encoding.hpp describes; empty: its values cannot be recorded
@@ -204,7 +210,7 @@ struct Recording {
 /// The file of a scene beside a recording.
 [[nodiscard]] std::string scene_file(const std::string& recording, const std::string& hash);
 
-/// "in", "out", "real_in", "real_out".
+/// "in", "out", "real_in", "real_out", "memory".
 [[nodiscard]] std::string_view name_of(Recording::Direction direction);
 /// Precondition: the entry is a value that the reader has found complete.
 [[nodiscard]] ValueEvent value_of(const Recording::Entry& entry);

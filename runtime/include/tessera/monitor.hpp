@@ -10,7 +10,8 @@
 ///     {"system", "pid", "net_hash", "time_s", "recording": file; absent: none,
 ///      "emergency": why an emergency stop stands; absent: none does,
 ///      "subsystems": [{"path", "behaviour", "calling", "ended", "iterations", "firings", "overruns",
-///                      "errors", "period_s", "called_at_s", "call_s", "longest_call_s"}],
+///                      "errors", "period_s", "called_at_s", "call_s", "longest_call_s",
+///                      "memory": [{"name", "value": text}]; absent: it has none}],
 ///      "channels": [{"name", "marked": ["full"], "sending_since_s"}],
 ///      "waits": [{"subsystem", "waits_for": path, "channel", "what": "answer" | "value", "process", "since_s"}],
 ///      "process", "host", "incarnation": only of a process of a deployed system, as is

@@ -119,7 +119,7 @@ template <class T>
   }
 }
 
-/// The addresses of a subsystem's buffers and parameters. Subsystem::bind fills it, the executor uses it.
+/// The addresses of a subsystem's buffers, memory and parameters. Subsystem::bind fills it, the executor uses it.
 struct Bindings {
   struct Incoming {
     std::string_view name;
@@ -176,10 +176,17 @@ struct Bindings {
     std::size_t capacity = 0;  ///< of a string
     std::size_t elements = 0;  ///< of an array of `kind`; 0: it is none
   };
+  /// A field of the memory, for those who watch.
+  struct Remembered {
+    std::string_view name;
+    const void* value;
+    const ValueEncoding* encoding;  ///< nullptr: cannot be shown
+  };
   std::vector<Incoming> inputs, real_inputs;
   std::vector<Outgoing> outputs;
   std::vector<RealOutgoing> real_outputs;
   std::vector<RealLimit> limits;
+  std::vector<Remembered> memory;
   std::vector<Parameter> parameters;
   Real real;
 
@@ -236,6 +243,10 @@ struct Bindings {
       };
     }
     limits.push_back(made);
+  }
+  template <class T>
+  void remember(std::string_view name, const T& value) {
+    memory.push_back({name, &value, value_encoding_of<T>()});
   }
   template <class T>
   void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),

@@ -20,11 +20,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Larger values are not recorded whole.
-[[nodiscard]] std::uint64_t value_limit(const RunOptions& options) {
-  return options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
-}
-
 void describe_deployment(const ProcessPart& part, network::Incarnation incarnation, ordered_json& header) {
   const System& whole = *part.whole;
   if (whole.processes.empty()) return;
@@ -56,6 +51,13 @@ void describe_values(const RunOptions& options, const ProcessPart& part, std::sp
            buffer.encoding == nullptr ? std::string() : buffer.encoding->type()}));
     });
   }
+  for (const SubsystemParts& parts : all) {
+    for_memory(parts.bindings, value_limit(options), [&](const Bindings::Remembered& field) {
+      buffers.push_back(ordered_json::array({fmt::format("{}.memory.{}", parts.path, field.name),
+                                             part.instances[parts.index],
+                                             name_of(Recording::Direction::memory), field.encoding->type()}));
+    });
+  }
   header["values"] = {{"limit", value_limit(options)}, {"buffers", std::move(buffers)}};
 }
 
@@ -71,6 +73,14 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   ordered_json& eyes = header["scene"]["eyes"] = ordered_json::array();
   for (const WorldScene::Eye& eye : scene.eyes)
     eyes.push_back(ordered_json::array({eye.body, eye.at_m[0], eye.at_m[1], eye.at_m[2], eye.footprint_m}));
+}
+
+/// The number of fields of memory that are recorded.
+[[nodiscard]] std::uint32_t count_all_memory(const RunOptions& options, std::span<const SubsystemParts> all) {
+  if (options.values == RunOptions::Values::none) return 0;
+  std::uint32_t count = 0;
+  for (const SubsystemParts& parts : all) count += count_memory(parts.bindings, value_limit(options));
+  return count;
 }
 
 /// The JSON at the beginning: the net, and with values also what `simulate --from` needs to know.
@@ -98,7 +108,8 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   if (options.values != RunOptions::Values::none) describe_values(options, part, all, header);
   describe_deployment(part, incarnation, header);
   if (scene != nullptr) describe_scene(*scene, header);
-  return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr};
+  return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr,
+          count_all_memory(options, all) > 0};
 }
 
 /// The most bytes that a value, or a frame of poses, takes in the recording; 0: none is recorded.
@@ -112,15 +123,20 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
       if (buffer.encoding != nullptr)
         longest = std::max(longest, std::min<std::size_t>(buffer.encoding->most, value_limit(options)));
     });
+  for (const SubsystemParts& parts : all)
+    for_memory(parts.bindings, value_limit(options),
+               [&](const Bindings::Remembered& field) { longest = std::max(longest, field.encoding->most); });
   return longest;
 }
 
 /// Gives each subsystem its recorder of values, if they are recorded.
 void record_values(Assembly& assembly, std::span<SubsystemParts> all) {
-  std::uint32_t first = 0;
+  std::uint32_t buffer = 0, memory = 0;
+  for (const SubsystemParts& parts : all) memory += count_buffers(parts.bindings);
   for (SubsystemParts& parts : all) {
-    record_values_of(assembly, parts, first);
-    first += count_buffers(parts.bindings);
+    record_values_of(assembly, parts, buffer, memory);
+    buffer += count_buffers(parts.bindings);
+    memory += count_memory(parts.bindings, value_limit(assembly.options));
   }
 }
 
@@ -144,11 +160,16 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
 
 }  // namespace
 
-void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer) {
+std::uint64_t value_limit(const RunOptions& options) {
+  return options.values == RunOptions::Values::all ? UINT32_MAX : RunOptions::small_value;
+}
+
+void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer,
+                      std::uint32_t first_memory) {
   const RunOptions& options = assembly.options;
   if (options.recording.empty() || options.values == RunOptions::Values::none) return;
-  parts.values = std::make_unique<ValueRecorder>(parts.bindings, first_buffer, value_limit(options),
-                                                 *assembly.recorder->lane(parts.index));
+  parts.values = std::make_unique<ValueRecorder>(parts.bindings, first_buffer, first_memory,
+                                                 value_limit(options), *assembly.recorder->lane(parts.index));
 }
 
 bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,

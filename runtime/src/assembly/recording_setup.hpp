@@ -20,9 +20,12 @@ namespace tessera {
                                   std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
                                   std::string& error);
 
-/// Gives one subsystem its recorder of values, if values are recorded. first_buffer: the number of its first
-/// buffer
-/// in the recording.
-void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer);
+/// Larger values are not recorded whole.
+[[nodiscard]] std::uint64_t value_limit(const RunOptions& options);
+
+/// Gives one subsystem its recorder of values, if values are recorded. first_buffer, first_memory: the numbers
+/// of its first buffer and of its first field of memory in the recording.
+void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t first_buffer,
+                      std::uint32_t first_memory);
 
 }  // namespace tessera

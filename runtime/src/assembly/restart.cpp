@@ -91,17 +91,22 @@ bool RestartingAssembler::make_channels_again(std::uint32_t process, network::In
 
 /// Effectors first, as at every start.
 bool RestartingAssembler::replace_executors(std::uint32_t process) {
-  std::uint32_t first_buffer = 0;
+  const auto bindings_of = [](const std::unique_ptr<SubsystemExecutor>& executor) -> const Bindings& {
+    return executor->operations().parts().bindings;
+  };
+  std::uint32_t first_buffer = 0, first_memory = 0;
+  for (const auto& executor : assembly_.executors) first_memory += count_buffers(bindings_of(executor));
   for (std::uint32_t index = 0; index < parts_.size(); ++index) {
     std::unique_ptr<SubsystemExecutor>& executor = assembly_.executors[index];
     if (system_.process_of[index] == process) {
-      record_values_of(assembly_, parts_[index], first_buffer);
+      record_values_of(assembly_, parts_[index], first_buffer, first_memory);
       assembly_.dead.push_back(std::move(executor));
       executor = make_executor(index);
       assembly_.control.mark_ended(index, false);
       assembly_.control.mark_stalled(index, false);
     }
-    first_buffer += count_buffers(executor->operations().parts().bindings);
+    first_buffer += count_buffers(bindings_of(executor));
+    first_memory += count_memory(bindings_of(executor), value_limit(assembly_.options));
   }
   for (const bool effectors : {true, false})
     for (std::uint32_t index = 0; index < parts_.size(); ++index) {

@@ -22,7 +22,9 @@ namespace tessera {
 /// What a recording begins with.
 struct RecordingHeader {
   std::string json;
-  bool has_scene = false;  ///< there may be poses, which older versions cannot read
+  // What older versions cannot read:
+  bool has_scene = false;   ///< there may be poses
+  bool has_memory = false;  ///< the memory of subsystems is among the values
 };
 
 /// Writes the bytes of a recording. Errors are remembered, not thrown; after an error nothing is written.
@@ -68,7 +70,7 @@ class RecordingFile {
   void write_all(const char* bytes, std::size_t count);
   void await_room(std::int64_t& stuck_ns);
   std::string path_, header_;
-  bool has_scene_ = false;
+  std::string_view magic_ = recording_magic;
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;

@@ -51,7 +51,8 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
                          RunOptions::Limit limit, std::unique_ptr<MarkingTrack> track) {
   path_ = path;
   header_ = header.json;
-  has_scene_ = header.has_scene;
+  if (header.has_scene) magic_ = recording_magic_with_poses;
+  if (header.has_memory) magic_ = recording_magic_with_memory;
   limit_ = limit;
   track_ = limit.segment_bytes == 0 ? nullptr : std::move(track);
   if (track_ != nullptr) {
@@ -82,7 +83,7 @@ bool RecordingFile::open_segment() {
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
   start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // including the padding
-  start.append(has_scene_ ? recording_magic_with_poses : recording_magic);
+  start.append(magic_);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');

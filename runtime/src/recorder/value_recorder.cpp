@@ -11,6 +11,12 @@ std::uint32_t count_buffers(const Bindings& bindings) {
                                     bindings.real_inputs.size() + bindings.real_outputs.size());
 }
 
+std::uint32_t count_memory(const Bindings& bindings, std::uint64_t limit) {
+  std::uint32_t count = 0;
+  for_memory(bindings, limit, [&](const Bindings::Remembered&) { ++count; });
+  return count;
+}
+
 ValueRecorder::Buffer::Buffer(std::uint32_t its_number, const void* its_value,
                               const ValueEncoding* its_encoding, std::uint64_t limit)
     : number(its_number),
@@ -19,8 +25,8 @@ ValueRecorder::Buffer::Buffer(std::uint32_t its_number, const void* its_value,
       written(encoding == nullptr ? 0 : std::min<std::uint64_t>(encoding->most, limit)),
       now(encoding == nullptr ? 0 : std::min<std::uint64_t>(encoding->most, limit)) {}
 
-ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint64_t limit,
-                             RecordingLane& lane)
+ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint32_t first_memory,
+                             std::uint64_t limit, RecordingLane& lane)
     : lane_(lane) {
   std::uint32_t number = first_buffer;
   for (const Bindings::Incoming& input : bindings.inputs) {
@@ -28,11 +34,15 @@ ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffe
     arrivals_.push_back(input.arrival);
   }
   for (const Bindings::Outgoing& output : bindings.outputs)
-    outputs_.emplace_back(number++, output.value, output.encoding, limit);
+    results_.emplace_back(number++, output.value, output.encoding, limit);
   for (const Bindings::Incoming& input : bindings.real_inputs)
     real_inputs_.emplace_back(number++, input.value, input.encoding, limit);
   for (const Bindings::RealOutgoing& output : bindings.real_outputs)
-    outputs_.emplace_back(number++, output.value, output.encoding, limit);
+    results_.emplace_back(number++, output.value, output.encoding, limit);
+  number = first_memory;
+  for_memory(bindings, limit, [&](const Bindings::Remembered& field) {
+    results_.emplace_back(number++, field.value, field.encoding, limit);
+  });
 }
 
 /// Whether the value has changed; `written` becomes the value now.
@@ -83,8 +93,8 @@ void ValueRecorder::real_input(std::size_t index, Time now, Reading reading) {
   if (failed) buffer.silent = false, buffer.known = false;
 }
 
-void ValueRecorder::outputs(Time now) {
-  for (Buffer& buffer : outputs_)
+void ValueRecorder::results(Time now) {
+  for (Buffer& buffer : results_)
     if (buffer.encoding != nullptr && changed(buffer)) write(buffer, now, 0, {});
 }
 

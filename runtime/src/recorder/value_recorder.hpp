@@ -13,14 +13,15 @@ namespace tessera {
 /// functions begin. `simulate --from` needs them to run the user's code again.
 ///
 /// *Order of buffers.* The buffers of a subsystem are numbered in this order: inputs, outputs,
-/// real inputs, real outputs.
+/// real inputs, real outputs. The fields of memory of all subsystems follow the buffers of all.
 ///
 /// Threads: the subsystem's. Only the constructor allocates.
 class ValueRecorder {
  public:
   /// limit: of larger values only size and hash are written.
-  ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint64_t limit,
-                RecordingLane& lane);
+  /// first_memory: the number of its first field of memory.
+  ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint32_t first_memory,
+                std::uint64_t limit, RecordingLane& lane);
 
   void call(Time now, std::uint32_t behaviour, std::uint64_t iteration) {
     lane_.call(now, behaviour, iteration);
@@ -29,8 +30,8 @@ class ValueRecorder {
   void input(std::size_t index, Time now, bool newer);
   enum class Reading : std::uint8_t { value, silent, failed };
   void real_input(std::size_t index, Time now, Reading reading);
-  /// Records the outputs that have changed.
-  void outputs(Time now);
+  /// Records the outputs and the fields of memory that have changed.
+  void results(Time now);
 
  private:
   struct Buffer {
@@ -47,7 +48,7 @@ class ValueRecorder {
   void write(Buffer& buffer, Time now, std::uint32_t flags, std::span<const std::byte> stamp);
 
   RecordingLane& lane_;
-  std::vector<Buffer> inputs_, outputs_, real_inputs_;
+  std::vector<Buffer> inputs_, results_, real_inputs_;
   std::vector<const Arrival*> arrivals_;  // of inputs_
 };
 
@@ -60,6 +61,17 @@ void for_buffers(const Bindings& bindings, Visit visit) {
   for (const Bindings::Incoming& buffer : bindings.real_inputs) visit(Direction::real_input, buffer);
   for (const Bindings::RealOutgoing& buffer : bindings.real_outputs) visit(Direction::real_output, buffer);
 }
+
+/// Calls `visit(field)` for the fields of memory that are recorded, in the order in which they are numbered.
+/// Fields that may be longer than the limit are not: they would have to be read as a whole each time.
+template <class Visit>
+void for_memory(const Bindings& bindings, std::uint64_t limit, Visit visit) {
+  for (const Bindings::Remembered& field : bindings.memory)
+    if (field.encoding != nullptr && field.encoding->most <= limit) visit(field);
+}
+
+/// The number of fields of memory that are recorded.
+[[nodiscard]] std::uint32_t count_memory(const Bindings& bindings, std::uint64_t limit);
 
 /// The number of buffers of a subsystem that are numbered.
 [[nodiscard]] std::uint32_t count_buffers(const Bindings& bindings);

@@ -104,7 +104,10 @@ class Play {
         else if (type.empty())
           wrong = fmt::format("values of {} cannot be recorded: its type has no fixed extent", path);
       });
-    if (wrong.empty() && number != recording_.buffers.size())
+    // The memory, which is listed last, follows from the inputs.
+    const bool knows_all = number >= recording_.buffers.size() ||
+                           recording_.buffers[number].direction == Recording::Direction::memory;
+    if (wrong.empty() && !knows_all)
       wrong = fmt::format("this controller has no buffer {}", recording_.buffers[number].path);
     return wrong;
   }

@@ -135,7 +135,7 @@ void Operations::finish_call(Time now) {
   if (!devices_.none() && !failed_)
     static_cast<void>(
         survives(Fault::device, behaviour_, "writing a real effector: ", [&] { send_commands(now); }));
-  if (parts_.values != nullptr) parts_.values->outputs(now);
+  if (parts_.values != nullptr) parts_.values->results(now);
 }
 
 void Operations::send_commands(Time now) {

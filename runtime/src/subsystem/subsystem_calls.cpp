@@ -87,6 +87,7 @@ void SubsystemExecutor::show() {
   gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
   gauges_.firings.store(firings_, std::memory_order_relaxed);
   gauges_.overruns.store(overruns(), std::memory_order_relaxed);
+  if (memory_ != nullptr) memory_->show();
 }
 
 }  // namespace tessera

@@ -27,6 +27,8 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
       wants_(plan_->ports.size()),
       wants_next_(plan_->ports.size()) {
   marked_.reserve(plan_->places.size());
+  if (const Bindings& bindings = operations_.parts().bindings; shared.watched && !bindings.memory.empty())
+    memory_ = std::make_unique<MemoryGauge>(bindings);
   const auto timed = [](const Plan::PlaceEntry& place) { return place.timed; };
   watches_time_ = simulated_ || releases_.have_rate() || operations_.devices().watches_time() ||
                   std::any_of(plan_->places.begin(), plan_->places.end(), timed);

@@ -9,6 +9,7 @@
 
 #include "nets/plan.hpp"
 #include "subsystem/gauges.hpp"
+#include "subsystem/memory_gauge.hpp"
 #include "subsystem/operations.hpp"
 #include "subsystem/releases.hpp"
 
@@ -119,6 +120,8 @@ class SubsystemExecutor {
   /// Async-signal-safe.
   void record_death(std::string_view text) { operations_.reports().record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
+  /// nullptr: there is no memory, or nobody may look at it.
+  [[nodiscard]] const MemoryGauge* memory() const { return memory_.get(); }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return releases_.overruns(); }
   /// Is there a token in that place of the table?
@@ -230,6 +233,7 @@ class SubsystemExecutor {
   std::uint64_t firings_ = 0;
   std::uint32_t last_fired_ = Plan::none;
   Gauges gauges_;
+  std::unique_ptr<MemoryGauge> memory_;
   Time instant_ = Time::min();
   std::uint32_t fired_at_instant_ = 0;
 };

@@ -13,18 +13,21 @@ using nlohmann::json;
 }
 
 [[nodiscard]] json to_json(const Snapshot::Subsystem& subsystem) {
-  return {{"path", subsystem.path},
-          {"behaviour", subsystem.behaviour ? json(*subsystem.behaviour) : json()},
-          {"calling", subsystem.calling},
-          {"ended", subsystem.ended},
-          {"iterations", subsystem.iterations},
-          {"firings", subsystem.firings},
-          {"overruns", subsystem.overruns},
-          {"errors", subsystem.errors},
-          {"period_s", subsystem.period_s},
-          {"called_at_s", subsystem.called_at_s},
-          {"call_s", subsystem.call_s},
-          {"longest_call_s", subsystem.longest_call_s}};
+  json all{{"path", subsystem.path},
+           {"behaviour", subsystem.behaviour ? json(*subsystem.behaviour) : json()},
+           {"calling", subsystem.calling},
+           {"ended", subsystem.ended},
+           {"iterations", subsystem.iterations},
+           {"firings", subsystem.firings},
+           {"overruns", subsystem.overruns},
+           {"errors", subsystem.errors},
+           {"period_s", subsystem.period_s},
+           {"called_at_s", subsystem.called_at_s},
+           {"call_s", subsystem.call_s},
+           {"longest_call_s", subsystem.longest_call_s}};
+  for (const MemoryGauge::Field& field : subsystem.memory)
+    all["memory"].push_back({{"name", field.name}, {"value", field.value}});
+  return all;
 }
 
 [[nodiscard]] json to_json(const Snapshot::Channel& channel) {

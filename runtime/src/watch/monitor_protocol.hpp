@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/panel.hpp"
+#include "subsystem/memory_gauge.hpp"
 
 namespace tessera {
 
@@ -21,6 +22,7 @@ struct Snapshot {
     bool calling = false, ended = false;
     std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
     double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
+    std::vector<MemoryGauge::Field> memory;
   };
   struct Channel {
     std::string name;

@@ -36,6 +36,7 @@ namespace {
   shown.call_s = seconds_of(load(gauges.call_ns));
   shown.longest_call_s = seconds_of(load(gauges.longest_call_ns));
   if (called) shown.behaviour = tables.net->behaviours[load(gauges.behaviour)].name;
+  if (executor.memory() != nullptr) shown.memory = executor.memory()->read();
   return shown;
 }
 

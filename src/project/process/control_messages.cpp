@@ -21,6 +21,19 @@ void read_member(const json& object, const char* name, std::optional<Value>& val
   if (found != object.end() && !found->is_null()) value = found->template get<Value>();
 }
 
+/// Throws json::exception if it is none.
+const json& an_object(const json& value) {
+  static_cast<void>(value.get_ref<const json::object_t&>());
+  return value;
+}
+
+/// A list of objects; empty: it is missing. Throws as an_object.
+const json::array_t& list_in(const json& object, const char* name) {
+  static const json::array_t none;
+  const auto found = object.find(name);
+  return found == object.end() ? none : found->get_ref<const json::array_t&>();
+}
+
 Snapshot::Subsystem read_subsystem(const json& object) {
   Snapshot::Subsystem one;
   read_member(object, "path", one.path);
@@ -35,6 +48,11 @@ Snapshot::Subsystem read_subsystem(const json& object) {
   read_member(object, "called_at_s", one.called_at_s);
   read_member(object, "call_s", one.call_s);
   read_member(object, "longest_call_s", one.longest_call_s);
+  for (const json& field : list_in(object, "memory")) {
+    Snapshot::Subsystem::MemoryField& read = one.memory.emplace_back();
+    read_member(an_object(field), "name", read.name);
+    read_member(field, "value", read.value);
+  }
   return one;
 }
 
@@ -82,12 +100,6 @@ Snapshot::Control read_control(const json& object) {
   read_member(object, "speed", control.speed);
   read_member(object, "broke_at", control.broke_at);
   return control;
-}
-
-/// Throws json::exception if it is none.
-const json& an_object(const json& value) {
-  static_cast<void>(value.get_ref<const json::object_t&>());
-  return value;
 }
 
 Snapshot read_snapshot(const json& object) {

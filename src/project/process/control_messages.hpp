@@ -21,6 +21,10 @@ struct Snapshot {
     bool calling = false, ended = false;
     std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
     double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
+    struct MemoryField {
+      std::string name, value;
+    };
+    std::vector<MemoryField> memory;  ///< at the end of its last iteration
   };
   struct Channel {
     std::string name;
@@ -92,6 +96,7 @@ using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, SceneHead, 
 /// the controller may be of another version. nullopt: it is none.
 [[nodiscard]] std::optional<ControlLine> read_control_line(std::string_view line);
 
+/// Without their memory, which those who follow a run take from its recording.
 [[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Subsystem>& subsystems);
 [[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Channel>& channels);
 

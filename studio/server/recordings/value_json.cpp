@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace tessera::server {
@@ -18,6 +19,7 @@ json json_of(const Scalar& scalar) {
     case Scalar::Kind::natural:
       return static_cast<std::uint64_t>(scalar.integer);
     case Scalar::Kind::real:
+      if (!std::isfinite(scalar.number)) return scalar.shown();  // JSON has no such numbers
       return scalar.number;
     case Scalar::Kind::text:
       return scalar.text;

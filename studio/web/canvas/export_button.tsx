@@ -6,7 +6,7 @@ import { drawnIn, filmOf, mostFirings, type Scenes } from "../model/film";
 import { initialMarking } from "../model/game";
 import type { NetModel } from "../model/net";
 import { filmPage } from "./film_page";
-import { asPng, download, takePicture } from "./picture";
+import { asPng, download, takeFirstPicture, takePicture } from "./picture";
 
 /** Buttons that save the visible part as a file. film: also what is played on it. */
 export function ExportButtons({ name, film }: { name: string; film?: boolean }) {
@@ -68,9 +68,7 @@ function playedOn({ play }: Studio): { net: NetModel; scenes: Scenes } {
 }
 
 function filmBlob(area: Element, net: NetModel, scenes: Scenes): Blob {
-  // What has just fired would stay lit.
-  area.querySelectorAll(".fired, .enabled").forEach((one) => one.classList.remove("fired", "enabled"));
-  const picture = takePicture([area], true);
+  const picture = takeFirstPicture(area);
   const colours = getComputedStyle(area);
   const film = filmOf(scenes, net, drawnIn(picture.text));
   const page = filmPage(film, picture.text, colours.getPropertyValue("--accent"), colours.getPropertyValue("--runs"));

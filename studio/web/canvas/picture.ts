@@ -54,6 +54,19 @@ export function takePicture(areas: readonly Element[], moves = false): Picture {
   return { text: new XMLSerializer().serializeToString(root), width, height };
 }
 
+/** The first picture of a film: nothing in it has fired or runs. */
+export function takeFirstPicture(area: Element): Picture {
+  const lit = changing.flatMap((name) => [...area.getElementsByClassName(name)].map((element) => ({ element, name })));
+  area.classList.add("still");
+  for (const { element, name } of lit) element.classList.remove(name);
+  try {
+    return takePicture([area], true);
+  } finally {
+    for (const { element, name } of lit) element.classList.add(name);
+    area.classList.remove("still");
+  }
+}
+
 /** The parts of a flow from the lowest to the highest. */
 function stacked(area: Element): Element[] {
   const parts = [...area.querySelectorAll(".react-flow__edges > svg, .react-flow__node, .react-flow__viewport-portal > *")];

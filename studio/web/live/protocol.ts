@@ -489,7 +489,7 @@ export interface RunInfo {
   /** The floor picture that the run was started with; null: that of the specification. */
   track: string | null;
 }
-/** Values of buffers by path. */
+/** Values of buffers, and of fields of memory, by path. */
 export interface Values {
   /** A number, bool, text, list or object. */
   [k: string]: unknown;
@@ -576,6 +576,16 @@ export interface Subsystem {
   /** What the last call took. */
   call_s: number;
   longest_call_s: number;
+  /**
+   * The fields of its memory as they were at the end of the last iteration. Absent: it has none. The studio leaves
+   * it out, since its `values` have it.
+   */
+  memory?: MemoryField[];
+}
+export interface MemoryField {
+  name: string;
+  /** As `tessera replay --values` prints it. */
+  value: string;
 }
 export interface Channel {
   name: string;

@@ -6,6 +6,7 @@ import { layerTitle, operationText } from "../model/labels";
 import type { Element, NetModel } from "../model/net";
 import { findThing, type Thing } from "../model/structure";
 import { EditForm } from "./edit_forms";
+import { MemoryNow } from "./memory_now";
 import { SystemForm } from "./system_form";
 
 /** Describes the selected element, and shows what can be changed about it. */
@@ -30,6 +31,7 @@ export function InspectPanel() {
           {text}
         </p>
       ))}
+      {net && <MemoryNow subsystem={ownerOf(thing, selected)} />}
       {thing && <EditForm key={selected} structure={structure} thing={thing} />}
       {net && element && (
         <>
@@ -57,6 +59,12 @@ export function InspectPanel() {
       </div>
     </div>
   );
+}
+
+/** The subsystem of what is selected, as its memory is named: "robot[3].control". */
+function ownerOf(thing: Thing | undefined, selected: string): string {
+  if (thing?.kind === "agent" || thing?.kind === "channel") return "";
+  return selected.split(".").slice(0, 2).join(".");
 }
 
 /** The breakpoints of a run in simulated time. */

@@ -25,6 +25,17 @@ test("a system without a world runs on the simulated clock, and what came of it 
     assert.equal(await rows.count(), 2);
     assert.match(await rows.first().innerText(), /watcher\.control\s+201\s+0\s+0/);
     assert.equal(await page.getByRole("heading", { name: "World" }).count(), 0);
+    // What the subsystem remembers is among the values, and in the panel of the subsystem.
+    const values = page.locator(".value-list");
+    await values.getByRole("textbox", { name: "Values whose path contains" }).fill("memory.missed");
+    await values.getByText("watcher.control.memory.missed").click();
+    await page.getByRole("img", { name: "Plot of watcher.control.memory.missed" }).waitFor();
+    await find(page, "watcher.control");
+    await tab(page, "Element").click();
+    const memory = page.getByRole("region", { name: "Memory now" });
+    await memory.getByText("last").waitFor();
+    assert.match(await memory.innerText(), /last\s+199\s+missed\s+0/);
+    await tab(page, "Run").click();
     // The next run is as this one was, until something else is asked for.
     assert.equal(await speed.inputValue(), "0");
     assert.equal(await page.getByRole("textbox", { name: "For" }).inputValue(), "20s");

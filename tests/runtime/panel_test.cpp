@@ -61,9 +61,7 @@ class PanelOfTest : public ::testing::Test {
   std::string let_go(const std::string& who = "a") {
     return panel_->feed({"robot.console.drive", who, std::nullopt}, panel_now);
   }
-  bool read() {
-    return receptor_->read({reinterpret_cast<std::byte*>(&drive_), sizeof drive_});
-  }
+  bool read() { return receptor_->read({reinterpret_cast<std::byte*>(&drive_), sizeof drive_}); }
 
   std::shared_ptr<Panel> panel_;
   std::optional<PanelReceptor> receptor_;

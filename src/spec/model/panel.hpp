@@ -17,8 +17,8 @@ struct PanelControl {
     stick_x,      ///< to the right is more; springs back to zero
     stick_y       ///< up is more; springs back to zero
   } kind = Kind::button;
-  std::string field{};                ///< "forward", "arm.grip"; "value" if the buffer is no structure
-  std::string unit{};                 ///< of the field's type; empty: none
+  std::string field{};              ///< "forward", "arm.grip"; "value" if the buffer is no structure
+  std::string unit{};               ///< of the field's type; empty: none
   bool whole = false;               ///< the field is an integer
   double minimum = 0, maximum = 1;  ///< of a number
 

@@ -78,6 +78,24 @@ std::vector<std::string> property_values(const std::string& given) {
   return names;
 }
 
+/// The real buffers of this project with panels; of one of them the fields: "forward=".
+std::vector<std::string> panel_values(const std::string& path) {
+  const KnownOfProject known = specification_of(".");
+  std::set<std::string> words;
+  if (!known.model) return {};
+  std::vector<spec::Driver> drivers = known.model->drivers;
+  if (known.model->simulation)
+    drivers.insert(drivers.end(), known.model->simulation->drivers.begin(),
+                   known.model->simulation->drivers.end());
+  for (const spec::Driver& driver : drivers) {
+    if (!driver.panel || words.size() >= most_candidates) continue;
+    if (path.empty()) words.insert(known.model->driver_path(driver));
+    if (known.model->driver_path(driver) != path) continue;
+    for (const spec::PanelControl& control : driver.panel->controls) words.insert(control.field + "=");
+  }
+  return {words.begin(), words.end()};
+}
+
 /// Systems that run now, and processes of them: the names in "SYSTEM.PROCESS.PID.sock".
 std::vector<std::string> running_systems() {
   std::set<std::string> names;
@@ -159,6 +177,8 @@ Candidates all_of(const std::vector<CommandLine::Words>& commands, const TypedLi
   } else if (const std::string& name = line.command->command;
              name == "top" || name == "set" || name == "reset" || name == "emergency-stop") {
     all.words = running_systems();
+  } else if (line.command->command == "panel") {
+    all.words = panel_values(line.arguments.empty() ? "" : line.arguments.front());
   } else if (!line.command->values.empty() && line.arguments.empty()) {
     all.words = line.command->values;
   } else {

@@ -21,6 +21,7 @@ void add_replay(CommandLine& app, int& exit_code);
 void add_studio(CommandLine& app, int& exit_code);
 void add_top(CommandLine& app, int& exit_code);
 void add_set(CommandLine& app, int& exit_code);
+void add_panel(CommandLine& app, int& exit_code);
 void add_emergency_stop(CommandLine& app, int& exit_code);
 void add_reset(CommandLine& app, int& exit_code);
 void add_world(CommandLine& app, int& exit_code);

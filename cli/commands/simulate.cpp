@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/panel.hpp"
 #include "cli/commands/deploy.hpp"
 #include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
@@ -151,6 +152,7 @@ int simulate_command(SimulateOptions options) {
   const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
   const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
   if (!options.from.empty()) return run_again(*controller, options);
+  tell_of_panels(controller->specification.model);
   if (options.duration.empty()) options.duration = options.schedules.count > 0 ? "1s" : "60s";
   Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
   if (options.interleave) command.push_back("--interleave");

@@ -30,6 +30,16 @@ std::string option_text(const std::string& name, const spec::DriverOption& optio
                      option.unit.empty() ? "" : ", " + quoted(option.unit));
 }
 
+/// "forward -0.5 0.5; horn", as the runtime reads it.
+std::string controls_text(const spec::Panel& panel) {
+  std::string text;
+  for (const spec::PanelControl& one : panel.controls) {
+    text += (text.empty() ? "" : "; ") + one.field;
+    if (one.is_number()) text += fmt::format(" {} {}", one.minimum, one.maximum);
+  }
+  return text;
+}
+
 /// Writes the rows; drivers with the same options share a table of them.
 class Writer {
  public:
@@ -38,8 +48,7 @@ class Writer {
   std::string rows(const std::vector<spec::Driver>& drivers) {
     std::vector<std::pair<std::string, const spec::Driver*>> sorted;
     for (const spec::Driver& driver : drivers)
-      if (driver.kind == "cpp" || driver.kind == topic_kind)
-        sorted.emplace_back(model_.driver_path(driver), &driver);
+      if (!driver.is_of_world()) sorted.emplace_back(model_.driver_path(driver), &driver);
     std::ranges::stable_sort(sorted, {}, [](const auto& one) { return one.first; });
     std::string rows;
     for (const auto& [path, driver] : sorted) rows += row(path, *driver);
@@ -55,6 +64,7 @@ class Writer {
   std::string row(const std::string& path, const spec::Driver& driver) {
     const bool reads = model_.subsystem(driver.instance).kind == spec::SubsystemKind::receptor;
     if (driver.kind == topic_kind) return topic_row(path, driver, reads);
+    if (driver.panel) return panel_row(path, driver);
     headers_.insert(quoted("drivers.hpp"));
     const std::string device = alias(driver.target());
     const std::string make = fmt::format("tessera::make_driver<tessera::{}, {}, {}>",
@@ -79,6 +89,16 @@ class Writer {
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2",
                        quoted(project_.at(driver.span)), options(with_topic),
                        reads ? make + ", nullptr" : "nullptr, " + make + (is_server ? "" : ", true"));
+  }
+
+  std::string panel_row(const std::string& path, const spec::Driver& driver) {
+    headers_.insert(quoted("tessera/panel.hpp"));
+    spec::Driver with_controls = driver;
+    with_controls.options["controls"] = spec::DriverOption{controls_text(*driver.panel), ""};
+    with_controls.options["stale"] =
+        spec::DriverOption{std::chrono::duration<double>(driver.panel->stale).count(), "s"};
+    return fmt::format("    {{\"{}\", \"{}\", {}, {}, tessera::panel_receptor<{}>, nullptr}},\n", path,
+                       "panel", quoted(project_.at(driver.span)), options(with_controls), value(driver));
   }
 
   /// The type that the driver reads or writes.

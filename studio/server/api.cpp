@@ -287,24 +287,6 @@ void Api::get_run(const Request& request, Response& response) {
   answer(response, text_of(run->info(/*all=*/true)));
 }
 
-void Api::control_run(const Request& request, Response& response) {
-  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
-  if (run == nullptr) return answer_error(response, 404, "there is no such run");
-  RequestBody body(request, response);
-  const RunControl wanted{.command = body.text("command"),
-                          .subsystem = body.text_or("subsystem", ""),
-                          .speed = body.number("value"),
-                          .path = body.text_or("path", ""),
-                          .text = body.text_or("text", ""),
-                          .places = body.indices("breakpoints", "place"),
-                          .transitions = body.indices("breakpoints", "transition"),
-                          .conditions = body.indices("breakpoints", "condition")};
-  if (!body.good()) return;
-  if (const std::optional<Problem> problem = run->control(wanted))
-    return answer_error(response, 409, problem->text);
-  answer(response, "{}");
-}
-
 /// nullopt: the request is refused.
 std::optional<Recordings::Span> Api::span_of(const Request& request, Response& response) {
   Recordings::Span span;

@@ -16,8 +16,10 @@ using nlohmann::json;
 TEST(ControlMessages, EveryCommandIsOneThatTheSchemaKnows) {
   for (const ControlCommand& one : std::vector<ControlCommand>{
            command::Recording{}, command::Own{}, command::Set{"v", "0.3"}, command::EmergencyStop{"smoke"},
-           command::EmergencyStop{}, command::Reset{}, command::Pause{}, command::Resume{},
-           command::StepFiring{}, command::StepIteration{"robot.control"}, command::Speed{2},
+           command::Panel{"robot.console.drive", "page 1", {{{"forward", 0.5}, {"horn", true}}}},
+           command::Panel{"robot.console.drive", "page 1", {}}, command::EmergencyStop{}, command::Reset{},
+           command::Pause{}, command::Resume{}, command::StepFiring{},
+           command::StepIteration{"robot.control"}, command::Speed{2},
            command::Breakpoints{{"robot.in"}, {}, {"t_in"}}}) {
     schema_test::judge_command(json::parse(line_of(one)));
     const bool is_answered =

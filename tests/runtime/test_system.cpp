@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "nets/flat_net.hpp"
+#include "tessera/panel.hpp"
 
 namespace tessera::testing {
 namespace {
@@ -119,7 +120,9 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
   const auto driver = [&](const char* buffer) -> std::string_view {
     return *names_.emplace_back(std::make_unique<std::string>(std::string(name) + buffer));
   };
-  if (script.senses)
+  if (script.senses && !panel.empty())
+    drivers_.push_back({driver(".sensed"), "panel", "", panel, panel_receptor<double>, nullptr});
+  else if (script.senses)
     drivers_.push_back(
         {driver(".sensed"),
          "FakeReceptor",

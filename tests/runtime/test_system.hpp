@@ -70,6 +70,7 @@ class TestSystem {
   [[nodiscard]] const System& system();
 
   Devices devices;
+  std::vector<DriverOption> panel;  ///< before `add`: its receptors are panels with these options
 
  private:
   std::vector<std::unique_ptr<std::string>> names_;

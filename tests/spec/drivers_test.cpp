@@ -100,5 +100,40 @@ TEST(Layout, IsWrittenAsInRecordings) {
   EXPECT_EQ(reading.model->layout_of(memory[1].type), "uint8[6]");
 }
 
+TEST(Panels, HaveTheControlsThatTheSpecificationNames) {
+  using Kind = PanelControl::Kind;
+  const Reading reading(golden("valid/panels.yaml"));
+  ASSERT_TRUE(reading.model) << reading.report();
+  const Panel& drive = reading.model->drivers.at(0).panel.value();
+  EXPECT_EQ(drive.stale, std::chrono::milliseconds(300));
+  ASSERT_EQ(drive.controls.size(), 6U);
+  EXPECT_EQ(drive.controls[0].kind, Kind::stick_y);
+  EXPECT_EQ(drive.controls[0].field, "forward");
+  EXPECT_EQ(drive.controls[0].unit, "m/s");
+  EXPECT_EQ(drive.controls[0].minimum, -0.5);
+  EXPECT_EQ(drive.controls[0].maximum, 0.5);
+  EXPECT_EQ(drive.controls[1].minimum, -1) << "a stick without a range";
+  EXPECT_TRUE(drive.controls[3].whole);
+  EXPECT_EQ(drive.controls[4].field, "arm.lift");
+  EXPECT_EQ(drive.controls[5].kind, Kind::switch_over);
+  EXPECT_EQ(reading.model->drivers.at(1).panel.value().controls.at(0).field, "value");
+}
+
+TEST(Panels, HaveOneControlForEachNumberAndBoolByDefault) {
+  using Kind = PanelControl::Kind;
+  const Reading reading(golden("valid/panels.yaml"));
+  ASSERT_TRUE(reading.model) << reading.report();
+  const Panel& drive = reading.model->simulation->drivers.at(0).panel.value();
+  std::string fields;
+  for (const PanelControl& one : drive.controls) {
+    fields += one.field + " ";
+    EXPECT_EQ(one.kind, one.field == "horn" || one.field == "arm.grip" ? Kind::button : Kind::slider);
+    const double least = one.is_number() && one.field != "gear" ? -1 : 0;
+    EXPECT_EQ(one.minimum, least) << one.field;
+  }
+  EXPECT_EQ(fields, "forward turn horn gear arm.lift arm.grip ");
+  EXPECT_EQ(drive.stale, std::chrono::milliseconds(500));
+}
+
 }  // namespace
 }  // namespace tessera::spec

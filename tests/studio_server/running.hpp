@@ -43,7 +43,10 @@ class Elsewhere {
 /// one folder, one after the other, in which the controller is built once.
 class RunOfTheStudio : public Served {
  protected:
-  RunOfTheStudio() : Served(fs::path(TESSERA_BINARY_DIR) / "tests/studio_runs") {
+  /// folder: of the build. project: of the source; empty: the line follower.
+  explicit RunOfTheStudio(const fs::path& folder = "tests/studio_runs", const fs::path& project = {})
+      : Served(TESSERA_BINARY_DIR / folder) {
+    if (!project.empty()) mirror(TESSERA_SOURCE_DIR / project, folder_ / "project");
     keep_ = true;
     forget_runs();
     // Sockets of other controllers, which come and go, are not of this test's world.

@@ -44,9 +44,12 @@
 ///     {"command": "emergency_stop", "why": text}                 gives every device its safe command, and
 ///                                                                nothing else until the reset
 ///     {"command": "reset"}                                       ends the emergency stop: the operator's
+///     {"command": "panel", "path": "robot.operator.drive", "operator": text, "values": {"turn": 0.2}}
+///                                                                an input of a panel (docs/drivers.md);
+///                                                                without "values": the operator lets go
 ///
-/// An answer with {"elsewhere": true} says that no subsystem of this process has such a parameter; another
-/// process of the system may have it.
+/// An answer with {"elsewhere": true} says that no subsystem of this process has such a parameter or panel;
+/// another process of the system may have it.
 ///
 /// Under the simulated clock, only a run that was started with `--controlled` listens. It sends 25 lines a
 /// second, which also have {"paused", "pauses", "speed", "broke_at"}. It takes more commands and answers each

@@ -234,6 +234,9 @@ class Assembler {
 
   void find_devices(DeviceFinder& finder, SubsystemParts& parts) {
     SubsystemDevices devices = finder.find(parts.path, parts.bindings);
+    for (const DriverInUse& driver : devices.drivers)
+      if (const auto* const panel = dynamic_cast<const PanelReceptor*>(driver.device))
+        assembly_.panels.add(panel->panel());
     parts.receptors = std::move(devices.receptors);
     parts.effectors = std::move(devices.effectors);
     parts.drivers = std::move(devices.drivers);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/devices.hpp"
+#include "drivers/panel.hpp"
 #include "drivers/run_control.hpp"
 #include "links/links.hpp"
 #include "links/simulated_network.hpp"
@@ -67,6 +68,7 @@ struct Assembly {
   std::optional<Scenario> scenario;
   Injections faults;
   InjectedSignals signals;
+  Panels panels;                              ///< of operators, behind real buffers
   std::unique_ptr<ParameterChanges> changes;  ///< made with the executors, which take them
   /// The words of a channel: one; of a channel between processes, one per end that is here.
   struct Words {

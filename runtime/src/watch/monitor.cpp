@@ -220,9 +220,7 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
   if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
     const std::string wrong = std::visit([this](const auto& one) { return this->execute(one); }, *command);
     if (client.gone()) return;
-    const auto* const set = std::get_if<commands::SetParameter>(command);
-    const bool is_elsewhere = set != nullptr && !wrong.empty() && !assembly_.changes->knows(set->path);
-    client.add(answer_line(request.id, wrong, is_elsewhere));
+    client.add(answer_line(request.id, wrong, !wrong.empty() && is_elsewhere(*command)));
   } else {
     if (client.gone()) return;
     // A client that always has a piece on the way would never get a snapshot.
@@ -243,6 +241,18 @@ std::string Monitor::execute(const SimulationCommand& command) {
 
 std::string Monitor::execute(const commands::SetParameter& command) {
   return assembly_.changes->ask(command.path, command.value);
+}
+
+std::string Monitor::execute(const commands::FeedPanel& command) {
+  return assembly_.panels.feed(command.input);
+}
+
+/// Whether it names nothing that this process has.
+bool Monitor::is_elsewhere(const AnsweredCommand& command) const {
+  if (const auto* const set = std::get_if<commands::SetParameter>(&command))
+    return !assembly_.changes->knows(set->path);
+  const auto* const panel = std::get_if<commands::FeedPanel>(&command);
+  return panel != nullptr && !assembly_.panels.knows(panel->input.path);
 }
 
 std::string Monitor::execute(const commands::EmergencyStop& command) {

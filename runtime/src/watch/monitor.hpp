@@ -47,6 +47,8 @@ class Monitor {
   [[nodiscard]] static std::string execute(const commands::Malformed& command);
   [[nodiscard]] std::string execute(const SimulationCommand& command);
   [[nodiscard]] std::string execute(const commands::SetParameter& command);
+  [[nodiscard]] std::string execute(const commands::FeedPanel& command);
+  [[nodiscard]] bool is_elsewhere(const AnsweredCommand& command) const;
   [[nodiscard]] std::string execute(const commands::EmergencyStop& command);
   [[nodiscard]] std::string execute(const commands::Reset& command);
 

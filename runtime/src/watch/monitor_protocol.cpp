@@ -98,9 +98,25 @@ template <class All>
 }
 
 /// Throws as simulation_command.
+[[nodiscard]] commands::FeedPanel panel_command(const json& object) {
+  PanelInput input{.path = object.at("path"), .who = object.value("operator", ""), .values = {}};
+  const json& values = member_of(object, "values");
+  if (values.is_null()) return {std::move(input)};
+  input.values.emplace();
+  for (const auto& [field, value] : values.get_ref<const json::object_t&>()) {
+    if (value.is_boolean())
+      input.values->emplace_back(field, value.get<bool>());
+    else
+      input.values->emplace_back(field, value.get<double>());
+  }
+  return {std::move(input)};
+}
+
+/// Throws as simulation_command.
 [[nodiscard]] AnsweredCommand answered_command(const json& object) {
   const std::string name = object.value("command", "");
   if (name == "set") return commands::SetParameter{object.at("path"), object.at("value")};
+  if (name == "panel") return panel_command(object);
   if (name == "emergency_stop")
     return commands::EmergencyStop{object.value("why", "an operator asks for it")};
   if (name == "reset") return commands::Reset{};

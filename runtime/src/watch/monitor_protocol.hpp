@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "drivers/panel.hpp"
 #include "subsystem/memory_gauge.hpp"
 
 namespace tessera {
@@ -90,6 +91,10 @@ struct Malformed {};
 struct SetParameter {
   std::string path, value;
 };
+/// Of an operator, or of one who lets go.
+struct FeedPanel {
+  PanelInput input;
+};
 struct EmergencyStop {
   std::string why;
 };
@@ -122,8 +127,8 @@ using SimulationCommand =
     std::variant<commands::Unknown, commands::Pause, commands::Resume, commands::StepFiring,
                  commands::StepIteration, commands::SetSpeed, commands::SetBreakpoints>;
 /// Commands that are answered by a line each.
-using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::EmergencyStop,
-                                     commands::Reset, SimulationCommand>;
+using AnsweredCommand = std::variant<commands::Malformed, commands::SetParameter, commands::FeedPanel,
+                                     commands::EmergencyStop, commands::Reset, SimulationCommand>;
 using Command = std::variant<AnsweredCommand, commands::SendRecording, commands::SendScene, commands::Own>;
 
 struct Request {

@@ -105,7 +105,7 @@ std::string simulation_json(const spec::Model& model, const fs::path& project,
                             const std::optional<WorldPicture>& picture) {
   Json json{{"drivers", Json::array()}};
   for (const spec::Driver& driver : model.simulation->drivers)
-    if (driver.kind != "cpp") json["drivers"].push_back(json_of(request_of(model, driver)));
+    if (driver.is_of_world()) json["drivers"].push_back(json_of(request_of(model, driver)));
   json["models"] = models_of(*model.simulation, project);
   if (model.simulation->coppelia) json["coppelia"] = json_of(server_of(*model.simulation->coppelia, project));
   json["checks"] = Json::array();

@@ -111,7 +111,7 @@ bool check_world(const spec::Model& model, const fs::path& project, const std::s
   }
   Judge judge(model, **opened, out);
   for (const spec::Driver& driver : simulation.drivers)
-    if (driver.kind != "cpp") judge.judge(driver);
+    if (driver.is_of_world()) judge.judge(driver);
   bool ok = judge.ok();
   const auto judge_text = [&](const std::string& json, diagnostics::Span its_place) {
     const auto problem = (*opened)->problem_with_checks(json);

@@ -157,6 +157,15 @@ json json_of(const command::Own&) { return {{"command", "own"}}; }
 json json_of(const command::Set& set) {
   return {{"command", "set"}, {"path", set.path}, {"value", set.value}};
 }
+json json_of(const command::Panel& panel) {
+  json object{{"command", "panel"}, {"path", panel.path}, {"operator", panel.who}};
+  if (!panel.values) return object;
+  json values = json::object();
+  for (const auto& [field, value] : *panel.values)
+    std::visit([&](const auto& one) { values[field] = one; }, value);
+  object["values"] = std::move(values);
+  return object;
+}
 json json_of(const command::EmergencyStop& stop) {
   json object{{"command", "emergency_stop"}};
   if (!stop.why.empty()) object["why"] = stop.why;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -72,7 +73,7 @@ struct Snapshot {
 struct CommandAnswer {
   std::int64_t id = 0;
   std::string error;       ///< empty: done
-  bool elsewhere = false;  ///< no subsystem of this process has such a parameter
+  bool elsewhere = false;  ///< no subsystem of this process has such a parameter or panel
 };
 
 /// Precedes bytes of the recording.
@@ -109,6 +110,12 @@ struct Own {};
 struct Set {
   std::string path, value;
 };
+/// An input of an operator for the panel of a real buffer.
+struct Panel {
+  using Value = std::variant<double, bool>;
+  std::string path, who;
+  std::optional<std::map<std::string, Value>> values;  ///< by field; nullopt: the operator lets go
+};
 struct EmergencyStop {
   std::string why;  ///< empty: the controller's own words
 };
@@ -129,9 +136,9 @@ struct Breakpoints {
 }  // namespace command
 
 using ControlCommand =
-    std::variant<command::Recording, command::Scene, command::Own, command::Set, command::EmergencyStop,
-                 command::Reset, command::Pause, command::Resume, command::StepFiring, command::StepIteration,
-                 command::Speed, command::Breakpoints>;
+    std::variant<command::Recording, command::Scene, command::Own, command::Set, command::Panel,
+                 command::EmergencyStop, command::Reset, command::Pause, command::Resume, command::StepFiring,
+                 command::StepIteration, command::Speed, command::Breakpoints>;
 
 /// With its end. Text that is no UTF-8 is replaced: it names nothing, and the controller says so.
 /// id: of the answer; nullopt: none is waited for.

@@ -15,6 +15,7 @@ constexpr std::string_view site = "a site of the world", body = "a body of the w
 constexpr std::array kinds = std::to_array<DriverKind>(
     {{"cpp", true, true, false, false, "a C++ class", Values::any},
      {"ros2", true, true, false, false, "a topic of ROS 2", Values::any},
+     {"panel", true, false, false, false, "controls", Values::any},
      {"sensor", true, false, true, true, "a sensor of the world", Values::numbers},
      {"joint_position", true, false, true, true, "a joint of the world", Values::numbers},
      {"joint_velocity", true, false, true, true, "a joint of the world", Values::numbers},

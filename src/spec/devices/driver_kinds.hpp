@@ -29,6 +29,8 @@ struct DriverKind {
 
   /// A device of the real robot that needs no C++ class: a topic of ROS 2.
   [[nodiscard]] bool is_topic() const { return name == "ros2"; }
+  /// Controls that an operator moves.
+  [[nodiscard]] bool is_panel() const { return name == "panel"; }
 };
 
 /// nullptr: there is none of that name.

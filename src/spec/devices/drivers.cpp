@@ -8,6 +8,7 @@
 #include "spec/agents/subsystems.hpp"
 #include "spec/devices/driver_kinds.hpp"
 #include "spec/devices/driver_options.hpp"
+#include "spec/devices/panels.hpp"
 #include "spec/devices/topics.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -56,6 +57,9 @@ class DriverReader {
     KnownUpTo known = KnownUpTo::nothing;
     if (!path || !lookup_.find(*path, target, known, out_)) return;
     if (!find_real(*path, target, driver) || kind == nullptr || !fits(*kind, target, driver)) return;
+    if (kind->is_panel())
+      driver.panel =
+          read_panel(entry, lookup_.subsystem(target).real[driver.real].type, lookup_.model(), out_);
     add(*path, target, driver);
   }
 
@@ -88,6 +92,7 @@ class DriverReader {
       read_topic(entry, driver, out_);
       return kind;
     }
+    if (kind->is_panel()) return kind;  // its controls depend on the type of the real buffer
     read_target(*chosen, *kind, driver);
     for (const Entry& key : entry.value->entries) {
       if (&key == chosen || (kind->simulated_only && find_kind(key.key) != nullptr)) continue;
@@ -164,7 +169,7 @@ class DriverReader {
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
     } else if (devices_ == Devices::simulated && kind.is_topic()) {
       problem = "driver " + quoted(kind.name) + " belongs to the real robot";
-    } else if ((kind.simulated_only || kind.is_topic()) && driver.real == none) {
+    } else if ((kind.simulated_only || kind.is_topic() || kind.is_panel()) && driver.real == none) {
       problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
     } else if (driver.real != none &&
                !has_values_of(kind, subsystem.real[driver.real].type, lookup_.model())) {

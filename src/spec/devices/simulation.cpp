@@ -64,7 +64,7 @@ Track read_track(const Entry& entry, Diagnostics& out) {
 /// track, which is its floor.
 void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
-                                    [](const Driver& driver) { return driver.kind != "cpp"; });
+                                    [](const Driver& driver) { return driver.is_of_world(); });
   if (of_world || simulation.track || !simulation.checks.empty() || !simulation.measures.empty() ||
       !simulation.models.empty() || simulation.drivers.empty())
     section.require("world", "for example world: line_world.xml");

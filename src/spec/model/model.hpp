@@ -13,6 +13,7 @@
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
 #include "spec/model/deployment.hpp"
+#include "spec/model/panel.hpp"
 #include "spec/model/world.hpp"
 
 /// The specification as data, as section "The specification file" of docs/specification.md describes it.
@@ -315,7 +316,7 @@ struct DriverOption {
 struct Driver {
   Index instance = 0;
   Index real = 0;    ///< into Subsystem::real; none: all of them
-  std::string kind;  ///< "cpp", or a kind of the simulated world: "sensor", "actuator", ...
+  std::string kind;  ///< "cpp", "ros2", "panel", or a kind of the simulated world: "sensor", ...
   /// The C++ class, or the names of elements of the world.
   struct Target {
     std::string name;
@@ -324,7 +325,11 @@ struct Driver {
   std::vector<Target> targets;
   std::map<std::string, DriverOption> options;
   std::map<std::string, Span> option_spans;
+  std::optional<Panel> panel{};  ///< of kind "panel"
   Span span;
+
+  /// Behind it is a device of the simulated world.
+  [[nodiscard]] bool is_of_world() const { return kind != "cpp" && kind != "ros2" && kind != "panel"; }
 
   /// Precondition: the driver could be read.
   [[nodiscard]] const std::string& target() const { return targets.front().name; }

@@ -98,6 +98,22 @@ std::vector<std::uint32_t> RequestBody::indices(const char* list, const char* me
   return numbers;
 }
 
+std::optional<std::map<std::string, std::variant<double, bool>>> RequestBody::inputs(const char* name) {
+  const json* member = find(name);
+  if (member == nullptr) return std::nullopt;
+  std::map<std::string, std::variant<double, bool>> inputs;
+  if (!member->is_object()) complain(std::string("'") + name + "' has to be an object");
+  for (const auto& [field, value] : member->items()) {
+    if (value.is_boolean())
+      inputs[field] = value.get<bool>();
+    else if (value.is_number())
+      inputs[field] = value.get<double>();
+    else
+      complain(std::string("'") + name + "' has to hold numbers and truth values");
+  }
+  return inputs;
+}
+
 std::vector<std::string> RequestBody::texts(const char* name) {
   const json* member = find(name);
   std::vector<std::string> texts;

@@ -2,11 +2,13 @@
 
 #include <httplib.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "server/http/json_text.hpp"
@@ -39,6 +41,8 @@ class RequestBody {
   /// Collects a member (numbers from 0 up) of the objects in a list of at most 10,000; skips objects without.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
+  /// An object of numbers and truth values; nullopt: there is none.
+  [[nodiscard]] std::optional<std::map<std::string, std::variant<double, bool>>> inputs(const char* name);
 
  private:
   void complain(const std::string& what);

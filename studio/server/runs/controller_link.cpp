@@ -30,6 +30,11 @@ bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
   return !own || say(project::line_of(project::command::Own{}));
 }
 
+bool ControllerLink::is_open() {
+  const std::lock_guard lock(mutex_);
+  return open_;
+}
+
 bool ControllerLink::is_over() {
   const std::lock_guard lock(mutex_);
   return over_;

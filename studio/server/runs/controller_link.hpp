@@ -43,6 +43,8 @@ class ControllerLink {
   /// nullopt: done. Waits for the connection, at most a minute, and five seconds for the answer. Meanwhile somebody
   /// has to call connect and snapshot.
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
+  /// Whether it is connected.
+  [[nodiscard]] bool is_open();
   /// Who was connected to has closed, or `close` was called.
   [[nodiscard]] bool is_over();
   /// Whether the controller has said that its run is over. If not, and is_over, the connection was lost.

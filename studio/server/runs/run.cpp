@@ -17,6 +17,7 @@
 #include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
 #include "server/http/json_text.hpp"
+#include "server/runs/run_panels.hpp"
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
@@ -318,6 +319,7 @@ json Run::info(bool all) const {
   info["firings"] = firings_;
   info["values"] = values_;
   info["parameters"] = parameters_.shown();
+  info["panels"] = panels_of(*analysis_->model, request_);
   info["pose"] = pose_;
   info["path"] = rows_of(path_);
   info["scene"] = scene_;
@@ -340,6 +342,11 @@ std::optional<Problem> Run::control(const RunControl& wanted) {
   // Any controller takes values of parameters, also one on the steady clock.
   if (wanted.command == "set" && request_.kind != RunRequest::Kind::deployment)
     return link_.command(project::command::Set{wanted.path, wanted.text});
+  if (wanted.command == "panel" && request_.kind != RunRequest::Kind::deployment) {
+    // What an operator asks for now is not to happen later.
+    if (!link_.is_open()) return Problem{"the controller does not listen yet"};
+    return link_.command(project::command::Panel{wanted.path, wanted.who, wanted.inputs});
+  }
   if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
   const bool attached = request_.kind == RunRequest::Kind::attach;
   if ((attached && !controllable_) || request_.kind == RunRequest::Kind::deployment)

@@ -2,12 +2,14 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "project/build/controller.hpp"
@@ -42,9 +44,12 @@ struct RunRequest {
 /// What is asked of a run that goes on; each command reads its own members.
 struct RunControl {
   std::string command;
-  std::string subsystem;                                       ///< of step_iteration
-  std::optional<double> speed;                                 ///< of speed
-  std::string path, text;                                      ///< of set: a parameter and its value
+  std::string subsystem;        ///< of step_iteration
+  std::optional<double> speed;  ///< of speed
+  std::string path, text;       ///< of set: a parameter and its value
+  std::string who;              ///< of panel: the operator
+  std::optional<std::map<std::string, std::variant<double, bool>>>
+      inputs;                                                  ///< of panel, which has a path, too
   std::vector<std::uint32_t> places, transitions, conditions;  ///< of breakpoints: indices of the net
 };
 

@@ -54,6 +54,8 @@ interface Details<Name extends keyof Requests> {
   of?: string;
   query?: Requests[Name] extends { query?: infer Given } ? Given : undefined;
   body?: Body<Name>;
+  /** The request goes on when the page is closed. */
+  keepalive?: boolean;
 }
 
 /** Where a request goes: "/api/runs/7/control" of "POST /api/runs/RUN/control". */
@@ -68,7 +70,7 @@ export class Api {
 
   private async ask<Name extends keyof Requests>(
     name: Name,
-    { of = "", query, body }: Details<Name> = {},
+    { of = "", query, body, keepalive = false }: Details<Name> = {},
   ): Promise<Requests[Name]["answer"]> {
     const method = name.split(" ", 1)[0]!;
     const path = addressOf(name, of, query ?? {});
@@ -76,7 +78,7 @@ export class Api {
     if (body !== undefined) headers["Content-Type"] = "application/json";
     let answer: Response;
     try {
-      answer = await fetch(path, { method, headers, ...(body === undefined ? {} : { body: JSON.stringify(body) }) });
+      answer = await fetch(path, { method, headers, keepalive, ...(body === undefined ? {} : { body: JSON.stringify(body) }) });
     } catch {
       throw new ApiError(0, "The server does not answer.");
     }
@@ -116,6 +118,9 @@ export class Api {
   stopVerify = (job: string) => this.ask("DELETE /api/verify/JOB", { of: job });
   start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });
   control = (run: string, request: ControlRequest) => this.ask("POST /api/runs/RUN/control", { of: run, body: request });
+  /** The same for a page that may be about to be closed. */
+  lastControl = (run: string, request: ControlRequest) =>
+    this.ask("POST /api/runs/RUN/control", { of: run, body: request, keepalive: true });
   runs = () => this.ask("GET /api/runs");
   /** Sockets where controllers listen. */
   controllers = () => this.ask("GET /api/controllers");

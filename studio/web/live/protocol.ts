@@ -472,6 +472,7 @@ export interface RunInfo {
   firings: number;
   values: Values;
   parameters: ParameterShown[];
+  panels: PanelShown[];
   pose: Pose | null;
   /** Null: nothing is simulated, or the run has not begun. */
   scene: SceneShown | null;
@@ -508,6 +509,27 @@ export interface ParameterShown {
   value: string | null;
   /** Not every subsystem holds the same value. */
   differs: boolean;
+}
+/** Controls that an operator moves, behind a real buffer of the controller. */
+export interface PanelShown {
+  /** Of the real buffer: `robot.console.drive`. */
+  path: string;
+  /** An input counts for so long. */
+  stale_s: number;
+  controls: PanelControl[];
+}
+export interface PanelControl {
+  /** `value` if the buffer is no structure. */
+  field: string;
+  control: "button" | "switch" | "slider" | "stick_x" | "stick_y";
+  /** Empty: it has none. */
+  unit: string;
+  /** Null: it is a bool. */
+  minimum: number | null;
+  /** Null: it is a bool. */
+  maximum: number | null;
+  /** It takes whole numbers only. */
+  whole: boolean;
 }
 /** Metres and radians in the floor picture. */
 export interface Pose {
@@ -695,15 +717,19 @@ export interface Share {
   all: number;
 }
 export interface ControlRequest {
-  command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "set" | "breakpoints";
+  command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "set" | "panel" | "breakpoints";
   /** Of `speed`. */
   value?: number;
   /** Of `step_iteration`: its path; absent: any. */
   subsystem?: string;
-  /** Of `set`: a parameter, as `tessera set` names it. */
+  /** Of `set`: a parameter, as `tessera set` names it. Of `panel`: a real buffer. */
   path?: string;
   /** Of `set`: its new value, in the unit of the parameter. */
   text?: string;
+  /** Of `panel`: tells operators apart. */
+  operator?: string;
+  /** Of `panel`: values by field; what is missing is neutral. Absent: the operator lets go of the panel. */
+  inputs?: { [k: string]: number | boolean };
   /** Instead of those before. */
   breakpoints?: Breakpoint[];
 }

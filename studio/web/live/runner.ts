@@ -11,6 +11,7 @@ import type {
   Events,
   FiringsEvent,
   Outcome,
+  PanelShown,
   ParameterShown,
   PoseEvent,
   PoseFrame,
@@ -58,6 +59,7 @@ export interface RunnerState {
   behaviours: ReadonlyMap<string, string>;
   /** The parameters of the run, with what they hold. */
   parameters: readonly ParameterShown[];
+  panels: readonly PanelShown[];
   /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
   /** What it was started with from this page; null: somewhere else. */
@@ -85,6 +87,7 @@ const idle: RunnerState = {
   problem: "",
   behaviours: new Map(),
   parameters: [],
+  panels: [],
   breakpoints: [],
   request: null,
   shown: false,
@@ -235,7 +238,7 @@ export class Runner {
     this.setMarked(marking, firings);
     if ("values" in info) {
       for (const take of this.informed) take(info);
-      this.store.set({ parameters: info.parameters });
+      this.store.set({ parameters: info.parameters, panels: info.panels });
       this.counted(firings);
       this.valued(info);
       this.track?.pathUpTo(info.path);

@@ -6,6 +6,7 @@ import { Deployment } from "./deployment";
 import { Draft, message } from "./draft";
 import type { Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked } from "./link";
+import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
 import { findThing, type Structure } from "../model/structure";
@@ -61,6 +62,7 @@ export class Studio {
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
   readonly runner = new Runner(this.api, this.draft, this.connection);
+  readonly operator = new Operator(this.api, this.runner);
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
@@ -90,6 +92,7 @@ export class Studio {
       const link = linkTo(this.view.get());
       if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
     });
+    this.operator.watch(document, window);
     // A link that is opened in this tab changes only the part after the #.
     addEventListener("hashchange", () => this.follow(readLink(location.hash)));
     this.draft.store.subscribe(() => {

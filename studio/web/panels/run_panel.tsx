@@ -7,6 +7,7 @@ import type { NetModel } from "../model/net";
 import { Again } from "./again";
 import { Choice } from "./field";
 import { Icon, IconButton } from "./icons";
+import { OperatorPanels } from "./operator_panel";
 import { OutcomeOf } from "./outcome";
 import { reason, stateTitles } from "./pane_title";
 import { ParametersNow } from "./parameters_now";
@@ -18,6 +19,7 @@ export function RunPanel() {
   const active = ["building", "running", "paused"].includes(runner.state);
   return (
     <div className="run-panel">
+      <h2 className="visually-hidden">Run</h2>
       {runner.state !== "idle" && (
         <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
           <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}
@@ -33,6 +35,7 @@ export function RunPanel() {
       {active ? <Controls /> : <StartForm />}
       <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
+      {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
       {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
       {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}

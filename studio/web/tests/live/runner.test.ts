@@ -37,6 +37,7 @@ async function watching() {
     ],
     subsystems: null,
     parameters: [],
+    panels: [],
     deployment: null,
     verdicts: null,
     outcome: null,

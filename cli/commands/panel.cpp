@@ -1,0 +1,155 @@
+#include "cli/commands/panel.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/commands/commands.hpp"
+#include "cli/running_controller.hpp"
+#include "cli/terminal.hpp"
+#include "project/process/control_messages.hpp"
+#include "tessera/given_values.hpp"
+
+/// `tessera panel`: an operator without a page.
+namespace tessera::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using PanelCommand = project::command::Panel;
+
+struct PanelOptions {
+  std::string path, which, duration = "500ms";
+  std::vector<std::string> values;
+};
+
+constexpr std::chrono::milliseconds repetition{100};
+std::atomic<bool> interrupted{false};
+
+/// nullopt after the complaint.
+std::optional<PanelCommand::Value> panel_value(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  double number = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (problem == std::errc() && end == text.data() + text.size() && std::isfinite(number)) return number;
+  complain("'" + text + "' is neither a number nor true or false");
+  return std::nullopt;
+}
+
+std::optional<PanelCommand> panel_command_of(const PanelOptions& options) {
+  PanelCommand command{options.path, fmt::format("terminal {}", getpid()), {}};
+  command.values.emplace();
+  for (const std::string& one : options.values) {
+    const std::size_t equals = one.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      complain("'" + one + "' is not FIELD=VALUE");
+      return std::nullopt;
+    }
+    const auto value = panel_value(one.substr(equals + 1));
+    if (!value) return std::nullopt;
+    command.values->insert_or_assign(one.substr(0, equals), *value);
+  }
+  return command;
+}
+
+/// The answer to a command, among the lines that come anyhow. nullopt: it does not answer.
+std::optional<project::CommandAnswer> panel_answer(RunningController& controller,
+                                                   const PanelCommand& command) {
+  static int last = 0;
+  const int id = ++last;
+  const auto end = Clock::now() + std::chrono::seconds(2);
+  if (!controller.send(project::line_of(command, id))) return std::nullopt;
+  while (Clock::now() < end) {
+    const std::optional<std::string> said = controller.line();
+    if (!said) break;
+    const auto line = project::read_control_line(*said);
+    const auto* const answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    if (answer != nullptr && answer->id == id) return *answer;
+  }
+  return std::nullopt;
+}
+
+/// The process that has the panel, which has taken the command; nullptr after the complaint.
+RunningController* operate(std::vector<SeenController>& processes, const PanelCommand& command) {
+  std::string unknown = "no controller answers";
+  for (SeenController& one : processes) {
+    one.controller.be_patient_for(std::chrono::seconds(2));
+    const auto answer = panel_answer(one.controller, command);
+    if (answer && answer->error.empty()) return &one.controller;
+    if (answer) unknown = answer->error;
+    if (answer && !answer->elsewhere) break;
+  }
+  complain(unknown);
+  return nullptr;
+}
+
+int panel_command(const PanelOptions& options) {
+  const std::optional<Duration> duration = parse_duration(options.duration);
+  if (!duration) return complain("'" + options.duration + "' is no time such as 2s");
+  const std::optional<PanelCommand> command = panel_command_of(options);
+  if (!command) return failed;
+  std::vector<SeenController> processes = first_look(find_controllers(options.which));
+  if (processes.empty()) return failed;
+  if (processes.size() > 1 && !common_deployment(processes)) return complain_of_several(processes);
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  const auto end = Clock::now() + *duration;
+  RunningController* const controller = operate(processes, *command);
+  if (controller == nullptr) return failed;
+  int code = ok;
+  while (code == ok && !interrupted && Clock::now() < end) {
+    std::this_thread::sleep_for(std::min<Clock::duration>(repetition, end - Clock::now()));
+    if (interrupted || Clock::now() >= end) break;
+    const auto answer = panel_answer(*controller, *command);
+    if (!answer) code = complain(controller->name() + " has ended, or does not answer");
+    if (answer && !answer->error.empty()) code = complain(answer->error);
+  }
+  static_cast<void>(panel_answer(*controller, {command->path, command->who, {}}));
+  return code;
+}
+
+}  // namespace
+
+void tell_of_panels(const spec::Model& model) {
+  if (!model.simulation) return;
+  std::vector<std::string> paths;
+  for (const spec::Driver& driver : model.simulation->drivers)
+    if (driver.panel) paths.push_back(model.driver_path(driver));
+  if (paths.empty()) return;
+  constexpr std::size_t most = 3;
+  const std::size_t more = paths.size() > most ? paths.size() - most : 0;
+  paths.resize(paths.size() - more);
+  fmt::print(stderr,
+             "note: nobody operates the panel{} {}{} in this run, so no value comes from there; the studio's "
+             "simulate and `tessera run --world` can be operated\n",
+             paths.size() > 1 ? "s" : "", fmt::join(paths, ", "),
+             more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+void add_panel(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("panel", "Operate a panel of a controller that runs in real time");
+  auto options = std::make_shared<PanelOptions>();
+  command.option("path", options->path, "The real buffer with the panel: robot.console.drive").required();
+  command.option("values", options->values, "FIELD=VALUE: forward=0.3, horn=true; the rest is neutral")
+      .required();
+  command.option("--for", options->duration, "Hold the values for so long (500ms by default)");
+  command.option("--controller", options->which,
+                 "Its system, its process (cart[0]) or its process number; needed if several run");
+  command.footer(
+      "The values are repeated while the command runs. When it ends, also by Ctrl+C, the panel is neutral.\n"
+      "Example: tessera panel robot.console.drive forward=0.3 turn=0.1 --for 2s");
+  command.callback([options, &exit_code] { exit_code = panel_command(*options); });
+}
+
+}  // namespace tessera::cli

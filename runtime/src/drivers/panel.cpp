@@ -1,0 +1,207 @@
+#include "drivers/panel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include "system/waker.hpp"
+#include "tessera/nearest.hpp"
+#include "tessera/panel.hpp"
+#include "tessera/value_text.hpp"
+
+namespace tessera {
+namespace {
+
+/// The field of a real buffer that is no structure.
+constexpr std::string_view only_field = "value";
+constexpr std::size_t longest_operator = 64;
+
+/// Bytes of an encoded scalar; texts are empty.
+std::size_t encoded_size(std::string_view type) {
+  if (type == "bool") return 1;
+  if (type.starts_with("string")) return sizeof(std::uint32_t);
+  const std::size_t digits = type.find_first_of("0123456789");
+  std::size_t number = 0;
+  if (digits != std::string_view::npos)
+    std::from_chars(type.data() + digits, type.data() + type.size(), number);
+  return type.starts_with("bytes") ? number : number / 8;
+}
+
+template <class Number>
+void put_number(double value, std::byte* at) {
+  const auto number = static_cast<Number>(value);
+  std::memcpy(at, &number, sizeof number);
+}
+
+void put_number(const std::string& type, double value, std::byte* at) {
+  using Put = void (*)(double, std::byte*);
+  constexpr std::pair<std::string_view, Put> kinds[] = {
+      {"int8", put_number<std::int8_t>},     {"int16", put_number<std::int16_t>},
+      {"int32", put_number<std::int32_t>},   {"int64", put_number<std::int64_t>},
+      {"uint8", put_number<std::uint8_t>},   {"uint16", put_number<std::uint16_t>},
+      {"uint32", put_number<std::uint32_t>}, {"uint64", put_number<std::uint64_t>},
+      {"float32", put_number<float>},        {"float64", put_number<double>}};
+  for (const auto& [name, put] : kinds)
+    if (name == type) put(value, at);
+}
+
+/// "forward -0.5 0.5; horn": the fields that have controls, with the ranges of numbers.
+std::vector<Panel::Control> controls_of(const std::string& text, const ValueLayout& layout,
+                                        std::size_t& size) {
+  const std::vector<std::string> paths = layout.paths(), types = layout.types();
+  std::map<std::string, Panel::Control, std::less<>> all;
+  size = 0;
+  for (std::size_t index = 0; index < paths.size(); ++index) {
+    const std::string field = paths[index].empty() ? std::string(only_field) : paths[index];
+    all[field] = {.field = field, .type = types[index], .offset = size};
+    size += encoded_size(types[index]);
+  }
+  std::vector<Panel::Control> controls;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find("; "));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 2));
+    const std::size_t blank = one.find(' ');
+    const auto found = all.find(one.substr(0, blank));
+    if (found == all.end())
+      throw DriverError(fmt::format("the real buffer has no field '{}'", one.substr(0, blank)));
+    Panel::Control control = found->second;
+    if (blank != std::string_view::npos) {
+      const char* const end = one.data() + one.size();
+      const auto first = std::from_chars(one.data() + blank + 1, end, control.minimum);
+      if (first.ptr != end) std::from_chars(first.ptr + 1, end, control.maximum);
+    }
+    controls.push_back(std::move(control));
+  }
+  return controls;
+}
+
+}  // namespace
+
+// -------------------------------------------------------------------------------------------- one panel
+
+Panel::Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale)
+    : path_(std::move(path)), controls_(std::move(controls)), stale_(stale), neutral_(size) {
+  for (const Control& one : controls_)
+    if (one.type != "bool")
+      put_number(one.type, std::clamp(0.0, one.minimum, one.maximum), neutral_.data() + one.offset);
+  input_.bytes = neutral_;
+}
+
+std::string Panel::put(const std::string& field, const PanelInput::Value& value,
+                       std::vector<std::byte>& bytes) const {
+  const auto found = std::ranges::find(controls_, field, &Control::field);
+  if (found == controls_.end()) {
+    std::vector<std::string> fields;
+    for (const Control& one : controls_) fields.push_back(one.field);
+    return with_hint(
+        fmt::format("the panel {} has no control '{}'; it has {}", path_, field, fmt::join(fields, ", ")),
+        did_you_mean(field, fields));
+  }
+  std::byte* const at = bytes.data() + found->offset;
+  if (found->type == "bool") {
+    const bool* const flag = std::get_if<bool>(&value);
+    if (flag == nullptr) return fmt::format("'{}' of the panel {} is true or false", field, path_);
+    *at = static_cast<std::byte>(*flag ? 1 : 0);
+    return "";
+  }
+  const double* const number = std::get_if<double>(&value);
+  if (number == nullptr) return fmt::format("'{}' of the panel {} is a number", field, path_);
+  if (!std::isfinite(*number)) return fmt::format("'{}' of the panel {} is not finite", field, path_);
+  if (!found->type.starts_with("float") && *number != std::floor(*number))
+    return fmt::format("'{}' of the panel {} is a whole number, not {}", field, path_, *number);
+  if (*number < found->minimum || *number > found->maximum)
+    return fmt::format("'{}' of the panel {} goes from {} to {}, and {} is out of this range", field, path_,
+                       found->minimum, found->maximum, *number);
+  put_number(found->type, *number, at);
+  return "";
+}
+
+std::string Panel::feed(const PanelInput& input, std::int64_t now_ns) {
+  if (input.who.size() > longest_operator) return "the name of the operator is too long";
+  std::vector<std::byte> bytes = neutral_;
+  if (input.values)
+    for (const auto& [field, value] : *input.values)
+      if (std::string wrong = put(field, value, bytes); !wrong.empty()) return wrong;
+  const std::lock_guard lock(mutex_);
+  const bool is_other = input.who != who_;
+  if (!input.values) {  // who does not hold it has nothing to let go of
+    if (!is_other) input_.given_ns.reset();
+    return "";
+  }
+  if (is_other && counts(input_, now_ns)) return fmt::format("another operator has the panel {}", path_);
+  who_ = input.who;
+  input_.bytes.swap(bytes);
+  input_.given_ns = now_ns;
+  return "";
+}
+
+void Panel::latest(Input& input) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock()) return;
+  input.bytes.assign(input_.bytes.begin(), input_.bytes.end());
+  input.given_ns = input_.given_ns;
+}
+
+// -------------------------------------------------------------------------------------------- its driver
+
+PanelReceptor::PanelReceptor(std::shared_ptr<Panel> panel, const ValueEncoding* encoding, Now now)
+    : panel_(std::move(panel)), encoding_(encoding), now_(now) {
+  input_.bytes = panel_->neutral();
+}
+
+bool PanelReceptor::read(std::span<std::byte> value) {
+  panel_->latest(input_);
+  const bool operated = panel_->counts(input_, now_());
+  if (!operated && !std::exchange(operated_, false)) return false;
+  operated_ = operated;
+  return encoding_->take(value.data(), operated ? input_.bytes : panel_->neutral());
+}
+
+std::unique_ptr<RealReceptor> make_panel(const DriverSetup& setup, const ValueEncoding* encoding) {
+  const std::string controls = setup.text("controls");
+  const Duration stale = setup.duration("stale");
+  refuse_unknown_options(setup, true);
+  const auto layout = encoding == nullptr ? std::nullopt : ValueLayout::parse(encoding->type());
+  if (!layout) throw DriverError("the values of the real buffer have no fixed size");
+  std::size_t size = 0;
+  std::vector<Panel::Control> all = controls_of(controls, *layout, size);
+  auto panel = std::make_shared<Panel>(setup.path(), std::move(all), size, stale);
+  return std::make_unique<PanelReceptor>(std::move(panel), encoding, monotonic_ns);
+}
+
+// -------------------------------------------------------------------------------------------- all panels
+
+void Panels::add(std::shared_ptr<Panel> panel) {
+  const std::lock_guard lock(mutex_);
+  std::string path = panel->path();
+  panels_.insert_or_assign(std::move(path), std::move(panel));
+}
+
+std::vector<std::string> Panels::paths() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> all;
+  for (const auto& [path, panel] : panels_) all.push_back(path);
+  return all;
+}
+
+bool Panels::knows(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  return panels_.contains(path);
+}
+
+std::string Panels::feed(const PanelInput& input) const {
+  std::shared_ptr<Panel> panel;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = panels_.find(input.path); found != panels_.end()) panel = found->second;
+  }
+  if (panel != nullptr) return panel->feed(input, monotonic_ns());
+  const std::vector<std::string> all = paths();
+  return with_hint("there is no panel '" + input.path + "'", did_you_mean(input.path, all));
+}
+
+}  // namespace tessera

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tessera/device.hpp"
+
+namespace tessera {
+
+/// What an operator gives a panel.
+struct PanelInput {
+  using Value = std::variant<double, bool>;
+  std::string path;  ///< of the real buffer: "robot.operator.drive"
+  std::string who;   ///< tells operators apart
+  /// By field; fields without a value are neutral. nullopt: the operator lets go of the panel.
+  std::optional<std::vector<std::pair<std::string, Value>>> values;
+};
+
+/// The values that an operator gives one real buffer.
+///
+/// An input counts until it is as old as `stale`, in real time. Then the panel is *neutral*: every bool is
+/// false, and every number is zero, or the number of its range that is next to zero. While the input of one
+/// operator counts, the panel refuses every other operator.
+///
+/// Threads: `feed` any; `latest` the subsystem's.
+class Panel {
+ public:
+  /// A number or a bool, and where it is in the encoded value.
+  struct Control {
+    std::string field;
+    std::string type;  ///< "bool", "int8", "float64"
+    std::size_t offset = 0;
+    double minimum = 0, maximum = 0;
+  };
+  /// size: of the encoded value in bytes.
+  Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale);
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] Duration stale() const { return stale_; }
+  [[nodiscard]] const std::vector<std::byte>& neutral() const { return neutral_; }
+
+  /// Returns what is wrong with the input; empty: it counts from now on. now_ns: of monotonic_ns().
+  [[nodiscard]] std::string feed(const PanelInput& input, std::int64_t now_ns);
+
+  struct Input {
+    std::vector<std::byte> bytes;          ///< the encoded value
+    std::optional<std::int64_t> given_ns;  ///< nullopt: nobody operates the panel
+  };
+  /// Copies the newest input. Never waits: while another thread feeds the panel, `input` stays as it is.
+  void latest(Input& input);
+  [[nodiscard]] bool counts(const Input& input, std::int64_t now_ns) const {
+    return input.given_ns && now_ns - *input.given_ns < stale_.count();
+  }
+
+ private:
+  [[nodiscard]] std::string put(const std::string& field, const PanelInput::Value& value,
+                                std::vector<std::byte>& bytes) const;
+  const std::string path_;
+  const std::vector<Control> controls_;
+  const Duration stale_;
+  std::vector<std::byte> neutral_;
+  std::mutex mutex_;  // guards the members below
+  Input input_;
+  std::string who_;
+};
+
+/// The driver of a real buffer with a panel. It has no value before the first input. When the input does not
+/// count any more, it gives the neutral value once, and has no value then.
+class PanelReceptor final : public RealReceptor {
+ public:
+  using Now = std::int64_t (*)();
+  PanelReceptor(std::shared_ptr<Panel> panel, const ValueEncoding* encoding, Now now);
+
+  [[nodiscard]] const std::shared_ptr<Panel>& panel() const { return panel_; }
+  [[nodiscard]] bool read(std::span<std::byte> value) override;
+
+ private:
+  std::shared_ptr<Panel> panel_;
+  const ValueEncoding* encoding_;
+  Now now_;
+  Panel::Input input_;
+  bool operated_ = false;  // the last value was an operator's
+};
+
+/// The panels of a controller. Threads: any.
+class Panels {
+ public:
+  /// Replaces the panel of the same real buffer, whose process begins again.
+  void add(std::shared_ptr<Panel> panel);
+  [[nodiscard]] std::vector<std::string> paths() const;
+  [[nodiscard]] bool knows(const std::string& path) const;
+  /// As Panel::feed; also for a path that names no panel.
+  [[nodiscard]] std::string feed(const PanelInput& input) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Panel>> panels_;
+};
+
+}  // namespace tessera

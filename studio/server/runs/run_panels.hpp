@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "server/runs/run.hpp"
+#include "spec/model/model.hpp"
+
+namespace tessera::server {
+
+/// The panels that an operator of such a run has: [{"path", "stale_s", "controls"}] of docs/studio.md.
+[[nodiscard]] nlohmann::json panels_of(const spec::Model& model, const RunRequest& request);
+
+}  // namespace tessera::server

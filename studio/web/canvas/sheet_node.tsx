@@ -89,7 +89,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
           {...parts}
           index={index}
           box={sheet.transitions[index]!}
-          selected={selected !== null && net.transitions[net.flatTransitions(page)[index]!]?.name === selected}
+          selected={selected !== null && net.transitions.at(net.flatTransitions(page)[index]!)?.name === selected}
         />
       ))}
     </svg>
@@ -97,4 +97,4 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
 });
 
 const isSelected = (net: NetModel, page: number, node: number, selected: string | null) =>
-  selected !== null && net.places[net.flatPlaces(page)[node]!]?.name === selected;
+  selected !== null && net.places.at(net.flatPlaces(page)[node]!)?.name === selected;

@@ -30,7 +30,7 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
   const on = net.page(page);
   const node = on.nodes[index]!;
   const flat = net.flatPlaces(page)[index]!;
-  const path = net.places[flat]?.name ?? node.name;
+  const path = net.places.at(flat)?.name ?? node.name;
   const [cx, cy, r] = [box.x + box.width / 2, box.y + box.height / 2, box.width / 2];
   return (
     <g
@@ -59,7 +59,7 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
 export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direction, selected }: PartProps) {
   const transition = net.page(page).transitions[index]!;
   const flat = net.flatTransitions(page)[index]!;
-  const path = net.transitions[flat]?.name ?? transition.name;
+  const path = net.transitions.at(flat)?.name ?? transition.name;
   const never = transition.condition?.truth === "never";
   const wide = box.width > 80;
   const at = wide ? { ...box, x: box.x + box.width / 2 - 14, width: 28 } : box;
@@ -214,6 +214,8 @@ interface ArcsProps {
 
 export const Arcs = memo(function Arcs({ net, page, sheet, far }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
+  // So many arcs, so far away, would only be a grey area.
+  if (far && sheet.routes.length > 6000) return null;
   if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
   return sheet.routes.map((route, at) => {
     const never = transitions[route.transition]?.condition?.truth === "never";

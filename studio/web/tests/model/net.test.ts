@@ -6,7 +6,7 @@ const net = lineFollower();
 
 describe("NetModel", () => {
   it("finds the flat element behind every drawn one", () => {
-    net.pages.forEach((page, index) => {
+    [...net.pages].forEach((page, index) => {
       page.nodes.forEach((node, at) =>
         expect(net.flatPlaces(index)[at]! >= 0, `${page.path}.${node.name}`).toBe(node.page === null),
       );
@@ -41,7 +41,7 @@ describe("NetModel", () => {
 
 describe("rank", () => {
   it("puts the exact path first and asks for every word", () => {
-    const found = rank("control follow", net.pages, (page) => page.path).map((page) => page.path);
+    const found = rank("control follow", [...net.pages], (page) => page.path).map((page) => page.path);
     expect(found[0]).toBe("robot.control.follow");
     expect(found).not.toContain("robot.control.init");
   });

@@ -1,5 +1,5 @@
 import type { NodeProps, Node } from "@xyflow/react";
-import { memo, useEffect, useRef } from "react";
+import { memo, useEffect, useRef, type CSSProperties } from "react";
 import { useStudio } from "../hooks/use";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
@@ -57,7 +57,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
       className={`sheet layer-${drawn.layer} near${data.near}`}
       width={sheet.width}
       height={sheet.height}
-      style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
+      style={{ transform: `scale(${scale})`, transformOrigin: "0 0", "--scale": scale } as CSSProperties}
       data-sheet={drawn.path || "system"}
       data-of={page}
     >

@@ -1,4 +1,4 @@
-import { memo } from "react";
+import { memo, type CSSProperties } from "react";
 import { foldedPage, header, roundedPath, type Box, type Sheet } from "../model/geometry";
 import { conditionText, operationText, pageName, spoken } from "../model/labels";
 import type { NetModel, Page } from "../model/net";
@@ -159,7 +159,10 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  * if the net is too small to read.
  */
 function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: boolean; child: number }) {
-  const size = Math.min(34, (box.width - 30) / Math.max(4, page.name.length * 0.62));
+  const long = Math.max(4, page.name.length * 0.62);
+  const size = Math.min(34, (box.width - 30) / long);
+  // A larger name still fits into the frame.
+  const more = Math.min(1.45, (box.width - 12) / (long * size));
   return (
     <>
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
@@ -177,7 +180,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3}
             textAnchor="middle"
-            style={{ fontSize: size }}
+            style={{ "--u": size, "--more": more } as CSSProperties}
           >
             {pageName(page)}
           </text>
@@ -186,7 +189,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3 + size * 0.75}
             textAnchor="middle"
-            style={{ fontSize: size * 0.52 }}
+            style={{ "--u": size * 0.52 } as CSSProperties}
           >
             {page.layer}
           </text>
@@ -196,7 +199,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3 + size * 1.75}
             textAnchor="middle"
-            style={{ fontSize: size * 0.75 }}
+            style={{ "--u": size * 0.75 } as CSSProperties}
           />
         </g>
       )}

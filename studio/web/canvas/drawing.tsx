@@ -62,7 +62,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     [x, y, zoom, width, height],
   );
   const visible = useMemo(() => (shown ? sheets.visible(window) : []), [sheets, version, shown, window]);
-  const nodes = useNodes(net, sheets, visible, zoom, selected, flags, stage);
+  const nodes = useNodes(net, sheets, visible, window, selected, flags, stage);
   const current = currentPage(visible, window);
   useEffect(() => (lead ? onCurrent(current) : undefined), [lead, current, onCurrent]);
   useSteadyView(

@@ -1,5 +1,5 @@
 import { memo, type CSSProperties } from "react";
-import { foldedPage, header, roundedPath, type Box, type Sheet } from "../model/geometry";
+import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/geometry";
 import { conditionText, operationText, pageName, spoken } from "../model/labels";
 import type { NetModel, Page } from "../model/net";
 
@@ -213,14 +213,30 @@ interface ArcsProps {
   sheet: Sheet;
   /** So far away that tips are not visible: everything in one line. */
   far: boolean;
+  clip: string;
 }
 
-export const Arcs = memo(function Arcs({ net, page, sheet, far }: ArcsProps) {
+/** Whether a box is in the part that is drawn. */
+export function within(clip: string): (box: Box) => boolean {
+  if (!clip) return () => true;
+  const [x, y, width, height] = clip.split(",").map(Number) as [number, number, number, number];
+  return (box) => intersects(box, { x, y, width, height });
+}
+
+function around(points: readonly Point[]): Box {
+  const [xs, ys] = [points.map(({ x }) => x), points.map(({ y }) => y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+}
+
+export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
   // So many arcs, so far away, would only be a grey area.
   if (far && sheet.routes.length > 6000) return null;
   if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
+  const isDrawn = within(clip);
   return sheet.routes.map((route, at) => {
+    if (clip && !isDrawn(around(route.points))) return null;
     const never = transitions[route.transition]?.condition?.truth === "never";
     const fused = nodes[route.node]?.fusion !== null;
     return (

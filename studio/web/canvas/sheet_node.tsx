@@ -5,6 +5,7 @@ import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import type { Placed } from "../model/sheets";
 import { paint } from "./paint";
+import { crowd } from "./crowd";
 import { Arcs, BarSymbol, PageSymbol, PlaceSymbol, within } from "./symbols";
 
 export interface SheetData extends Record<string, unknown> {
@@ -82,6 +83,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
             folded={closed.has(node.page)}
             open={opened.has(node.page)}
             far={far}
+            bare={far && sheet.nodes.length > crowd}
             flagged={flags.get(path) ?? null}
             onFold={(at, to) => studio.fold(at, to)}
           />

@@ -3,6 +3,7 @@ import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import type { Box } from "../model/geometry";
 import type { Placed, Sheets, Window } from "../model/sheets";
+import { crowd } from "./crowd";
 import type { SheetNode } from "./sheet_node";
 
 /**
@@ -37,9 +38,6 @@ export function useNodes(
     return [...next.values()];
   }, [net, sheets, visible, window, selected, flags, stage]);
 }
-
-/** Of a sheet with more nodes, only those in the window and around it are drawn, unless they are dots. */
-const crowd = 600;
 
 /** The window with some space around it, in units of the sheet: "x,y,width,height". It changes seldom while one moves. */
 function clipOf({ x, y, scale }: Placed, window: Box): string {

@@ -99,17 +99,19 @@ interface PageSymbolProps extends PartProps {
   open: boolean;
   /** So far away that a folded page is drawn as a dot. */
   far: boolean;
+  /** One of so many, so far away, that an open page is a frame without a name. */
+  bare: boolean;
   flagged: "error" | "warning" | null;
   onFold: (path: string, folded: boolean) => void;
 }
 
 export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
-  const { net, page, index, box, direction, selected, folded, open, far, flagged } = props;
+  const { net, page, index, box, direction, selected, folded, open, far, bare, flagged } = props;
   const child = net.page(page).nodes[index]!.page!;
   const of: Page = net.page(child);
   const group = (
     <>
-      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} />}
+      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} bare={bare} />}
       {folded && !far && <Reach box={box} direction={direction} name={of.name} />}
       {folded && !far && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
       {flagged && (
@@ -158,7 +160,8 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  * A double circle stretched into a frame: its name above, its net inside; or its name in large letters
  * if the net is too small to read.
  */
-function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: boolean; child: number }) {
+function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open: boolean; child: number; bare: boolean }) {
+  if (bare) return <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
   const long = Math.max(4, page.name.length * 0.62);
   const size = Math.min(34, (box.width - 30) / long);
   // A larger name still fits into the frame.

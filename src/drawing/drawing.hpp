@@ -58,4 +58,10 @@ struct LayoutError : std::runtime_error {
 /// indent: of nested lines, in spaces; -1: all on one line.
 [[nodiscard]] std::string to_json(const net::HierarchicalNet& pages, const net::Net& net, int indent = 1);
 
+/// The same for the page of the studio, on one line: agents that are alike are written once, as `FoldedNet` of
+/// share/tessera/net.schema.json says. Ten thousand agents of one template take 5 MB instead of 420.
+///
+/// Precondition: made by layers::build and net::flatten.
+[[nodiscard]] std::string to_folded_json(const net::HierarchicalNet& pages, const net::Net& net);
+
 }  // namespace tessera::drawing

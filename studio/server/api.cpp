@@ -46,13 +46,6 @@ json names_of(const std::map<std::string, fs::path>& assets) {
   return names;
 }
 
-/// {members, "analysis": ...}
-void answer_with_analysis(httplib::Response& response, const std::string& members, const Analysis& analysis) {
-  static const auto end = std::make_shared<const std::string>("}");
-  answer_pieces(response,
-                {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
-}
-
 /// The number at the end of an address.
 std::uint64_t number_in(const httplib::Request& request) {
   const std::string digits = request.matches[1];
@@ -69,6 +62,7 @@ Api::Api(const StudioOptions& options, Parts parts)
 
 void Api::serve_on(HttpServer& server) {
   serve_files(server);
+  serve_spec(server);
   serve_work(server);
   serve_sources(server);
   server.Get("/api/events",
@@ -77,10 +71,6 @@ void Api::serve_on(HttpServer& server) {
 
 void Api::serve_files(HttpServer& server) {
   server.Get("/api/project", [this](const Request&, Response& response) { get_project(response); });
-  server.Get("/api/spec", [this](const Request&, Response& response) { get_spec(response); });
-  server.Put("/api/spec",
-             [this](const Request& request, Response& response) { put_spec(request, response); });
-  server.Post("/api/check", [this](const Request& request, Response& response) { check(request, response); });
   server.Post("/api/language",
               [this](const Request& request, Response& response) { language_.handle(request, response); });
   server.Get("/api/recordings",
@@ -153,43 +143,6 @@ void Api::get_project(Response& response) {
                                         {"metres_per_pixel", simulation.track->metres_per_pixel}};
   }
   answer(response, text_of(project));
-}
-
-void Api::get_spec(Response& response) {
-  const SpecFile::Content content = parts_.file.read();
-  answer_with_analysis(
-      response,
-      fmt::format(R"("text":{},"revision":"{}","error":{})", text_of(json(content.text)), content.revision,
-                  content.error.empty() ? "null" : text_of(json(content.error))),
-      *parts_.analyses.of(content.text));
-}
-
-void Api::put_spec(const Request& request, Response& response) {
-  RequestBody body(request, response);
-  const std::string text = body.text("text"), revision = body.text("revision");
-  if (!body.good()) return;
-  const SpecFile::Outcome outcome = parts_.file.write(text, revision);
-  switch (outcome.written) {
-    case SpecFile::Written::yes:
-      return answer_with_analysis(response, fmt::format(R"("revision":"{}")", outcome.now.revision),
-                                  *parts_.analyses.of(text));
-    case SpecFile::Written::conflict:
-      return answer(
-          response,
-          text_of(json{{"text", outcome.now.text},
-                       {"revision", outcome.now.revision},
-                       {"error", "the file on disk was changed by somebody else"},
-                       {"hint", "look at both, then save again with the revision that is there now"}}),
-          409);
-    case SpecFile::Written::failed:
-      return answer_error(response, 500, "the file cannot be written: " + outcome.now.error);
-  }
-}
-
-void Api::check(const Request& request, Response& response) {
-  RequestBody body(request, response);
-  const std::string text = body.text("text");
-  if (body.good()) answer_pieces(response, {parts_.analyses.of(text)->json});
 }
 
 void Api::start_verify(const Request& request, Response& response) {

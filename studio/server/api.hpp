@@ -33,9 +33,8 @@ class Api {
   using Request = httplib::Request;
   using Response = httplib::Response;
   void get_project(Response& response);
-  void get_spec(Response& response);
+  void get_spec(const Request& request, Response& response);
   void put_spec(const Request& request, Response& response);
-  void check(const Request& request, Response& response);
   void start_verify(const Request& request, Response& response);
   void get_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
@@ -55,6 +54,8 @@ class Api {
   /// nullopt: the response says what is wrong.
   [[nodiscard]] std::optional<RunRequest> run_request(const Request& request, Response& response) const;
   void serve_files(HttpServer& server);
+  /// The specification, and what its text means.
+  void serve_spec(HttpServer& server);
   void serve_work(HttpServer& server);
   /// The C++ beside the specification, and examples to begin with.
   void serve_sources(HttpServer& server);

@@ -61,8 +61,7 @@ struct Studio::Parts {
   void serve_page(const Request& request, Response& response) const {
     const Assets::Asset* asset = assets.find(request.path);
     if (asset == nullptr) return answer_error(response, 404, "there is no such page");
-    const bool packed = asset->packed != nullptr &&
-                        request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+    const bool packed = asset->packed != nullptr && accepts_gzip(request);
     answer_pieces(response, {packed ? asset->packed : asset->bytes}, asset->type);
     if (packed) response.set_header("Content-Encoding", "gzip");
     response.set_header("Vary", "Accept-Encoding");
@@ -118,6 +117,7 @@ struct Studio::Parts {
   std::string seen_revision = file.read().revision;
   std::optional<FileWatch> watch;
   std::thread serving;
+  std::thread looking_ahead;
 };
 
 Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(options)) {
@@ -125,6 +125,14 @@ Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.declare();
   parts.watch.emplace(parts.file.path(), [&parts] { parts.look_at_file(); });
   parts.serving = std::thread([&parts] { parts.http.serve(); });
+  // What every page asks for first is ready when it asks.
+  parts.looking_ahead = std::thread([&parts] {
+    try {
+      (void)parts.analyses.of(parts.file.read().text);
+    } catch (const std::exception&) {
+      // The request that asks for it fails, too, and tells why.
+    }
+  });
   while (!parts.http.is_running()) std::this_thread::yield();
 }
 
@@ -134,6 +142,7 @@ Studio::~Studio() {
   parts_->events.close();
   parts_->http.shut_down();
   parts_->serving.join();
+  parts_->looking_ahead.join();
 }
 
 int Studio::port() const { return parts_->port; }

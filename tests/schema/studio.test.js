@@ -43,7 +43,7 @@ test('a message with a member that the schema does not know is refused', () => {
 
 test('the net that the tests of the page draw is one', () => {
   const net = new URL('../../studio/web/tests/model/line_follower.json', import.meta.url);
-  assert.equal(wrongWith(JSON.parse(readFileSync(net, 'utf8')), 'net'), '');
+  assert.equal(wrongWith(JSON.parse(readFileSync(net, 'utf8')), 'net', '$defs', 'FoldedNet'), '');
 });
 
 test('every part of the schemas can be compiled', () => {

@@ -26,8 +26,8 @@ TEST_F(Api, SpecComesWithItsNetAndStructure) {
   EXPECT_EQ(spec_now.at("text"), content_of(spec()));
   const json& analysis = spec_now.at("analysis");
   EXPECT_TRUE(analysis.at("diagnostics").empty());
-  EXPECT_GT(analysis.at("net").at("flat").at("places").size(), 20U);
-  const json& structure = analysis.at("structure");
+  EXPECT_GT(analysis.at("net").at("shapes")[0].at("places").size(), 20U);
+  const json structure = post("/api/structure", {{"text", content_of(spec())}}).json();
   EXPECT_EQ(structure.at("system"), "line_follower");
   std::vector<std::string> paths;
   for (const json& subsystem : structure.at("agents")[0].at("subsystems"))
@@ -54,7 +54,8 @@ TEST_F(Api, ABrokenFileHasItsDiagnosticsAndWhatIsKnownOfIt) {
   EXPECT_THAT(one.at("hint").get<std::string>(), HasSubstr("follow"));
   EXPECT_GT(one.at("end_column").get<int>(), one.at("column").get<int>());
   EXPECT_TRUE(analysis.at("net").is_null());
-  EXPECT_EQ(analysis.at("structure").at("agents")[0].at("path"), "robot");
+  EXPECT_EQ(post("/api/structure", {{"text", text}}).json().at("agents")[0].at("path"), "robot");
+  EXPECT_TRUE(post("/api/structure", {{"text", "]"}}).json().is_null());
 }
 
 TEST_F(Api, MessagesOfRos2AreLookedUp) {
@@ -195,7 +196,7 @@ TEST_F(Api, ThePageNeedsNoTokenAndMayLoadNothingForeign) {
   EXPECT_THAT(script.headers.find("Content-Type")->second, HasSubstr("javascript"));
 }
 
-TEST_F(Api, FilesOfThePageComePackedToWhoeverTakesThemSoAndAnswersNever) {
+TEST_F(Api, FilesOfThePageComePackedToWhoeverTakesThemSoAndShortAnswersNever) {
   const std::string script(100'000, ' ');
   write(options_.page / "assets/index.js", script);
   serve();
@@ -212,6 +213,29 @@ TEST_F(Api, FilesOfThePageComePackedToWhoeverTakesThemSoAndAnswersNever) {
   const Reply answer = ask_packed("/api/spec");
   EXPECT_FALSE(answer.headers.contains("Content-Encoding"));
   EXPECT_TRUE(answer.json().at("analysis").at("net").is_object());
+}
+
+TEST_F(Api, LargeFleetsTakeFewBytes) {
+  write(spec(), R"(tessera: 1
+system: fleet
+templates:
+  walker:
+    control: { rate: 20 Hz, inputs: { heard: bool }, outputs: { said: bool }, behaviours: { walk: } }
+agents: { robot: { use: walker, count: 2000, ring: true } }
+channels: [ "robot[i].control.said -> robot[i+1].control.heard" ]
+)");
+  serve();
+  const Reply plain = get("/api/spec");
+  const json net = plain.json().at("analysis").at("net");
+  EXPECT_EQ(net.at("agents").size(), 2000U);
+  EXPECT_EQ(net.at("shapes").size(), 1U);
+  EXPECT_EQ(net.at("shapes")[0].at("memory").size(), 4U) << "it reads from one robot and writes to another";
+  EXPECT_LT(plain.body.size(), 1'000'000U);
+  Headers headers = own_headers();
+  headers.emplace("Accept-Encoding", "gzip");
+  const Reply packed = ask_with(headers, "GET", "/api/spec", {});
+  EXPECT_EQ(packed.headers.find("Content-Encoding")->second, "gzip");
+  EXPECT_LT(packed.body.size(), 150'000U);
 }
 
 TEST_F(Api, APortThatIsTakenLeadsToTheNext) {

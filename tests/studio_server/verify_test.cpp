@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "server/analysis/analysis.hpp"
 #include "served.hpp"
 
 namespace tessera::server_test {
@@ -45,13 +46,13 @@ TEST_F(VerifyJob, AViolationHasStepsOfTheNetAndIsToldInWords) {
   ASSERT_EQ(result.at("properties").size(), 1U);
   const json& property = result.at("properties")[0];
   ASSERT_EQ(property.at("verdict"), "violated") << property;
-  const json analysis = post("/api/check", {{"text", text}}).json();
-  const json& transitions = analysis.at("net").at("flat").at("transitions");
+  const server::Analysis analysis = server::analyse("spec.yaml", text);
+  const auto& transitions = analysis.net->transitions();
   ASSERT_EQ(property.at("steps").size(), property.at("trace").size());
   for (std::size_t step = 0; step < property.at("steps").size(); ++step) {
     const std::size_t index = property.at("steps")[step];
     if (index < transitions.size()) {
-      EXPECT_EQ(transitions[index].at("name"), property.at("trace")[step].at("transition"));
+      EXPECT_EQ(transitions[index].name, property.at("trace")[step].at("transition"));
     }
   }
   EXPECT_THAT(property.at("narrative").get<std::string>(), testing::HasSubstr("robot.motor"));
@@ -80,14 +81,13 @@ TEST_F(VerifyJob, WhoIsStuckIsData) {
     EXPECT_EQ(one.at("from"), json::array({left ? "right.control" : "left.control"}));
   }
   // The same is found in the marking at the end of the run.
-  const json analysis = post("/api/check", {{"text", greeting}}).json();
-  const json& flat = analysis.at("net").at("flat");
-  std::vector<int> tokens;
-  for (const json& place : flat.at("places")) tokens.push_back(place.value("tokens", 0));
+  const server::Analysis analysis = server::analyse("spec.yaml", greeting);
+  std::vector<std::uint32_t> tokens;
+  for (const net::Place& place : analysis.net->places()) tokens.push_back(place.tokens);
   for (const json& step : property.at("steps")) {
-    const json& transition = flat.at("transitions")[step.get<std::size_t>()];
-    for (const json& arc : transition.at("inputs")) --tokens[arc.at("place").get<std::size_t>()];
-    for (const json& arc : transition.at("outputs")) ++tokens[arc.at("place").get<std::size_t>()];
+    const net::TransitionId transition{step.get<std::uint32_t>()};
+    for (const net::Arc& arc : analysis.net->preset(transition)) --tokens[arc.place.value];
+    for (const net::Arc& arc : analysis.net->postset(transition)) ++tokens[arc.place.value];
   }
   json marking = json::array();
   for (std::size_t place = 0; place < tokens.size(); ++place)

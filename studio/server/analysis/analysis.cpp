@@ -11,7 +11,6 @@
 #include "project/files/ros2_messages.hpp"
 #include "project/verification/pipeline.hpp"
 #include "server/analysis/spec_file.hpp"
-#include "server/analysis/structure.hpp"
 #include "server/http/json_text.hpp"
 #include "verify/hashes.hpp"
 
@@ -52,8 +51,7 @@ Analysis analyse(const std::string& name, const std::string& text, const std::fi
   Analysis analysis;
   Diagnostics found(name, text);
   project::Draft draft = project::draft_of(found, project);
-  const std::string structure = draft.known ? text_of(structure_json(*draft.known)) : "null";
-  if (draft.is_model) analysis.model = std::move(draft.known);
+  (draft.is_model ? analysis.model : analysis.partial) = std::move(draft.known);
   analysis.pages = std::move(draft.nets.pages);
   analysis.net = std::move(draft.nets.flat);
   if (draft.nets.properties) analysis.properties = std::move(*draft.nets.properties);
@@ -61,10 +59,10 @@ Analysis analyse(const std::string& name, const std::string& text, const std::fi
   Json diagnostics = Json::array();
   for (const diagnostics::Diagnostic& one : found.sorted())
     diagnostics.push_back(diagnostic_json(one, found));
-  std::string json = "{\"diagnostics\":" + text_of(diagnostics) + ",\"structure\":" + structure;
+  std::string json = "{\"diagnostics\":" + text_of(diagnostics);
   if (analysis.net) {
     json += ",\"net_hash\":\"" + analysis.net_hash + "\",\"net\":";
-    json += drawing::to_json(*analysis.pages, *analysis.net, /*indent=*/-1) + "}";
+    json += drawing::to_folded_json(*analysis.pages, *analysis.net) + "}";
   } else {
     json += ",\"net_hash\":null,\"net\":null}";
   }
@@ -76,16 +74,29 @@ std::shared_ptr<const Analysis> Analyses::of(const std::string& text) {
   const std::filesystem::path project = std::filesystem::absolute(file_).parent_path();
   // The same text means something else when a message that it names has changed.
   const std::string revision = revision_of(text) + project::state_of_messages(project);
+  std::promise<std::shared_ptr<const Analysis>> promise;
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const auto found = std::ranges::find(kept_, revision, &Kept::revision);
-    if (found != kept_.end()) return found->analysis;
+    if (found != kept_.end()) {
+      // Possibly another thread is still at work on it.
+      const std::shared_future<std::shared_ptr<const Analysis>> analysis = found->analysis;
+      lock.unlock();
+      return analysis.get();
+    }
+    kept_.push_front({revision, promise.get_future().share()});
+    if (kept_.size() > most_kept) kept_.pop_back();
   }
-  auto made = std::make_shared<const Analysis>(analyse(file_.filename().string(), text, project));
-  const std::lock_guard lock(mutex_);
-  kept_.push_front({revision, made});
-  if (kept_.size() > most_kept) kept_.pop_back();
-  return made;
+  try {
+    auto made = std::make_shared<const Analysis>(analyse(file_.filename().string(), text, project));
+    promise.set_value(made);
+    return made;
+  } catch (...) {
+    promise.set_exception(std::current_exception());
+    const std::lock_guard lock(mutex_);
+    std::erase_if(kept_, [&](const Kept& one) { return one.revision == revision; });
+    throw;
+  }
 }
 
 }  // namespace tessera::server

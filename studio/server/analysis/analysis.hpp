@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,6 +24,8 @@ struct Analysis {
   std::optional<net::Net> net;
   std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
+  /// What is known of a text with errors.
+  std::optional<spec::Model> partial;
 };
 
 /// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: none are looked
@@ -32,7 +35,8 @@ struct Analysis {
 [[nodiscard]] Analysis analyse(const std::string& name, const std::string& text,
                                const std::filesystem::path& project = {});
 
-/// The last few analyses by their texts, because several browsers ask about the same text.
+/// The last few analyses by their texts, because several browsers, and several requests of one, ask about the
+/// same text. Each text is analysed once.
 ///
 /// Threads: any.
 class Analyses {
@@ -43,7 +47,7 @@ class Analyses {
  private:
   struct Kept {
     std::string revision;
-    std::shared_ptr<const Analysis> analysis;
+    std::shared_future<std::shared_ptr<const Analysis>> analysis;
   };
   static constexpr std::size_t most_kept = 4;
   std::filesystem::path file_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/http/packing.hpp"
+
 namespace tessera::server {
 
 using nlohmann::json;
@@ -27,6 +29,22 @@ void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<cons
         }
         return false;
       });
+}
+
+bool accepts_gzip(const httplib::Request& request) {
+  return request.get_header_value("Accept-Encoding").find("gzip") != std::string::npos;
+}
+
+void answer_packed(const httplib::Request& request, httplib::Response& response,
+                   const std::vector<std::shared_ptr<const std::string>>& pieces) {
+  constexpr std::size_t long_answer = std::size_t{64} << 10U;
+  std::size_t size = 0;
+  for (const auto& piece : pieces) size += piece->size();
+  std::string packed;
+  if (size >= long_answer && accepts_gzip(request)) packed = gzip(pieces, Effort::quick);
+  if (packed.empty()) return answer_pieces(response, pieces);
+  answer_pieces(response, {std::make_shared<const std::string>(std::move(packed))});
+  response.set_header("Content-Encoding", "gzip");
 }
 
 void answer_error(httplib::Response& response, int status, std::string_view error, std::string_view hint) {

@@ -16,12 +16,15 @@
 /// Requests and answers in JSON.
 namespace tessera::server {
 
-/// Sends the text without compression: Brotli in httplib takes seconds for a large net,
-/// and the connection is local.
+/// Sends the text without compression: most answers are short, and the connection is local.
 void answer(httplib::Response& response, std::string text, int status = 200);
 /// Sends the pieces one after the other. They are shared, not copied.
 void answer_pieces(httplib::Response& response, std::vector<std::shared_ptr<const std::string>> pieces,
                    const std::string& type = "application/json");
+/// The same, packed if they are long and the client accepts it.
+void answer_packed(const httplib::Request& request, httplib::Response& response,
+                   const std::vector<std::shared_ptr<const std::string>>& pieces);
+[[nodiscard]] bool accepts_gzip(const httplib::Request& request);
 /// {"error", "hint"}
 void answer_error(httplib::Response& response, int status, std::string_view error,
                   std::string_view hint = {});

@@ -1,12 +1,12 @@
 #include "server/http/assets.hpp"
 
-#include <zlib.h>
-
 #include <array>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 #include <utility>
+
+#include "server/http/packing.hpp"
 
 namespace tessera::server {
 
@@ -43,27 +43,11 @@ std::string type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-/// Empty: compression failed.
-std::string gzip(const std::string& bytes) {
-  constexpr int best = 9, gzip_format = 15 + 16, memory = 8;
-  z_stream stream{};
-  if (deflateInit2(&stream, best, Z_DEFLATED, gzip_format, memory, Z_DEFAULT_STRATEGY) != Z_OK) return {};
-  std::string packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  const bool whole = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-  packed.resize(whole ? stream.total_out : 0);
-  deflateEnd(&stream);
-  return packed;
-}
-
 Assets::Asset asset(std::string bytes, std::string type) {
   constexpr std::size_t small = 1024;
   Assets::Asset made{std::make_shared<const std::string>(std::move(bytes)), nullptr, std::move(type)};
-  if (made.bytes->size() < small || made.bytes->size() > UINT32_MAX) return made;
-  std::string packed = gzip(*made.bytes);
+  if (made.bytes->size() < small) return made;
+  std::string packed = gzip({made.bytes}, Effort::best);
   if (!packed.empty() && packed.size() < made.bytes->size() / 10 * 9)
     made.packed = std::make_shared<const std::string>(std::move(packed));
   return made;

@@ -8,6 +8,7 @@ import { Toolbar } from "../panels/toolbar";
 import { Watches } from "../panels/watch";
 import { Boundary } from "./boundary";
 import { Centre } from "./centre";
+import { WholePlayer } from "../panels/player";
 import { Split } from "./split";
 import { useStore, useStudio } from "../hooks/use";
 
@@ -44,6 +45,7 @@ export function App() {
           <Centre />
         </Boundary>
       </Split>
+      <WholePlayer />
       <Watches />
       <Problems />
       {searching && <Search />}

@@ -24,9 +24,12 @@ export function Centre() {
   const beside = panes.length > 1;
   // The structure view has no named panes.
   const named = beside && view === "net";
-  const players = panes.map((pane, at) => (
-    <Player key={pane.id} pane={pane} beside={pane.replay ? named : beside} fixed={sameTime && at === 1} />
-  ));
+  // That of a single pane is as wide as the window: see WholePlayer.
+  const players = beside
+    ? panes.map((pane, at) => (
+        <Player key={pane.id} pane={pane} beside={pane.replay ? named : true} fixed={sameTime && at === 1} />
+      ))
+    : [];
   return (
     <main className="centre">
       {view === "fleet" && project && project.processes.length > 0 ? (

@@ -19,6 +19,14 @@ const spoken = (channel: Channel) => {
   return `${modes}${timeout ? ` ${timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
 };
 
+/** What the letters of a label say. */
+const meaning = ({ send, receive, model, timeout }: Channel) =>
+  model
+    ? `It works as the communication model ${model} says.`
+    : `The sender ${send === "blocking" ? "waits until the value is taken (B)" : "does not wait (N)"}, ` +
+      `the receiver ${receive === "blocking" ? "waits for a value (B)" : "does not wait (N)"}` +
+      `${timeout ? `, at most ${timeout}` : ""}.`;
+
 /**
  * The channels of the structure: solid if an end waits, dashed if none does. Labels name the modes of both ends.
  * All of it comes from the same layout as the boxes, so a channel ends where its buffer is drawn.
@@ -87,7 +95,7 @@ export function ChannelLayer({
             data-path={path}
             aria-label={spoken(channel)}
             aria-pressed={path === look.selected}
-            title={`${channel.from} → ${channel.to}`}
+            title={`${channel.from} → ${channel.to}\n${meaning(channel)}`}
             onPointerEnter={() => setOver(channel.index)}
             onPointerLeave={() => setOver(null)}
             onFocus={() => setOver(channel.index)}

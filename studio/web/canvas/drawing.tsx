@@ -8,11 +8,12 @@ import {
   useStore as useFlow,
   type ReactFlowState,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, type KeyboardEvent, type MouseEvent, type ReactNode } from "react";
+import { useEffect, useMemo, useRef, type CSSProperties, type KeyboardEvent, type MouseEvent, type ReactNode } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";
+import { help } from "../model/help";
 import type { NetModel } from "../model/net";
 import type { Sheets } from "../model/sheets";
 import { canvasKey } from "./canvas_keys";
@@ -26,6 +27,8 @@ import { useSharedView } from "./shared_view";
 import { useSteadyView } from "./steady_view";
 
 const nodeTypes = { sheet: SheetNodeView };
+/** A zoom not above the real one, which changes seldom: letters are measured by it. */
+const steps = (zoom: number) => 2 ** (Math.floor(Math.log2(zoom) * 8) / 8);
 const noEdges: never[] = [];
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
@@ -59,7 +62,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     [x, y, zoom, width, height],
   );
   const visible = useMemo(() => (shown ? sheets.visible(window) : []), [sheets, version, shown, window]);
-  const nodes = useNodes(net, sheets, visible, zoom, selected, flags, stage);
+  const nodes = useNodes(net, sheets, visible, window, selected, flags, stage);
   const current = currentPage(visible, window);
   useEffect(() => (lead ? onCurrent(current) : undefined), [lead, current, onCurrent]);
   useSteadyView(
@@ -108,6 +111,11 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
       role="application"
       aria-label={`${label}. Arrow keys move, Enter opens, Escape goes up, F folds.`}
       tabIndex={0}
+      style={{ "--zoom": steps(zoom) } as CSSProperties}
+      onPointerOver={(event) => {
+        const path = pathAt(event);
+        event.currentTarget.title = path === null ? "" : help(net, path);
+      }}
       onClick={click}
       onDoubleClick={doubleClick}
       onKeyDown={keys}

@@ -1,11 +1,12 @@
 import type { NodeProps, Node } from "@xyflow/react";
-import { memo, useEffect, useRef } from "react";
+import { memo, useEffect, useRef, type CSSProperties } from "react";
 import { useStudio } from "../hooks/use";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
 import type { Placed } from "../model/sheets";
 import { paint } from "./paint";
-import { Arcs, BarSymbol, PageSymbol, PlaceSymbol } from "./symbols";
+import { crowd } from "./crowd";
+import { Arcs, BarSymbol, PageSymbol, PlaceSymbol, within } from "./symbols";
 
 export interface SheetData extends Record<string, unknown> {
   net: NetModel;
@@ -18,6 +19,8 @@ export interface SheetData extends Record<string, unknown> {
    * small, -3 that they are dots.
    */
   near: number;
+  /** The part that is drawn, "x,y,width,height"; empty: all of it. */
+  clip: string;
   selected: string | null;
   flags: ReadonlyMap<string, "error" | "warning">;
   /** The stage whose tokens are shown. */
@@ -29,7 +32,7 @@ export type SheetNode = Node<SheetData, "sheet">;
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);
-  const { net, placed, open, folded, near, selected, flags, stage } = data;
+  const { net, placed, open, folded, near, clip, selected, flags, stage } = data;
   const { page, sheet, scale } = placed;
   const opened = new Set(open.split(",").map(Number));
   const closed = new Set(folded.split(",").map(Number));
@@ -46,8 +49,9 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
     });
     const leave = stage.subscribe(now);
     return () => (told(), leave());
-  }, [net, stage, sheet, open, folded, selected, studio]);
+  }, [net, stage, sheet, open, folded, clip, selected, studio]);
   const far = near <= -3;
+  const isDrawn = within(clip);
   const parts = { net, page, direction: sheet.direction };
   const labelled = (isClosed: boolean) => (isClosed && sheet.grid ? "right" : sheet.direction);
   const drawn = net.page(page);
@@ -57,13 +61,14 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
       className={`sheet layer-${drawn.layer} near${data.near}`}
       width={sheet.width}
       height={sheet.height}
-      style={{ transform: `scale(${scale})`, transformOrigin: "0 0" }}
+      style={{ transform: `scale(${scale})`, transformOrigin: "0 0", "--scale": scale } as CSSProperties}
       data-sheet={drawn.path || "system"}
       data-of={page}
     >
-      <Arcs net={net} page={page} sheet={sheet} far={far} />
+      <Arcs net={net} page={page} sheet={sheet} far={far} clip={clip} />
       {drawn.nodes.map((node, index) => {
         const box = sheet.nodes[index]!;
+        if (!isDrawn(box)) return null;
         if (node.page === null)
           return <PlaceSymbol key={index} {...parts} index={index} box={box} selected={isSelected(net, page, index, selected)} />;
         const path = net.page(node.page).path;
@@ -78,6 +83,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
             folded={closed.has(node.page)}
             open={opened.has(node.page)}
             far={far}
+            bare={far && sheet.nodes.length > crowd}
             flagged={flags.get(path) ?? null}
             onFold={(at, to) => studio.fold(at, to)}
           />
@@ -89,7 +95,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
           {...parts}
           index={index}
           box={sheet.transitions[index]!}
-          selected={selected !== null && net.transitions[net.flatTransitions(page)[index]!]?.name === selected}
+          selected={selected !== null && net.transitions.at(net.flatTransitions(page)[index]!)?.name === selected}
         />
       ))}
     </svg>
@@ -97,4 +103,4 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
 });
 
 const isSelected = (net: NetModel, page: number, node: number, selected: string | null) =>
-  selected !== null && net.places[net.flatPlaces(page)[node]!]?.name === selected;
+  selected !== null && net.places.at(net.flatPlaces(page)[node]!)?.name === selected;

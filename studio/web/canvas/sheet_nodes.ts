@@ -1,7 +1,9 @@
 import { useMemo, useRef } from "react";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net";
-import type { Placed, Sheets } from "../model/sheets";
+import type { Box } from "../model/geometry";
+import type { Placed, Sheets, Window } from "../model/sheets";
+import { crowd } from "./crowd";
 import type { SheetNode } from "./sheet_node";
 
 /**
@@ -11,12 +13,13 @@ export function useNodes(
   net: NetModel,
   sheets: Sheets,
   visible: Placed[],
-  zoom: number,
+  window: Window,
   selected: string | null,
   flags: ReadonlyMap<string, "error" | "warning">,
   stage: Stage,
 ): SheetNode[] {
   const before = useRef(new Map<number, SheetNode>());
+  const { zoom } = window;
   return useMemo(() => {
     const shown = new Set(visible.map((placed) => placed.page));
     const next = new Map<number, SheetNode>();
@@ -26,13 +29,26 @@ export function useNodes(
       const folded = children.filter((child) => sheets.folded(child)).join();
       const mine = selected !== null && isOn(net, placed.page, selected) ? selected : null;
       const near = Math.min(5, Math.max(-3, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
-      const data = { net, placed, open, folded, near, selected: mine, flags, stage };
+      const clip = near > -3 && placed.sheet.nodes.length > crowd ? clipOf(placed, window) : "";
+      const data = { net, placed, open, folded, near, clip, selected: mine, flags, stage };
       const old = before.current.get(placed.page);
       next.set(placed.page, old && alike(old, data) ? old : sheetNode(data));
     }
     before.current = next;
     return [...next.values()];
-  }, [net, sheets, visible, zoom, selected, flags, stage]);
+  }, [net, sheets, visible, window, selected, flags, stage]);
+}
+
+/** The window with some space around it, in units of the sheet: "x,y,width,height". It changes seldom while one moves. */
+function clipOf({ x, y, scale }: Placed, window: Box): string {
+  const along = (from: number, length: number) => {
+    const step = 2 ** (Math.ceil(Math.log2(length)) - 1);
+    const first = (Math.floor(from / step) - 1) * step;
+    return [first, (Math.ceil((from + length) / step) + 1) * step - first] as const;
+  };
+  const [left, width] = along((window.x - x) / scale, window.width / scale);
+  const [top, height] = along((window.y - y) / scale, window.height / scale);
+  return [left, top, width, height].join();
 }
 
 const isOn = (net: NetModel, page: number, path: string) => path.startsWith(net.page(page).path) || net.placeByName.has(path);
@@ -45,6 +61,7 @@ function alike(node: SheetNode, data: SheetNode["data"]): boolean {
     old.open === data.open &&
     old.folded === data.folded &&
     old.near === data.near &&
+    old.clip === data.clip &&
     old.selected === data.selected &&
     old.flags === data.flags &&
     old.placed.sheet === data.placed.sheet &&

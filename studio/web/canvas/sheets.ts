@@ -20,8 +20,13 @@ export function useSheets(nets: readonly NetModel[]): { of: (net: NetModel) => S
     const made = new Map<NetModel, Sheets>();
     for (const net of nets) {
       if (made.has(net)) continue;
-      const crowded = net.pages.map((_, index) => net.children(index).length > many);
-      const folded = (page: number) => folds.get(net.page(page).path) ?? crowded[net.page(page).parent ?? 0]!;
+      const known = new Map<number, boolean>();
+      const crowded = (page: number) => {
+        let is = known.get(page);
+        if (is === undefined) known.set(page, (is = net.children(page).length > many));
+        return is;
+      };
+      const folded = (page: number) => folds.get(net.page(page).path) ?? crowded(net.page(page).parent ?? 0);
       before.current = new Sheets(net, folded, elk, () => setVersion((at) => at + 1), before.current);
       made.set(net, before.current);
     }

@@ -1,5 +1,5 @@
-import { memo } from "react";
-import { foldedPage, header, roundedPath, type Box, type Sheet } from "../model/geometry";
+import { memo, type CSSProperties } from "react";
+import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/geometry";
 import { conditionText, operationText, pageName, spoken } from "../model/labels";
 import type { NetModel, Page } from "../model/net";
 
@@ -30,7 +30,7 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
   const on = net.page(page);
   const node = on.nodes[index]!;
   const flat = net.flatPlaces(page)[index]!;
-  const path = net.places[flat]?.name ?? node.name;
+  const path = net.places.at(flat)?.name ?? node.name;
   const [cx, cy, r] = [box.x + box.width / 2, box.y + box.height / 2, box.width / 2];
   return (
     <g
@@ -59,7 +59,7 @@ export const PlaceSymbol = memo(function PlaceSymbol({ net, page, index, box, di
 export const BarSymbol = memo(function BarSymbol({ net, page, index, box, direction, selected }: PartProps) {
   const transition = net.page(page).transitions[index]!;
   const flat = net.flatTransitions(page)[index]!;
-  const path = net.transitions[flat]?.name ?? transition.name;
+  const path = net.transitions.at(flat)?.name ?? transition.name;
   const never = transition.condition?.truth === "never";
   const wide = box.width > 80;
   const at = wide ? { ...box, x: box.x + box.width / 2 - 14, width: 28 } : box;
@@ -99,17 +99,19 @@ interface PageSymbolProps extends PartProps {
   open: boolean;
   /** So far away that a folded page is drawn as a dot. */
   far: boolean;
+  /** One of so many, so far away, that an open page is a frame without a name. */
+  bare: boolean;
   flagged: "error" | "warning" | null;
   onFold: (path: string, folded: boolean) => void;
 }
 
 export const PageSymbol = memo(function PageSymbol(props: PageSymbolProps) {
-  const { net, page, index, box, direction, selected, folded, open, far, flagged } = props;
+  const { net, page, index, box, direction, selected, folded, open, far, bare, flagged } = props;
   const child = net.page(page).nodes[index]!.page!;
   const of: Page = net.page(child);
   const group = (
     <>
-      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} />}
+      {folded ? <FoldedPage box={box} far={far} /> : <OpenPage page={of} box={box} open={open} child={child} bare={bare} />}
       {folded && !far && <Reach box={box} direction={direction} name={of.name} />}
       {folded && !far && <Labels box={box} direction={direction} lines={[{ text: of.name, kind: "name" }]} />}
       {flagged && (
@@ -158,8 +160,12 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  * A double circle stretched into a frame: its name above, its net inside; or its name in large letters
  * if the net is too small to read.
  */
-function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: boolean; child: number }) {
-  const size = Math.min(34, (box.width - 30) / Math.max(4, page.name.length * 0.62));
+function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open: boolean; child: number; bare: boolean }) {
+  if (bare) return <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
+  const long = Math.max(4, page.name.length * 0.62);
+  const size = Math.min(34, (box.width - 30) / long);
+  // A larger name still fits into the frame.
+  const more = Math.min(1.45, (box.width - 12) / (long * size));
   return (
     <>
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
@@ -177,7 +183,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3}
             textAnchor="middle"
-            style={{ fontSize: size }}
+            style={{ "--u": size, "--more": more } as CSSProperties}
           >
             {pageName(page)}
           </text>
@@ -186,7 +192,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3 + size * 0.75}
             textAnchor="middle"
-            style={{ fontSize: size * 0.52 }}
+            style={{ "--u": size * 0.52 } as CSSProperties}
           >
             {page.layer}
           </text>
@@ -196,7 +202,7 @@ function OpenPage({ page, box, open, child }: { page: Page; box: Box; open: bool
             x={box.x + box.width / 2}
             y={box.y + box.height / 2 + size / 3 + size * 1.75}
             textAnchor="middle"
-            style={{ fontSize: size * 0.75 }}
+            style={{ "--u": size * 0.75 } as CSSProperties}
           />
         </g>
       )}
@@ -210,12 +216,30 @@ interface ArcsProps {
   sheet: Sheet;
   /** So far away that tips are not visible: everything in one line. */
   far: boolean;
+  clip: string;
 }
 
-export const Arcs = memo(function Arcs({ net, page, sheet, far }: ArcsProps) {
+/** Whether a box is in the part that is drawn. */
+export function within(clip: string): (box: Box) => boolean {
+  if (!clip) return () => true;
+  const [x, y, width, height] = clip.split(",").map(Number) as [number, number, number, number];
+  return (box) => intersects(box, { x, y, width, height });
+}
+
+function around(points: readonly Point[]): Box {
+  const [xs, ys] = [points.map(({ x }) => x), points.map(({ y }) => y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+}
+
+export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
+  // So many arcs, so far away, would only be a grey area.
+  if (far && sheet.routes.length > 6000) return null;
   if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
+  const isDrawn = within(clip);
   return sheet.routes.map((route, at) => {
+    if (clip && !isDrawn(around(route.points))) return null;
     const never = transitions[route.transition]?.condition?.truth === "never";
     const fused = nodes[route.node]?.fusion !== null;
     return (

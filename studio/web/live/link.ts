@@ -1,9 +1,17 @@
 import type { PanelName, View, ViewState } from "./studio";
 
-/** What an address says: `#view=structure&panel=verify&at=robot.control`. */
-export type Linked = Partial<Pick<ViewState, "view" | "panel" | "selected">>;
+/** The moment of a recording, in nanoseconds of the run's clock. */
+export interface Moment {
+  recording: string;
+  time: number;
+}
 
-const views: readonly View[] = ["net", "structure"];
+/** What an address says: `#view=structure&panel=verify&at=robot.control&recording=run.trec&t=1.5`. */
+export interface Linked extends Partial<Pick<ViewState, "view" | "panel" | "selected">> {
+  moment?: Moment;
+}
+
+const views: readonly View[] = ["net", "structure", "fleet"];
 const panels: readonly PanelName[] = ["inspect", "verify", "play", "run", "recordings"];
 
 /** The part of an address after the #, with what is not known left out. */
@@ -12,9 +20,28 @@ export function readLink(hash: string): Linked {
   const view = views.find((one) => one === given.get("view"));
   const panel = panels.find((one) => one === given.get("panel"));
   const selected = given.get("at");
-  return { ...(view ? { view } : {}), ...(panel ? { panel } : {}), ...(selected ? { selected } : {}) };
+  const recording = given.get("recording");
+  const seconds = Number(given.get("t") ?? "0");
+  const moment = recording ? { recording, time: Number.isFinite(seconds) ? Math.round(seconds * 1e9) : 0 } : undefined;
+  return {
+    ...(view ? { view } : {}),
+    ...(panel ? { panel } : {}),
+    ...(selected ? { selected } : {}),
+    ...(moment ? { moment } : {}),
+  };
 }
 
-export function linkTo({ view, panel, selected }: Required<Linked>): string {
-  return `#${new URLSearchParams({ view, panel, ...(selected ? { at: selected } : {}) }).toString()}`;
+export function linkTo({
+  view,
+  panel,
+  selected,
+  moment,
+}: Linked & Required<Pick<Linked, "view" | "panel" | "selected">>): string {
+  const link = new URLSearchParams({ view, panel });
+  if (selected) link.set("at", selected);
+  if (moment) {
+    link.set("recording", moment.recording);
+    link.set("t", String(Number((moment.time / 1e9).toFixed(9))));
+  }
+  return `#${link.toString()}`;
 }

@@ -1,5 +1,5 @@
 // Made by scripts/protocol.mjs of share/tessera/studio.schema.json: change that, and run `npm run protocol`.
-import type { NetJson } from "../model/net_json";
+import type { FoldedNet } from "../model/net_json";
 
 /** Null: never; true: always. */
 export type ConditionShown = { name: string; text: string; line: number }[] | true | null;
@@ -50,6 +50,8 @@ export interface Requests {
   };
   /** Saves nothing. */
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
+  /** What is known of a text, even with errors; null: it is not YAML. */
+  "POST /api/structure": { body: { text: string }; status: 200; answer: StructureShown | null };
   /** About a text as it is typed; saves nothing. */
   "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
   "POST /api/verify": {
@@ -197,10 +199,9 @@ export interface SpecAnswer {
 }
 export interface Analysis {
   diagnostics: Diagnostic[];
-  structure: StructureShown | null;
   /** Names the net: runs and recordings say which they are of. */
   net_hash: string | null;
-  net: NetJson | null;
+  net: FoldedNet | null;
 }
 export interface Diagnostic {
   severity: "error" | "warning" | "hint";
@@ -213,6 +214,10 @@ export interface Diagnostic {
   column: number;
   end_line: number;
   end_column: number;
+}
+export interface Saved {
+  revision: string;
+  analysis: Analysis;
 }
 /** What is known of a text, even with errors. */
 export interface StructureShown {
@@ -292,10 +297,6 @@ export interface ChannelShown {
   send_timeout: number | null;
   /** Seconds. */
   receive_timeout: number | null;
-}
-export interface Saved {
-  revision: string;
-  analysis: Analysis;
 }
 export interface LanguageQuestion {
   text: string;

@@ -10,22 +10,18 @@ import type {
   ControlRequest,
   Events,
   FiringsEvent,
-  Outcome,
-  PanelShown,
-  ParameterShown,
   PoseEvent,
   PoseFrame,
   RunEvent,
   RunInfo,
-  RunKind,
   RunListed,
   RunRequest,
-  RunState,
   SceneShown,
   StartRequest,
   SubsystemsEvent,
   ValuesEvent,
 } from "./protocol";
+import { idle, type RunnerState, type Wishes } from "./runner_state";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
@@ -34,40 +30,6 @@ import { LiveWorld } from "./world";
 /** The events of a run that are taken here. */
 type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment">;
 
-/** The settings of the form for the next run. */
-export interface Wishes {
-  kind: RunKind;
-  /** Empty: that of the specification. */
-  track: string;
-  time: string;
-  seed: string;
-  speed: string;
-  /** Record values of more than 4 KiB, too. */
-  all: boolean;
-}
-
-export interface RunnerState {
-  run: string | null;
-  state: RunState | "idle";
-  kind: RunKind;
-  why: string;
-  outcome: Outcome | null;
-  build: readonly string[];
-  speed: number;
-  problem: string;
-  /** Behaviour by path of subsystem, as reported by the controller. */
-  behaviours: ReadonlyMap<string, string>;
-  /** The parameters of the run, with what they hold. */
-  parameters: readonly ParameterShown[];
-  panels: readonly PanelShown[];
-  /** The points at which the run pauses. */
-  breakpoints: readonly Breakpoint[];
-  /** What it was started with from this page; null: somewhere else. */
-  request: StartRequest | null;
-  /** Whether it has a pane of the drawing; a run continues without one, too. */
-  shown: boolean;
-}
-
 export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
   return JSON.stringify(one) === JSON.stringify(other);
 }
@@ -75,23 +37,6 @@ export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
 /** Somebody else has started it. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
 const isStarted = (request: RunRequest): request is StartRequest => !isWatched(request);
-
-const idle: RunnerState = {
-  run: null,
-  state: "idle",
-  kind: "simulate",
-  why: "",
-  outcome: null,
-  build: [],
-  speed: 1,
-  problem: "",
-  behaviours: new Map(),
-  parameters: [],
-  panels: [],
-  breakpoints: [],
-  request: null,
-  shown: false,
-};
 
 /** The number of output lines of build and controller that are kept. */
 const kept = 400;

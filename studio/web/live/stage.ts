@@ -129,9 +129,10 @@ export class Stage {
     const { net } = this;
     if (!net || this.mode === "edit") return;
     const occupied = (this.occupied = new Uint8Array(net.pages.length));
-    net.places.forEach((place, index) => {
-      if (this.marking[index] === 0) return;
-      for (let page = place.page; page !== null && occupied[page] === 0; page = net.page(page).parent) occupied[page] = 1;
+    this.marking.forEach((tokens, place) => {
+      if (tokens === 0) return;
+      for (let page = net.places.at(place)!.page; page !== null && occupied[page] === 0; page = net.page(page).parent)
+        occupied[page] = 1;
     });
   }
 }

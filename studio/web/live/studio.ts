@@ -5,7 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Draft, message } from "./draft";
 import type { Project, RunRequest, Verdict } from "./protocol";
-import { linkTo, readLink, type Linked } from "./link";
+import { linkTo, readLink, type Linked, type Moment } from "./link";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
@@ -13,6 +13,7 @@ import { findThing, type Structure } from "../model/structure";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
+import type { Replay } from "./replay";
 import { Runner } from "./runner";
 import { Scene } from "./scene";
 import { Sources } from "./sources";
@@ -49,6 +50,14 @@ function keptView(): Partial<ViewState> {
   }
 }
 
+function linkedView(): Partial<ViewState> {
+  const { moment: _, ...view } = readLink(location.hash);
+  return view;
+}
+
+/** Milliseconds between two changes of the address while time goes on. */
+const linkPause = 400;
+
 /** The whole state of the page, outside React. */
 export class Studio {
   readonly api = new Api(takeToken());
@@ -77,20 +86,32 @@ export class Studio {
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
     ...keptView(),
     selected: null,
-    ...readLink(location.hash),
+    ...linkedView(),
     line: null,
     flight: null,
     folds: new Map(),
     searching: false,
   });
   private serverStart: string | undefined;
+  /** The moment in the address, until its recording is open. */
+  private wanted = readLink(location.hash).moment;
+  private linking: ReturnType<typeof setTimeout> | undefined;
 
   constructor() {
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
       sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
-      const link = linkTo(this.view.get());
-      if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+      this.link();
+    });
+    let followed: Replay | undefined;
+    let leave = () => {};
+    this.recordings.store.subscribe(() => {
+      const first = this.recordings.store.get().open[0];
+      if (first === followed) return;
+      leave();
+      followed = first;
+      leave = first ? first.store.subscribe(() => this.linkSoon()) : () => {};
+      this.link();
     });
     this.operator.watch(document, window);
     // A link that is opened in this tab changes only the part after the #.
@@ -106,6 +127,34 @@ export class Studio {
     this.connection.on("hello", (event) => void this.greeted(event.server_start));
   }
 
+  /** Writes into the address what is shown. */
+  private link(): void {
+    const { view, panel, selected } = this.view.get();
+    const shown = this.recordings.store.get().open[0];
+    const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
+    const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
+    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+  }
+
+  /** The same for a time that may change with every frame: browsers limit how often an address changes. */
+  private linkSoon(): void {
+    this.linking ??= setTimeout(() => {
+      this.linking = undefined;
+      this.link();
+    }, linkPause);
+  }
+
+  /** Opens the moment of a recording that an address names. */
+  private async goTo(moment: Moment): Promise<void> {
+    this.wanted = moment;
+    const shown = () => this.recordings.store.get().open[0];
+    if (shown()?.name !== moment.recording) await this.replay(moment.recording, 0);
+    const replay = shown();
+    if (replay?.name === moment.recording) replay.seek(moment.time);
+    if (this.wanted === moment) this.wanted = undefined;
+    this.link();
+  }
+
   async open(): Promise<void> {
     try {
       const [project] = await Promise.all([this.api.project(), this.draft.load()]);
@@ -115,6 +164,7 @@ export class Studio {
     }
     const { view, selected } = this.view.get();
     if (selected !== null && view === "net") this.fly(selected);
+    if (this.wanted) void this.goTo(this.wanted);
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
@@ -141,7 +191,10 @@ export class Studio {
     }
   }
 
-  private follow({ view = this.view.get().view, panel = this.view.get().panel, selected = null }: Linked): void {
+  private follow({ view = this.view.get().view, panel = this.view.get().panel, selected = null, moment }: Linked): void {
+    // Before anything else is written into the address.
+    this.wanted = moment;
+    if (moment) void this.goTo(moment);
     this.view.set({ view, panel, selected });
     if (selected !== null && view === "net") this.fly(selected);
   }

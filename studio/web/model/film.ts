@@ -1,6 +1,6 @@
 /** A run as data that plays without the studio: what its drawing shows at each firing. */
 
-import { fire, runningBehaviours, type Marking } from "./game";
+import type { Marking } from "./game";
 import type { NetModel } from "./net";
 
 export interface Film {
@@ -54,28 +54,13 @@ export interface Scenes {
 }
 
 export function filmOf({ title, from, firings, times, begin }: Scenes, net: NetModel, drawn: Drawn): Film {
-  const marking = from.slice();
   const effects: Film["effects"] = {};
   const names: Film["names"] = {};
-  const running: Film["running"] = [];
-  const shown = new Map<number, string>();
-  const subsystems = drawn.subsystems.filter((page) => net.page(page).layer === "subsystem");
-  const look = (after: number) => {
-    const now = runningBehaviours(net, marking);
-    for (const page of subsystems) {
-      const { subsystem } = net.page(page);
-      const behaviour = (subsystem !== null && now.get(subsystem)) || "";
-      if (shown.get(page) === behaviour) continue;
-      shown.set(page, behaviour);
-      running.push([after, page, behaviour]);
-    }
-  };
-  look(0);
+  const running = runningOn(net, drawn, from);
   firings.forEach((transition, at) => {
-    fire(net, marking, transition);
-    look(at + 1);
+    running.fire(transition, at + 1);
     effects[transition] ??= effectOf(net, transition, drawn);
-    names[transition] ??= net.transitions[transition]!.name;
+    names[transition] ??= net.transitions.at(transition)!.name;
   });
   return {
     title,
@@ -85,12 +70,52 @@ export function filmOf({ title, from, firings, times, begin }: Scenes, net: NetM
     start: [...tokensIn(net, drawn, from.entries())],
     effects,
     names,
-    running,
+    running: running.changes,
+  };
+}
+
+/** The behaviours of the subsystems of the drawing: those with a token inside. */
+function runningOn(net: NetModel, drawn: Drawn, from: Marking) {
+  const pages = new Map<number, number>();
+  for (const page of drawn.subsystems) {
+    const { layer, subsystem } = net.page(page);
+    if (layer === "subsystem" && subsystem !== null) pages.set(subsystem, page);
+  }
+  const tokens = new Map<number, Map<string, number>>();
+  const put = (place: number, count: number): number | null => {
+    const { subsystem, page } = net.places.at(place)!;
+    if (count === 0 || subsystem === null || !pages.has(subsystem)) return null;
+    const behaviour = net.behaviourOf(page)?.name;
+    if (behaviour === undefined) return null;
+    const inside = tokens.get(subsystem) ?? new Map<string, number>();
+    tokens.set(subsystem, inside.set(behaviour, (inside.get(behaviour) ?? 0) + count));
+    return subsystem;
+  };
+  const changes: Film["running"] = [];
+  const shown = new Map<number, string>();
+  const look = (subsystem: number, after: number) => {
+    const now = [...(tokens.get(subsystem) ?? [])].find(([, count]) => count > 0)?.[0] ?? "";
+    if ((shown.get(subsystem) ?? "") === now) return;
+    shown.set(subsystem, now);
+    changes.push([after, pages.get(subsystem)!, now]);
+  };
+  from.forEach((count, place) => put(place, count));
+  for (const subsystem of pages.keys()) look(subsystem, 0);
+  return {
+    changes,
+    fire(transition: number, after: number) {
+      const { inputs, outputs } = net.transitions.at(transition)!;
+      const touched = [
+        ...inputs.map(({ place, weight }) => put(place, -weight)),
+        ...outputs.map(({ place, weight }) => put(place, weight)),
+      ];
+      for (const subsystem of new Set(touched)) if (subsystem !== null) look(subsystem, after);
+    },
   };
 }
 
 function effectOf(net: NetModel, transition: number, drawn: Drawn): [number, number][] {
-  const { inputs, outputs } = net.transitions[transition]!;
+  const { inputs, outputs } = net.transitions.at(transition)!;
   return tokensIn(net, drawn, [
     ...inputs.map(({ place, weight }): [number, number] => [place, -weight]),
     ...outputs.map(({ place, weight }): [number, number] => [place, weight]),
@@ -104,7 +129,7 @@ function tokensIn(net: NetModel, drawn: Drawn, tokens: Iterable<[place: number, 
   for (const [place, count] of tokens) {
     if (count === 0) continue;
     if (drawn.places.has(place)) add(place, count);
-    for (let page = net.places[place]!.page; page !== null; page = net.page(page).parent)
+    for (let page = net.places.at(place)!.page; page !== null; page = net.page(page).parent)
       if (drawn.pages.has(page) && net.page(page).layer !== "system") add(-1 - page, count);
   }
   return [...sums].filter(([, count]) => count !== 0);

@@ -16,9 +16,14 @@ export function flagsOf(net: NetModel, complaints: readonly Complaint[]): Map<st
 }
 
 function pagesAt(net: NetModel, line: number): string[] {
-  const shown = net.pages.filter((page) => page.layer !== "communication" && page.span.line > 0 && page.span.line <= line);
-  const nearest = Math.max(0, ...shown.map((page) => page.span.line));
-  const begun = shown.filter((page) => page.span.line === nearest);
-  const deepest = Math.max(0, ...begun.map((page) => page.path.split(".").length));
-  return begun.filter((page) => page.path.split(".").length === deepest).map((page) => page.path);
+  const shown = net.elements.pagesOfEachKind().filter((index) => {
+    const { layer, span } = net.page(index);
+    return layer !== "communication" && span.line > 0 && span.line <= line;
+  });
+  const nearest = Math.max(0, ...shown.map((index) => net.page(index).span.line));
+  const begun = shown.filter((index) => net.page(index).span.line === nearest);
+  const deepest = Math.max(0, ...begun.map((index) => net.ancestry(index).length));
+  return begun
+    .filter((index) => net.ancestry(index).length === deepest)
+    .flatMap((index) => net.elements.twins(index).map((twin) => net.page(twin).path));
 }

@@ -6,23 +6,23 @@ export type Conditions = ReadonlyMap<number, boolean>;
 /** A marking of the flat net: tokens per place. */
 export type Marking = Int32Array;
 
-export const initialMarking = (net: NetModel): Marking => Int32Array.from(net.places, (place) => place.tokens);
+export const initialMarking = (net: NetModel): Marking => net.elements.initialMarking();
 
 /** Whether every input place holds enough tokens. Conditions are not considered. */
 export function isEnabled(net: NetModel, marking: Marking, transition: number): boolean {
-  return net.transitions[transition]!.inputs.every((arc) => marking[arc.place]! >= arc.weight);
+  return net.transitions.at(transition)!.inputs.every((arc) => marking[arc.place]! >= arc.weight);
 }
 
 /** Whether the transition is enabled and its condition can hold. */
 export function isActive(net: NetModel, marking: Marking, transition: number, conditions?: Conditions): boolean {
-  const condition = net.transitions[transition]!.condition;
+  const condition = net.transitions.at(transition)!.condition;
   if (condition?.truth === "never" || conditions?.get(transition) === false) return false;
   return isEnabled(net, marking, transition);
 }
 
 /** Takes tokens from the input places and puts tokens into the output places; `times` -1 undoes that. */
 export function fire(net: NetModel, marking: Marking, transition: number, times: 1 | -1 = 1): void {
-  const { inputs, outputs } = net.transitions[transition]!;
+  const { inputs, outputs } = net.transitions.at(transition)!;
   for (const arc of inputs) marking[arc.place]! -= times * arc.weight;
   for (const arc of outputs) marking[arc.place]! += times * arc.weight;
 }
@@ -34,7 +34,7 @@ export function markingBefore(net: NetModel, run: Iterable<number>): Marking {
   const before: Marking = new Int32Array(net.places.length);
   const now = before.slice();
   for (const transition of run) {
-    for (const { place, weight } of net.transitions[transition]!.inputs) {
+    for (const { place, weight } of net.transitions.at(transition)!.inputs) {
       const missing = Math.max(0, weight - now[place]!);
       before[place]! += missing;
       now[place]! += missing;
@@ -45,16 +45,17 @@ export function markingBefore(net: NetModel, run: Iterable<number>): Marking {
 }
 
 export function activeTransitions(net: NetModel, marking: Marking, conditions?: Conditions): number[] {
-  return net.transitions.flatMap((_, index) => (isActive(net, marking, index, conditions) ? [index] : []));
+  return net.elements.enabled(marking).filter((index) => isActive(net, marking, index, conditions));
 }
 
 /** The behaviours that hold a token, by subsystem index: those that run now. */
 export function runningBehaviours(net: NetModel, marking: Marking): Map<number, string> {
   const running = new Map<number, string>();
-  net.places.forEach((place, index) => {
-    if (marking[index] === 0 || place.subsystem === null) return;
-    const behaviour = net.behaviourOf(place.page);
-    if (behaviour) running.set(place.subsystem, behaviour.name);
+  marking.forEach((tokens, index) => {
+    if (tokens === 0) return;
+    const place = net.places.at(index)!;
+    const behaviour = place.subsystem === null ? null : net.behaviourOf(place.page);
+    if (behaviour) running.set(place.subsystem!, behaviour.name);
   });
   return running;
 }

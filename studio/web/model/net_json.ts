@@ -3,8 +3,8 @@
 export type Layer = "system" | "agent" | "subsystem" | "behaviour" | "communication";
 
 /**
- * A hierarchical net and the flat net made of it, as `tessera show --json` writes them and the studio shows
- * them. Numbers are indices of the lists: `page` of `pages`, `place` of `flat.places`, and so on; null: none.
+ * A hierarchical net and the flat net made of it, as `tessera show --json` writes them. Numbers are indices of
+ * the lists: `page` of `pages`, `place` of `flat.places`, and so on; null: none.
  */
 export interface NetJson {
   /** The first is the system. */
@@ -109,4 +109,49 @@ export interface LayerCounts {
   places: number;
   transitions: number;
   pages: number;
+}
+/**
+ * The same net with each kind of agent written once, as the studio sends it. The numbers of an agent's pages,
+ * places and transitions follow those of the agent before; the system's own come first, the places of channels
+ * last.
+ */
+export interface FoldedNet {
+  system: NetPart;
+  shapes: Shape[];
+  agents: FoldedAgent[];
+  /** The places of a channel, named without it; `channel` is 0. */
+  memories: FlatPlace[][];
+  channels: FoldedChannel[];
+}
+/**
+ * The system's own page, places and transitions. Numbers are those of the whole net; `fusion` of a node is the
+ * number of its place.
+ */
+export interface NetPart {
+  pages: Page[];
+  places: FlatPlace[];
+  transitions: FlatTransition[];
+}
+/**
+ * What agents that are alike have. Names are without the agent's; numbers count from the first one of the agent.
+ * A place beyond `places` (also as `fusion` of a node) is one of `memory`. A channel is one of the agent's.
+ */
+export interface Shape {
+  pages: Page[];
+  places: FlatPlace[];
+  transitions: FlatTransition[];
+  /** Their number. */
+  subsystems: number;
+  /** The agent's channel, and which of its places. */
+  memory: [number, number][];
+}
+export interface FoldedAgent {
+  name: string;
+  shape: number;
+  channels: number[];
+}
+export interface FoldedChannel {
+  name: string;
+  /** One of `memories`. */
+  memory: number;
 }

@@ -27,12 +27,11 @@ const most = 20_000;
 export class Timeline {
   readonly lanes: Lane[];
   private readonly laneOf = new Map<number, number>();
-  /** For each transition, its lane and the behaviour into which it puts a token. */
-  private readonly entered: (string | null)[];
-  private readonly subsystems: (number | null)[];
+  /** For transitions that have fired, the behaviour into which they put a token. */
+  private readonly entered = new Map<number, string>();
 
   constructor(
-    net: NetModel,
+    private readonly net: NetModel,
     private readonly limit = most,
   ) {
     this.lanes = net.subsystemPages().map((page, lane) => {
@@ -41,23 +40,24 @@ export class Timeline {
       const behaviours = net.children(page).map((child) => net.page(child).name);
       return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours, since: -Infinity };
     });
-    this.entered = net.transitions.map((transition) => {
-      for (const arc of transition.outputs) {
-        const place = net.places[arc.place]!;
-        const behaviour = place.page === null ? null : net.behaviourOf(place.page);
-        if (behaviour) return behaviour.name;
-      }
-      return null;
-    });
-    this.subsystems = net.transitions.map((transition) => transition.subsystem);
+  }
+
+  private enteredBy(transition: number): string {
+    let known = this.entered.get(transition);
+    if (known === undefined) {
+      const pages = this.net.transitions.at(transition)!.outputs.map(({ place }) => this.net.places.at(place)!.page);
+      known = pages.map((page) => this.net.behaviourOf(page)?.name).find(Boolean) ?? "";
+      this.entered.set(transition, known);
+    }
+    return known;
   }
 
   add(time: number, transition: number): void {
-    const subsystem = this.subsystems[transition];
+    const subsystem = this.net.transitions.at(transition)?.subsystem;
     const lane = subsystem === null || subsystem === undefined ? undefined : this.lanes[this.laneOf.get(subsystem) ?? -1];
     if (!lane) return;
     bounded(lane.firings, this.limit).push(time);
-    this.enter(lane, time, this.entered[transition] ?? "");
+    this.enter(lane, time, this.enteredBy(transition));
   }
 
   /** The running behaviours at a time, by subsystem. Needed where not every firing is reported. */

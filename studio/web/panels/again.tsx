@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import { againFrom } from "../model/again";
+import { againFrom } from "../live/again";
 
 /** Makes the run again with the code as it is now, and goes on from the moment shown. */
 export function Again() {

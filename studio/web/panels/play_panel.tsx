@@ -1,4 +1,4 @@
-import { useEffect, useRef } from "react";
+import { useEffect, useMemo, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { breakable } from "../model/labels";
 import type { NetModel } from "../model/net";
@@ -42,28 +42,32 @@ export function PlayPanel() {
   );
 }
 
+/** The number of elements that a list shows. */
+const most = 500;
+
 function Choices({ net }: { net: NetModel }) {
   const studio = useStudio();
   const { active, conditions } = useStore(studio.play.store, (all) => all);
-  const free = net.transitions.flatMap((transition, index) => (transition.condition?.truth === "free" ? [index] : []));
+  const free = useMemo(() => net.elements.free(most), [net]);
   return (
     <>
       <h3>Can fire now</h3>
       <ul className="choice-list">
-        {active.map((index) => (
+        {active.slice(0, most).map((index) => (
           <li key={index}>
             <button
               className="choice"
               onClick={() => studio.play.choose(index)}
-              onFocus={() => studio.select(net.transitions[index]!.name, false)}
+              onFocus={() => studio.select(net.transitions.at(index)!.name, false)}
             >
-              {net.transitions[index]!.name}
-              {net.transitions[index]!.condition?.text && (
-                <span className="faint"> [{net.transitions[index]!.condition!.text}]</span>
+              {net.transitions.at(index)!.name}
+              {net.transitions.at(index)!.condition?.text && (
+                <span className="faint"> [{net.transitions.at(index)!.condition!.text}]</span>
               )}
             </button>
           </li>
         ))}
+        {active.length > most && <li className="faint">and {active.length - most} more: click them in the drawing</li>}
         {active.length === 0 && <li className="faint">Nothing: the net has stopped.</li>}
       </ul>
       {free.length > 0 && (
@@ -73,7 +77,7 @@ function Choices({ net }: { net: NetModel }) {
             {free.map((index) => (
               <li key={index}>
                 <select
-                  aria-label={`Condition of ${net.transitions[index]!.name}`}
+                  aria-label={`Condition of ${net.transitions.at(index)!.name}`}
                   value={conditions.has(index) ? String(conditions.get(index)) : ""}
                   onChange={(event) =>
                     studio.play.setCondition(index, event.target.value === "" ? undefined : event.target.value === "true")
@@ -84,7 +88,7 @@ function Choices({ net }: { net: NetModel }) {
                   <option value="false">does not hold</option>
                 </select>
                 <span className="path">
-                  [{net.transitions[index]!.condition!.text}] {net.transitions[index]!.name}
+                  [{net.transitions.at(index)!.condition!.text}] {net.transitions.at(index)!.name}
                 </span>
               </li>
             ))}
@@ -100,10 +104,12 @@ function Channels({ net }: { net: NetModel }) {
   const studio = useStudio();
   useStore(studio.play.store, (all) => all.position);
   const { marking } = studio.desk;
-  const held = net.places.flatMap((place, index) =>
-    place.channel !== null && (studio.play.marking?.[index] ?? marking[index]) ? [place.name] : [],
-  );
-  if (!net.places.some((place) => place.channel !== null)) return null;
+  const first = net.elements.firstFused;
+  if (first === net.places.length) return null;
+  const held: string[] = [];
+  (studio.play.marking ?? marking).subarray(first).forEach((tokens, at) => {
+    if (tokens > 0 && held.length < most) held.push(net.places.at(first + at)!.name);
+  });
   return (
     <>
       <h3>Channels</h3>
@@ -133,7 +139,7 @@ function Steps({ net }: { net: NetModel }) {
     <ol className="step-list">
       {steps.slice(first, first + 600).map((transition, at) => {
         const number = first + at + 1;
-        const name = net.transitions[transition]?.name ?? "?";
+        const name = net.transitions.at(transition)?.name ?? "?";
         return (
           <li key={number}>
             <button

@@ -17,6 +17,20 @@ export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; f
   return <StepPlayer />;
 }
 
+/** The controls of the only pane, as wide as the window: a long recording needs the room. */
+export function WholePlayer() {
+  const studio = useStudio();
+  const panes = useStore(studio.scene.store, (all) => all.panes);
+  const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
+  const only = panes.length === 1 ? panes[0] : undefined;
+  if (!loaded || !only) return null;
+  return (
+    <div className="whole-player">
+      <Player key={only.id} pane={only} beside={false} fixed={false} />
+    </div>
+  );
+}
+
 function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: boolean; fixed: boolean }) {
   const studio = useStudio();
   const { time, playing, speed, loading } = useStore(replay.store, (all) => all);

@@ -204,13 +204,13 @@ function Breakpoints() {
 
 function placeOf(net: NetModel, breakpoint: Breakpoint): { path: string; where: string } {
   if ("place" in breakpoint) {
-    const path = net.places[breakpoint.place]?.name ?? "";
+    const path = net.places.at(breakpoint.place)?.name ?? "";
     return { path, where: path };
   }
   if ("transition" in breakpoint) {
-    const path = net.transitions[breakpoint.transition]?.name ?? "";
+    const path = net.transitions.at(breakpoint.transition)?.name ?? "";
     return { path, where: path };
   }
-  const path = net.transitions[breakpoint.condition]?.name ?? "";
+  const path = net.transitions.at(breakpoint.condition)?.name ?? "";
   return { path, where: `condition of ${path}` };
 }

@@ -9,12 +9,29 @@ interface Found {
   kind: string;
 }
 
-function everything(net: NetModel | null): Found[] {
+/** A net with more agents than this is searched by agents first. */
+const manyAgents = 1000;
+
+/** What a text may mean. In a large fleet: the agents, and the elements of those that its first word or name fits best. */
+function candidates(net: NetModel | null, text: string): Found[] {
   if (!net) return [];
-  const pages = net.pages.map((page) => ({ path: page.path, kind: layerTitle[page.layer] }));
-  const places = net.places.map((place) => ({ path: place.name, kind: place.channel === null ? "place" : "channel" }));
-  const bars = net.transitions.map((transition) => ({ path: transition.name, kind: "transition" }));
-  return [...pages.filter((page) => page.path), ...places, ...bars];
+  const { agents } = net.elements;
+  const isLarge = agents.length > manyAgents;
+  const first = text.trim().split(/[\s.]/)[0]!;
+  const all = agents.map(({ name }, agent) => ({ path: name, agent }));
+  const near = isLarge ? (first ? rank(first, all, ({ path }) => path).slice(0, 10) : []) : all;
+  const of = (what: "pages" | "places" | "transitions") => near.flatMap(({ agent }) => net.elements.range(what, agent));
+  const own = { places: net.elements.range("places", -1), transitions: net.elements.range("transitions", -1) };
+  const fused = isLarge
+    ? []
+    : Array.from({ length: net.places.length - net.elements.firstFused }, (_, at) => net.elements.firstFused + at);
+  return [
+    ...(isLarge ? all.map(({ path }) => ({ path, kind: layerTitle.agent })) : []),
+    ...of("pages").map((at) => ({ path: net.page(at).path, kind: layerTitle[net.page(at).layer] })),
+    ...[...own.places, ...of("places")].map((at) => ({ path: net.places.at(at)!.name, kind: "place" })),
+    ...fused.map((at) => ({ path: net.places.at(at)!.name, kind: "channel" })),
+    ...[...own.transitions, ...of("transitions")].map((at) => ({ path: net.transitions.at(at)!.name, kind: "transition" })),
+  ];
 }
 
 /** Search by path: type parts of it and choose; the drawing flies there. */
@@ -23,7 +40,8 @@ export function Search() {
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const [text, setText] = useState("");
   const [chosen, setChosen] = useState(0);
-  const all = useMemo(() => everything(net), [net]);
+  const head = net && net.elements.agents.length > manyAgents ? text : "";
+  const all = useMemo(() => candidates(net, head), [net, head]);
   const found = useMemo(() => rank(text, all, (one) => one.path).slice(0, 12), [text, all]);
   const dialog = useRef<HTMLDialogElement>(null);
   const close = () => studio.view.set({ searching: false });

@@ -71,6 +71,13 @@ export function VerifyPanel() {
   );
 }
 
+/** What the ways to a verdict do. */
+const methods: Readonly<Record<string, string>> = {
+  circuits: "Circuits: no circle of subsystems in which each waits for the next one can come about.",
+  "place invariants": "Place invariants: sums of tokens that no transition changes.",
+  "explicit search": "Explicit search: all markings that can be reached were visited.",
+};
+
 const marks = { holds: "check", violated: "cross", unknown: "question" } as const;
 
 function VerdictRow({ verdict }: { verdict: Verdict }) {
@@ -86,7 +93,7 @@ function VerdictRow({ verdict }: { verdict: Verdict }) {
       </summary>
       <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
       {verdict.why && <p>{sentence(verdict.why)}</p>}
-      <p>
+      <p title={methods[verdict.method] ?? "How the verdict was found."}>
         By {verdict.method || "nothing yet"}
         {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
       </p>

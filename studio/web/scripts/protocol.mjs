@@ -16,10 +16,10 @@ function whole(name) {
   const convert = (node, from) => {
     if (Array.isArray(node)) return node.map((one) => convert(one, from));
     if (typeof node !== "object" || node === null) return node;
-    if (node.$ref === net) return { tsType: "NetJson" };
     if (Object.keys(node).join() === "description") return { ...node, tsType: "unknown" };
     const [, file, definition] = /^(.*)#\/\$defs\/(\w+)$/.exec(node.$ref ?? "") ?? [];
     const owner = file || from;
+    if (owner === net && name !== net) return { tsType: definition };
     if (definition && owner !== name && !(definition in others)) {
       others[definition] = {};
       others[definition] = convert(read(owner).$defs[definition], owner);
@@ -61,7 +61,7 @@ async function typesOf(schema, imports = "") {
 }
 
 const outputs = {
-  "live/protocol.ts": () => typesOf("studio.schema.json", 'import type { NetJson } from "../model/net_json";\n'),
+  "live/protocol.ts": () => typesOf("studio.schema.json", 'import type { FoldedNet } from "../model/net_json";\n'),
   "model/net_json.ts": () => typesOf(net),
 };
 

@@ -16,10 +16,22 @@ for (const what of process.argv.slice(2))
     for (const robots of [10, 50]) for (const large of [false, true]) await measureWorld(robots, { large });
   else await measureFleet(what);
 
+/** What another page is sent until it is drawn. */
+async function bytesOf(page, server) {
+  const network = await page.context().newCDPSession(page);
+  await network.send("Network.enable");
+  let bytes = 0;
+  network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
+  await page.goto(server.url);
+  await page.locator(".sheet .page").first().waitFor();
+  await page.close();
+  return bytes;
+}
+
 async function measureFleet(robots) {
   const project = mkdtempSync(join(tmpdir(), "studio-fleet-"));
   writeFileSync(join(project, "spec.yaml"), fleet.replace("count: 100", `count: ${robots}`));
-  await onPage(project, async (page) => {
+  await onPage(project, async (page, server, open) => {
     const loaded = await page.evaluate(
       () =>
         new Promise((done) => {
@@ -27,6 +39,7 @@ async function measureFleet(robots) {
           look();
         }),
     );
+    const bytes = await bytesOf(await open(), server);
     const area = await page.locator(".canvas-area").boundingBox();
     const frames = async (what, act) => {
       await page.evaluate(() => {
@@ -44,7 +57,7 @@ async function measureFleet(robots) {
         `  ${what}: ${((1000 * gaps.length) / (times.at(-1) - times[0])).toFixed(1)} frames/s, median ${gaps[gaps.length >> 1].toFixed(1)} ms, worst ${gaps.at(-1).toFixed(0)} ms`,
       );
     };
-    console.log(`${robots} robots: drawn after ${(loaded / 1000).toFixed(2)} s`);
+    console.log(`${robots} robots: drawn after ${(loaded / 1000).toFixed(2)} s, ${(bytes / 1e6).toFixed(2)} MB sent`);
     const pan = async () => {
       await page.mouse.move(area.x + area.width / 2, area.y + 200);
       await page.mouse.down();

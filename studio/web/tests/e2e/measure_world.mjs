@@ -9,7 +9,7 @@ export async function measureWorld(robots, { parts = 6, large = false } = {}) {
   await onPage(example("01_line_follower"), async (page, server) => {
     const answer = await fetch(`${server.address}/api/spec`, { headers: { Authorization: `Bearer ${server.token}` } });
     const { analysis } = await answer.json();
-    const transitions = analysis.net.flat.transitions.map(({ name }) => name).slice(0, 1);
+    const transitions = analysis.net.system.transitions.map(({ name }) => name).slice(0, 1);
     const { net_hash } = analysis;
     writeWorld(server.root, "measured", { hash: "00000000000000bb", net_hash, transitions, agent: "robot", robots, parts });
     await tab(page, "Recordings").click();

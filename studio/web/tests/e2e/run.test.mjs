@@ -70,7 +70,23 @@ test("a recording that is too long to be sent at once is looked at from its firs
       assert.ok((await facts()).includes(`${firings} firings`), await facts());
       await page.locator(".react-flow").getByText("follow").first().waitFor();
     }
+    // The slider goes from one edge of the window to the other.
+    const { width } = await slider.boundingBox();
+    assert.ok(width > 0.95 * 1440, `${width} px`);
+    // The address names the moment: who opens it sees the same.
+    await slider.fill(String(last * 0.73));
+    const link = await until(page, () => Math.abs(momentOf(page) - last * 0.73) < 1e6 && page.url(), "the moment in the address");
+    await page.reload();
+    await slider.waitFor();
+    await until(page, async () => Math.abs(Number(await slider.inputValue()) - last * 0.73) < 1e6, "the same moment");
+    assert.equal(page.url(), link);
+    // Going back in time within the tab is a change of the address, too.
+    await page.evaluate((to) => (location.hash = to), new URL(link).hash.replace(/([#&])t=[^&]*/, "$1t=12.5"));
+    await until(page, async () => Number(await slider.inputValue()) === 12.5e9, "the moment of the other link");
   }));
+
+/** The moment that the address of the page names, in nanoseconds. */
+const momentOf = (page) => 1e9 * Number(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("t") ?? NaN);
 
 /** The robot moves in the view in three dimensions, and the file of its world is glTF as it should be. */
 async function seenInSpace(page, server) {

@@ -8,7 +8,7 @@ const api = (server, path) => fetch(`${server.address}${path}`, { headers: { Aut
 /** Writes recordings of worlds, and opens the panel that lists them. */
 async function withWorlds(page, server, worlds) {
   const { analysis } = await (await api(server, "/api/spec")).json();
-  const transitions = analysis.net.flat.transitions.map(({ name }) => name);
+  const transitions = analysis.net.system.transitions.map(({ name }) => name);
   for (const [at, world] of worlds.entries())
     writeWorld(server.root, world.name, {
       hash: `00000000000000${at}0`,

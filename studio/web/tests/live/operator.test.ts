@@ -2,7 +2,8 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import { Operator } from "../../live/operator";
 import type { ControlRequest, PanelShown } from "../../live/protocol";
 import { Store } from "../../live/store";
-import type { Runner, RunnerState } from "../../live/runner";
+import type { Runner } from "../../live/runner";
+import type { RunnerState } from "../../live/runner_state";
 
 const panel: PanelShown = {
   path: "robot.console.drive",

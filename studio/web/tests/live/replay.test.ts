@@ -5,7 +5,7 @@ import { recordingOf } from "./recording";
 
 const net = lineFollower();
 const named = (name: string) => net.transitionByName.get(name)!;
-const held = (replay: Replay) => net.places.flatMap(({ name }, at) => (replay.stage.marking[at]! > 0 ? [name] : []));
+const held = (replay: Replay) => [...net.places].flatMap(({ name }, at) => (replay.stage.marking[at]! > 0 ? [name] : []));
 
 beforeAll(() => vi.stubGlobal("requestAnimationFrame", () => 1));
 

@@ -6,6 +6,7 @@ import { activeTransitions } from "../../model/game";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();
+const indices = ({ length }: { length: number }) => Array.from({ length }, (_, at) => at);
 
 /** So many firings of the token game, drawn by a rule. */
 function played(length: number): number[] {
@@ -19,9 +20,9 @@ function played(length: number): number[] {
 
 const firings = played(300);
 const everything: Drawn = {
-  places: new Set(net.places.keys()),
-  pages: new Set(net.pages.keys()),
-  subsystems: [...net.pages.keys()],
+  places: new Set(indices(net.places)),
+  pages: new Set(indices(net.pages)),
+  subsystems: [...indices(net.pages)],
 };
 const scenes = { title: "a run", from: initialMarking(net), firings, times: firings.map((_, at) => 5e9 + at * 1e7), begin: 5e9 };
 
@@ -33,18 +34,19 @@ describe("a film", () => {
     const running = new Map<number, string>();
     for (let at = 0; ; at += 1) {
       for (const [after, page, behaviour] of film.running) if (after === at) running.set(page, behaviour);
-      net.places.forEach((_, place) => expect(tokens.get(place) ?? 0).toBe(walk.marking[place]));
-      for (const [index, page] of net.pages.entries()) {
-        if (page.layer === "system") continue;
+      indices(net.places).forEach((place) => expect(tokens.get(place) ?? 0).toBe(walk.marking[place]));
+      for (const index of indices(net.pages)) {
+        if (net.page(index).layer === "system") continue;
         let inside = 0;
-        net.places.forEach((place, flat) => {
-          for (let up = place.page; up !== null; up = net.page(up).parent) if (up === index) inside += walk.marking[flat]!;
+        indices(net.places).forEach((flat) => {
+          for (let up = net.places.at(flat)!.page; up !== null; up = net.page(up).parent)
+            if (up === index) inside += walk.marking[flat]!;
         });
         expect(tokens.get(-1 - index) ?? 0).toBe(inside);
       }
       const now = runningBehaviours(net, walk.marking);
       for (const page of running.keys()) expect(net.page(page).layer).toBe("subsystem");
-      for (const page of net.subsystemPages()) expect(running.get(page)).toBe(now.get(net.page(page).subsystem!) ?? "");
+      for (const page of net.subsystemPages()) expect(running.get(page) ?? "").toBe(now.get(net.page(page).subsystem!) ?? "");
       if (at === firings.length) break;
       for (const [place, change] of film.effects[film.fired[at]!]!) tokens.set(place, (tokens.get(place) ?? 0) + change);
       expect(walk.forward()).toBe(true);

@@ -13,7 +13,7 @@ describe("token game", () => {
     const walk = new Walk(net);
     for (let step = 0; step < 400; step += 1) {
       const active = activeTransitions(net, walk.marking);
-      expect(active.every((transition) => net.transitions[transition]!.condition?.truth !== "never")).toBe(true);
+      expect(active.every((transition) => net.transitions.at(transition)!.condition?.truth !== "never")).toBe(true);
       if (active.length === 0) break;
       walk.choose(active[(step * 7) % active.length]!);
       expect(Math.max(...walk.marking)).toBe(1);

@@ -1,10 +1,10 @@
 import Elk from "elkjs/lib/elk.bundled.js";
 import type { ElkNode } from "../../model/layout";
-import { NetModel, type NetJson } from "../../model/net";
+import { NetModel, type FoldedNet } from "../../model/net";
 import json from "./line_follower.json";
 
-/** The example 01_line_follower as `tessera show --json` writes it. */
-export const lineFollower = () => new NetModel(json as unknown as NetJson);
+/** The example 01_line_follower as the server sends it. */
+export const lineFollower = () => new NetModel(json as unknown as FoldedNet);
 
 const engine = new Elk();
 export const elk = (graph: ElkNode) => engine.layout(graph as never) as unknown as Promise<ElkNode>;

@@ -1,6 +1,6 @@
 /** The request of a run that is made again from its beginning, and shown from a moment on. */
 
-import type { StartRequest } from "../live/protocol";
+import type { StartRequest } from "./protocol";
 
 /** Of a simulated run that is given no other. */
 const defaultTime = "600s";

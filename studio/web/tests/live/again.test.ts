@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { againFrom } from "../../model/again";
+import { againFrom } from "../../live/again";
 
 describe("a run that is made again", () => {
   const request = { kind: "simulate", for: "60s", seed: 7, track: "oval.png", speed: 1 } as const;

@@ -1,0 +1,77 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/analysis/structure.hpp"
+#include "server/api.hpp"
+#include "server/http/answer.hpp"
+
+namespace tessera::server {
+
+using nlohmann::json;
+
+namespace {
+
+/// {members, "analysis": ...}
+void answer_with_analysis(const httplib::Request& request, httplib::Response& response,
+                          const std::string& members, const Analysis& analysis) {
+  static const auto end = std::make_shared<const std::string>("}");
+  answer_packed(request, response,
+                {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
+}
+
+}  // namespace
+
+void Api::serve_spec(HttpServer& server) {
+  server.Get("/api/spec",
+             [this](const Request& request, Response& response) { get_spec(request, response); });
+  server.Put("/api/spec",
+             [this](const Request& request, Response& response) { put_spec(request, response); });
+  server.Post("/api/check", [this](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text");
+    if (body.good()) answer_packed(request, response, {parts_.analyses.of(text)->json});
+  });
+  server.Post("/api/structure", [this](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text");
+    if (!body.good()) return;
+    const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+    const std::optional<spec::Model>& known = analysis->model ? analysis->model : analysis->partial;
+    answer_packed(request, response,
+                  {std::make_shared<const std::string>(known ? text_of(structure_json(*known)) : "null")});
+  });
+}
+
+void Api::get_spec(const Request& request, Response& response) {
+  const SpecFile::Content content = parts_.file.read();
+  answer_with_analysis(
+      request, response,
+      fmt::format(R"("text":{},"revision":"{}","error":{})", text_of(json(content.text)), content.revision,
+                  content.error.empty() ? "null" : text_of(json(content.error))),
+      *parts_.analyses.of(content.text));
+}
+
+void Api::put_spec(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text"), revision = body.text("revision");
+  if (!body.good()) return;
+  const SpecFile::Outcome outcome = parts_.file.write(text, revision);
+  switch (outcome.written) {
+    case SpecFile::Written::yes:
+      return answer_with_analysis(request, response, fmt::format(R"("revision":"{}")", outcome.now.revision),
+                                  *parts_.analyses.of(text));
+    case SpecFile::Written::conflict:
+      return answer(
+          response,
+          text_of(json{{"text", outcome.now.text},
+                       {"revision", outcome.now.revision},
+                       {"error", "the file on disk was changed by somebody else"},
+                       {"hint", "look at both, then save again with the revision that is there now"}}),
+          409);
+    case SpecFile::Written::failed:
+      return answer_error(response, 500, "the file cannot be written: " + outcome.now.error);
+  }
+}
+
+}  // namespace tessera::server

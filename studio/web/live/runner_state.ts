@@ -1,0 +1,52 @@
+import type { Breakpoint, Outcome, PanelShown, ParameterShown, RunKind, RunState, StartRequest } from "./protocol";
+
+/** The settings of the form for the next run. */
+export interface Wishes {
+  kind: RunKind;
+  /** Empty: that of the specification. */
+  track: string;
+  time: string;
+  seed: string;
+  speed: string;
+  /** Record values of more than 4 KiB, too. */
+  all: boolean;
+}
+
+export interface RunnerState {
+  run: string | null;
+  state: RunState | "idle";
+  kind: RunKind;
+  why: string;
+  outcome: Outcome | null;
+  build: readonly string[];
+  speed: number;
+  problem: string;
+  /** Behaviour by path of subsystem, as reported by the controller. */
+  behaviours: ReadonlyMap<string, string>;
+  /** The parameters of the run, with what they hold. */
+  parameters: readonly ParameterShown[];
+  panels: readonly PanelShown[];
+  /** The points at which the run pauses. */
+  breakpoints: readonly Breakpoint[];
+  /** What it was started with from this page; null: somewhere else. */
+  request: StartRequest | null;
+  /** Whether it has a pane of the drawing; a run continues without one, too. */
+  shown: boolean;
+}
+
+export const idle: RunnerState = {
+  run: null,
+  state: "idle",
+  kind: "simulate",
+  why: "",
+  outcome: null,
+  build: [],
+  speed: 1,
+  problem: "",
+  behaviours: new Map(),
+  parameters: [],
+  panels: [],
+  breakpoints: [],
+  request: null,
+  shown: false,
+};

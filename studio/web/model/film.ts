@@ -83,8 +83,9 @@ function runningOn(net: NetModel, drawn: Drawn, from: Marking) {
   }
   const tokens = new Map<number, Map<string, number>>();
   const put = (place: number, count: number): number | null => {
+    if (count === 0) return null;
     const { subsystem, page } = net.places.at(place)!;
-    if (count === 0 || subsystem === null || !pages.has(subsystem)) return null;
+    if (subsystem === null || !pages.has(subsystem)) return null;
     const behaviour = net.behaviourOf(page)?.name;
     if (behaviour === undefined) return null;
     const inside = tokens.get(subsystem) ?? new Map<string, number>();

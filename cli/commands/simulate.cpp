@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/panel.hpp"
 #include "cli/commands/deploy.hpp"
+#include "cli/commands/panel.hpp"
 #include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"

@@ -25,7 +25,9 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
       "sleep 1; $T panel robot.console.drive forward=0.25; echo code $?; wait $!; "
       "$T panel robot.console.drive forward=7; echo code $?; "
       "$T panel robot.console.drive forward=nan; $T panel robot.console.drive forward; "
-      "$T panel robot.consol.drive forward=1; kill -INT $R; wait");
+      "$T panel robot.consol.drive forward=1; "
+      "for i in $(seq 200); do $T replay tele.tsr --values=robot.console.drive 2>/dev/null | grep -q "
+      "'forward: 0,' && break; sleep 0.05; done; kill -INT $R; wait");
   for (const char* part :
        {"another operator has the panel robot.console.drive", "code 1", "goes from -1 to 1, and 7 is out",
         "'nan' is neither a number nor true or false", "'forward' is not FIELD=VALUE",

@@ -229,7 +229,7 @@ channels: [ "robot[i].control.said -> robot[i+1].control.heard" ]
   const json net = plain.json().at("analysis").at("net");
   EXPECT_EQ(net.at("agents").size(), 2000U);
   EXPECT_EQ(net.at("shapes").size(), 1U);
-  EXPECT_EQ(net.at("shapes")[0].at("memory").size(), 4U) << "it reads from one robot and writes to another";
+  EXPECT_EQ(net.at("shapes")[0].at("memory").size(), 2U) << "it reads from one robot and writes to another";
   EXPECT_LT(plain.body.size(), 1'000'000U);
   Headers headers = own_headers();
   headers.emplace("Accept-Encoding", "gzip");

@@ -97,9 +97,16 @@ class RunOfTheStudio : public Served {
   }
   json info(const std::string& run) { return get("/api/runs/" + run).json(); }
   std::uint32_t place(const std::string& name) {
-    const json places = get("/api/spec").json().at("analysis").at("net").at("flat").at("places");
-    for (std::uint32_t index = 0; index < places.size(); ++index)
-      if (places[index].at("name") == name) return index;
+    // Those of the system come first, then those of each agent (FoldedNet of net.schema.json).
+    const json net = get("/api/spec").json().at("analysis").at("net");
+    std::size_t first = net.at("system").at("places").size();
+    for (const json& agent : net.at("agents")) {
+      const json& places = net.at("shapes").at(agent.at("shape").get<std::size_t>()).at("places");
+      for (std::size_t index = 0; index < places.size(); ++index)
+        if (agent.at("name").get<std::string>() + "." + places[index].at("name").get<std::string>() == name)
+          return static_cast<std::uint32_t>(first + index);
+      first += places.size();
+    }
     ADD_FAILURE() << "no place " << name;
     return 0;
   }

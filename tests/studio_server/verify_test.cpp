@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "server/analysis/analysis.hpp"
 #include "served.hpp"
+#include "server/analysis/analysis.hpp"
 
 namespace tessera::server_test {
 

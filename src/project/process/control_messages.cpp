@@ -161,8 +161,10 @@ json json_of(const command::Panel& panel) {
   json object{{"command", "panel"}, {"path", panel.path}, {"operator", panel.who}};
   if (!panel.values) return object;
   json values = json::object();
-  for (const auto& [field, value] : *panel.values)
-    std::visit([&](const auto& one) { values[field] = one; }, value);
+  for (const auto& [field, value] : *panel.values) {
+    json& written = values[field];
+    std::visit([&](const auto& one) { written = one; }, value);
+  }
   object["values"] = std::move(values);
   return object;
 }

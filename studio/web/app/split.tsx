@@ -6,9 +6,19 @@ interface Sizes {
   right: number;
 }
 
-function keptSizes(): Sizes {
-  return { left: 420, right: 320, ...(JSON.parse(localStorage.getItem(kept) ?? "{}") as Partial<Sizes>) };
+/** What was chosen before; the others leave the drawing room in a narrow window. */
+function keptSizes(): Partial<Sizes> {
+  return JSON.parse(localStorage.getItem(kept) ?? "{}") as Partial<Sizes>;
 }
+/** In a window of so many pixels. The text leaves the drawing and the side panel 780 of them. */
+const usual: Record<keyof Sizes, (width: number) => number> = {
+  left: (width) => Math.min(420, Math.max(220, width - 780)),
+  right: (width) => Math.min(320, width * 0.32),
+};
+const usualCss: Record<keyof Sizes, string> = { left: "clamp(220px, 100vw - 780px, 420px)", right: "min(320px, 32vw)" };
+const sizeOf = (chosen: Partial<Sizes>, side: keyof Sizes) => chosen[side] ?? Math.round(usual[side](innerWidth));
+const widthOf = (chosen: Partial<Sizes>, side: keyof Sizes) =>
+  chosen[side] === undefined ? usualCss[side] : `${chosen[side]}px`;
 
 /** Three columns. The borders between them can be dragged, or moved by arrow keys. */
 export function Split({ left, right, children }: { left: ReactNode; right: ReactNode; children: ReactNode }) {
@@ -18,18 +28,26 @@ export function Split({ left, right, children }: { left: ReactNode; right: React
     setSizes(next);
     localStorage.setItem(kept, JSON.stringify(next));
   };
-  const style = { "--left": left ? `${sizes.left}px` : "0px", "--right": `${sizes.right}px` } as CSSProperties;
+  const style = {
+    "--left": left ? widthOf(sizes, "left") : "0px",
+    "--right": widthOf(sizes, "right"),
+  } as CSSProperties;
   return (
     <div className="split" style={style}>
       {left && (
         <section className="side left" aria-label="Specification">
           <div className="pane">{left}</div>
-          <Border label="Width of the text" size={sizes.left} sign={1} onChange={(size) => change("left", size)} />
+          <Border label="Width of the text" size={sizeOf(sizes, "left")} sign={1} onChange={(size) => change("left", size)} />
         </section>
       )}
       {children}
       <aside className="side right" aria-label="Side panel">
-        <Border label="Width of the side panel" size={sizes.right} sign={-1} onChange={(size) => change("right", size)} />
+        <Border
+          label="Width of the side panel"
+          size={sizeOf(sizes, "right")}
+          sign={-1}
+          onChange={(size) => change("right", size)}
+        />
         <div className="pane">{right}</div>
       </aside>
     </div>

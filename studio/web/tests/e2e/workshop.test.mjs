@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, changes, draftText, folder, judges, onPage, tab, until } from "./page.mjs";
+import { button, changes, draftText, folder, judges, middleOf, onPage, tab, until } from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-workshop-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -162,7 +162,12 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       await entry("Safe command", "safe value", "left_2", "right", "0");
       await buffer("robot.control", "input", "input", "light", "Light");
       await buffer("robot.control", "output", "output", "motion", "Motion");
-      const line = (from, to) => page.locator(`[data-handle="${from}"]`).dragTo(page.locator(`[data-handle="${to}"]`));
+      const line = async (from, to) => {
+        const [start, end] = [from, to].map((path) => page.locator(`[data-handle="${path}"]`));
+        // The boxes may still be on their way to where a new channel puts them.
+        for (const handle of [start, end]) await middleOf(page, handle);
+        await start.dragTo(end);
+      };
       await line("robot.sensor.light", "robot.control.light");
       await page.locator('.channel-label[data-path="channel:0"]').waitFor();
       await line("robot.control.motion", "robot.motor.motion");

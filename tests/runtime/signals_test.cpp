@@ -2,14 +2,17 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <fstream>
 
 #include "child_run.hpp"
 #include "nets.hpp"
+#include "system/stop_signals.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 
@@ -83,6 +86,24 @@ TEST(Signals, ThatSomebodyIgnoresOrHandlesAreLeftToThem) {
   }
   child.kill(SIGINT);
   EXPECT_EQ(child.wait(), 128 + SIGINT);
+}
+
+TEST(Signals, AHandlerThatIsLateWritesIntoNoFileOfSomebodyElse) {
+  int before = -1;
+  {
+    const StopSignals signals;
+    before = StopSignals::descriptor();
+    ASSERT_GE(before, 0);
+  }
+  // A handler that another thread began before the end of the object writes now.
+  const int opened = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  EXPECT_NE(opened, before);
+  close(opened);
+  const std::uint64_t late = 1;
+  ASSERT_EQ(write(before, &late, sizeof late), ssize_t{sizeof late});
+  const StopSignals next;
+  pollfd news{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0};
+  EXPECT_EQ(poll(&news, 1, 0), 0) << "a signal of the run before";
 }
 
 TEST(Signals, SuspensionMakesSafeFirstAndTheRunGoesOnWithNewValues) {

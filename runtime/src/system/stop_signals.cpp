@@ -15,7 +15,10 @@ namespace {
 std::atomic<int> caught{0};
 std::atomic<std::int64_t> caught_at_ns{0};
 std::atomic<bool> suspension{false};
+// Never closed: a handler in another thread may be about to write when the object that installed it ends, and its
+// number may belong to a device by then.
 std::atomic<int> wake_descriptor{-1};
+std::atomic<pid_t> opened_by{0};  // a child of the process must not wake its parent
 std::atomic<int> depth{0};
 constexpr std::int64_t second_signal_after_ns = 1'000'000'000;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
@@ -25,6 +28,14 @@ void wake_up() {
   const std::uint64_t one = 1;
   if (const int descriptor = wake_descriptor.load(); descriptor >= 0) [[maybe_unused]]
     const ssize_t written = write(descriptor, &one, sizeof one);
+}
+
+void open_wake_descriptor() {
+  if (wake_descriptor < 0 || opened_by != getpid()) {
+    wake_descriptor = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    opened_by = getpid();
+  }
+  StopSignals::take_news();
 }
 
 /// Whether a person or a parent sends it deliberately. No timer and no terminal sends these repeatedly.
@@ -65,7 +76,7 @@ StopSignals::StopSignals(Suspension wanted) {
   outermost_ = true;
   caught = 0;
   suspension = false;
-  wake_descriptor = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  open_wake_descriptor();
   for_handled_signals([&](int signal, SignalUse use) {
     if (use == SignalUse::suspend && wanted == Suspension::usual) return;
     Before before{signal, {}};
@@ -84,7 +95,6 @@ StopSignals::~StopSignals() {
   --depth;
   if (!outermost_) return;
   for (const Before& before : before_) sigaction(before.signal, &before.action, nullptr);
-  if (const int descriptor = wake_descriptor.exchange(-1); descriptor >= 0) close(descriptor);
 }
 
 int StopSignals::pending() { return caught.load(); }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drawing/drawing.hpp"
+#include "environment.hpp"
 #include "layers/models.hpp"
 
 namespace tessera::drawing {
@@ -128,7 +129,7 @@ TEST(FoldedNet, IsTheWholeNet) {
   expect_whole(test::build(test::line_follower()), "line follower");
   expect_whole(test::build(test::fleet(7)), "fleet");
   expect_whole(test::build(test::pair({{test::B, test::B, true, true}, {test::N, test::B}})), "pair");
-  for (std::uint32_t seed = 0; seed < 300; ++seed)
+  for (std::uint32_t seed = 0; seed < share_of(300); ++seed)
     expect_whole(test::build(test::random_model(seed)), "random model " + std::to_string(seed));
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../environment.hpp"
 #include "diagnostics/source.hpp"
 #include "explore/explore.hpp"
 #include "net/pnml_reader.hpp"
@@ -19,8 +20,8 @@ namespace {
 using Kind = Answer::Kind;
 
 // Without optimisation, the larger ones would take minutes.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t most_markings_counted = 5'000'000;
+#if defined(__OPTIMIZE__)
+constexpr std::uint64_t most_markings_counted = sanitized ? 70'000 : 5'000'000;
 #else
 constexpr std::uint64_t most_markings_counted = 70'000;
 #endif

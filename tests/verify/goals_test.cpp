@@ -121,7 +121,7 @@ class GoalComparison {
 };
 
 TEST(Goals, AgreeWithTheOracleOnRandomNets) {
-  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", 2000);
+  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", share_of(2000));
   std::array<std::array<int, 2>, 3> answers{};
   std::uint32_t seed = 0;
   for (std::uint64_t compared = 0; compared < nets; ++seed) {

@@ -294,12 +294,13 @@ void expect_both_verdicts(Tally tally) {
 }
 
 TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystems) {
-  expect_both_verdicts(compared(test::random_system, from_environment("TESSERA_RANDOM_SYSTEMS", 150)));
+  expect_both_verdicts(
+      compared(test::random_system, from_environment("TESSERA_RANDOM_SYSTEMS", share_of(150))));
 }
 
 TEST(Prove, AgreesWithExhaustiveSearchOnRandomSystemsOfOwnModels) {
   expect_both_verdicts(
-      compared(test::random_system_of_own_models, from_environment("TESSERA_RANDOM_SYSTEMS", 100)));
+      compared(test::random_system_of_own_models, from_environment("TESSERA_RANDOM_SYSTEMS", share_of(100))));
 }
 
 spec::Model random_system_with_endings(std::uint64_t seed) {
@@ -309,7 +310,8 @@ spec::Model random_system_with_endings(std::uint64_t seed) {
 }
 
 TEST(Prove, AgreesWithExhaustiveSearchHoweverBehavioursEnd) {
-  expect_both_verdicts(compared(random_system_with_endings, from_environment("TESSERA_RANDOM_SYSTEMS", 100)));
+  expect_both_verdicts(
+      compared(random_system_with_endings, from_environment("TESSERA_RANDOM_SYSTEMS", share_of(100))));
 }
 
 }  // namespace

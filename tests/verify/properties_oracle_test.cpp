@@ -177,7 +177,7 @@ std::vector<net::Property> random_properties(const test::Built& built, oracle::R
 }
 
 TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 60);
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", share_of(60));
   std::uint64_t seed = from_environment("TESSERA_RANDOM_SEED", 0);
   std::map<std::string, std::array<int, 3>> tally;
   for (std::uint64_t compared = 0; compared < systems; ++seed) {

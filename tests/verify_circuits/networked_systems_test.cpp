@@ -142,7 +142,7 @@ void compare_deployed(spec::Model (*random)(std::uint64_t), std::uint64_t system
 }
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 200);
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", share_of(200));
   NetworkTally tally;
   compare_deployed(random_system, systems, tally);
   RecordProperty("compared", static_cast<int>(tally.compared));
@@ -155,7 +155,7 @@ TEST(NetworkedSystems, AgreeWithExhaustiveSearch) {
 }
 
 TEST(NetworkedSystems, AgreeWithExhaustiveSearchWhereBehavioursDiffer) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 200) / 2;
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", share_of(200)) / 2;
   NetworkTally tally;
   compare_deployed(random_differing_system, systems, tally);
   EXPECT_GT(tally.waiting, 0U);

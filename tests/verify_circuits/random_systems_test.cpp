@@ -88,7 +88,7 @@ class Comparison {
 };
 
 TEST(Circuits, AgreeWithExhaustiveSearchOnRandomSystems) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 1000);
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", share_of(1000));
   const std::uint64_t first = from_environment("TESSERA_RANDOM_SEED", 0);
   const std::size_t most_markings = systems > 10000 ? 12000 : 3000;
   Tally tally;

@@ -133,7 +133,7 @@ void compare(const Judged& judged, const verify::WaitingReport& report, const Na
 }
 
 TEST(Waiting, ClaimsNothingThatExhaustiveSearchContradicts) {
-  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", 300);
+  const std::uint64_t systems = from_environment("TESSERA_RANDOM_SYSTEMS", share_of(300));
   std::uint64_t seed = from_environment("TESSERA_RANDOM_SEED", 0);
   const std::size_t most_markings = systems > 10000 ? 6000 : 1500;
   WaitingTally tally;

@@ -106,6 +106,10 @@ json Client::call(const std::string& function, json arguments, Duration patience
   const auto end = SteadyClock::now() + patience;
   const json request{{"func", function}, {"args", std::move(arguments)}};
   const json executed{{"func", "_*executed*_"}, {"args", json::array()}};
+  const auto unfinished = [&] {
+    return LinkError("the server at " + name_ + " has not finished " + function + " for " +
+                     std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) + " s");
+  };
   json reply = exchange(request, patience);
   for (;;) {
     if (const auto values = reply.find("ret"); values != reply.end()) return returned(*values);
@@ -120,11 +124,13 @@ json Client::call(const std::string& function, json arguments, Duration patience
     const bool again = next == "_*repeat*_";
     if (again) std::this_thread::sleep_for(pause_before_repeating);
     const Duration left = end - SteadyClock::now();
-    if (left <= Duration::zero())
-      throw LinkError("the server at " + name_ + " has not finished " + function + " for " +
-                      std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) + " s");
+    if (left <= Duration::zero()) throw unfinished();
     // There are no callbacks of ours, so the name of one is answered like a wish to wait.
-    reply = exchange(again ? request : executed, left);
+    try {
+      reply = exchange(again ? request : executed, left);
+    } catch (const NoReply&) {  // it has answered before, however little was left for this reply
+      throw unfinished();
+    }
   }
 } catch (const LinkError&) {
   lost_ = true;

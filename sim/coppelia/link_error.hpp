@@ -11,6 +11,12 @@ class LinkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No reply in time.
+class NoReply : public LinkError {
+ public:
+  using LinkError::LinkError;
+};
+
 /// The simulator has answered that it cannot do what a call asks for.
 class RefusedCall : public std::runtime_error {
  public:

@@ -107,9 +107,9 @@ std::vector<std::uint8_t> RequestSocket::ask(std::span<const std::uint8_t> reque
     const int ready = left.count() <= 0 ? 0 : zmq_poll(events.data(), events.size(), left.count());
     if (ready < 0 && zmq_errno() != EINTR) fail("no reply from " + name_);
     if (ready == 0)
-      throw LinkError("the server at " + name_ + " has not answered for " +
-                      std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) + " s" +
-                      doubt());
+      throw NoReply("the server at " + name_ + " has not answered for " +
+                    std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) + " s" +
+                    doubt());
     if (ready < 0) continue;
     if ((events[0].revents & ZMQ_POLLIN) != 0) return receive();
     throw_if_lost();

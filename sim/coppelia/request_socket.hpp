@@ -17,7 +17,7 @@ class RequestSocket {
   /// Errors: LinkError, as listening_address.
   RequestSocket(const std::string& host, std::uint16_t port, Duration patience);
 
-  /// Errors: LinkError: no reply in time, or the server has closed the connection. The socket cannot be
+  /// Errors: NoReply; LinkError: the server has closed the connection. The socket cannot be
   ///         used after that.
   [[nodiscard]] std::vector<std::uint8_t> ask(std::span<const std::uint8_t> request, Duration patience);
 

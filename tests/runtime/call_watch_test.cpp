@@ -67,7 +67,7 @@ TEST(CallWatch, AFunctionThatTakesLongIsNamedAndTheRunGoesOn) {
   const std::string said = ::testing::internal::GetCapturedStderr();
   EXPECT_EQ(summary.ended, "duration");
   EXPECT_FALSE(summary.failed);
-  EXPECT_NE(said.find("robot.a.run has not returned for 1."), std::string::npos) << said;
+  EXPECT_NE(said.find("robot.a.run has not returned for "), std::string::npos) << said;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "server/analysis/examples.hpp"
 #include "server/analysis/sources.hpp"
+#include "server/analysis/world_targets.hpp"
 #include "server/api.hpp"
 #include "server/http/answer.hpp"
 
@@ -43,6 +44,26 @@ void Api::serve_sources(HttpServer& server) {
     const Sources::Added added = Sources(parts_.file.folder()).add(*analysis->model, subsystem, function);
     if (!added.error.empty()) return answer_error(response, 409, added.error);
     answer(response, text_of(nlohmann::json{{"file", added.file}}));
+  });
+  server.Post("/api/functions/rename", [this](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text"), subsystem = body.text("subsystem"), from = body.text("from"),
+                      function = body.text("function");
+    if (!body.good()) return;
+    const Sources::Renamed renamed =
+        Sources(parts_.file.folder()).rename(text, language_.grammar(), subsystem, from, function);
+    if (!renamed.error.empty()) return answer_error(response, 409, renamed.error);
+    answer(response, text_of(nlohmann::json{{"files", renamed.files}}));
+  });
+  server.Post("/api/world", [this, model_of](const Request& request, Response& response) {
+    RequestBody body(request, response);
+    const std::string text = body.text("text");
+    if (!body.good()) return;
+    const auto analysis = model_of(text, response);
+    if (!analysis) return;
+    const Result<nlohmann::json> targets = world_targets(*analysis->model, parts_.file.folder());
+    if (!targets) return answer_error(response, 422, "the world cannot be asked: " + targets.problem());
+    answer(response, text_of(nlohmann::json{{"targets", *targets}}));
   });
   server.Get("/api/sources", [this](const Request& request, Response& response) {
     const auto content = Sources(parts_.file.folder()).read(request.get_param_value("file"));

@@ -49,6 +49,39 @@ TEST_F(Sources, AMissingFunctionIsAddedOnce) {
   EXPECT_EQ(post("/api/functions/add", unknown).status, 409);
 }
 
+TEST_F(Sources, AFunctionGetsTheNameThatItsBehaviourHasNow) {
+  serve();
+  write(project() / "test/control_test.cpp",
+        "namespace line_follower::robot::control {\nvoid twice() { follow(1); }  // follow\n}\n");
+  std::string text = content_of(spec());
+  text.replace(text.find("        follow: {}"), 18, "        pursue: {}");
+  text.replace(text.find("next: follow"), 12, "next: pursue");
+  const json missing = function(text, "pursue");
+  ASSERT_EQ(missing.at("state"), "missing") << missing;
+  EXPECT_EQ(missing.at("leftovers"), json::array({"follow"}));
+  const std::string before = content_of(project() / "src/control.cpp");
+  const json wanted{
+      {"text", text}, {"subsystem", "robot.control"}, {"from", "follow"}, {"function", "pursue"}};
+  const Reply renamed = post("/api/functions/rename", wanted);
+  ASSERT_EQ(renamed.status, 200) << renamed.body;
+  EXPECT_THAT(renamed.json().at("files").get<std::vector<std::string>>(),
+              testing::UnorderedElementsAre("src/control.cpp", "test/control_test.cpp"));
+  std::string after = before;
+  after.replace(after.find("void follow("), 12, "void pursue(");
+  EXPECT_EQ(content_of(project() / "src/control.cpp"), after);
+  EXPECT_EQ(function(text, "pursue").at("state"), "defined");
+  EXPECT_EQ(post("/api/functions/rename", wanted).status, 409) << "there is no function follow any more";
+}
+
+TEST_F(Sources, TheWorldTellsWhatDriversMayName) {
+  serve();
+  const json targets = post("/api/world", {{"text", content_of(spec())}}).json().at("targets");
+  EXPECT_EQ(targets.at("velocity"), json::array({"wheel_left", "wheel_right"}));
+  EXPECT_EQ(targets.at("reflectance"), json::array({"eye_left", "eye_middle", "eye_right"}));
+  EXPECT_EQ(targets.at("place"), json::array({"robot"}));
+  EXPECT_EQ(targets.at("mocap"), json::array());
+}
+
 TEST_F(Sources, NothingOutsideOfTheSourcesIsReadOrWritten) {
   serve();
   write(folder_ / "secret.cpp", "// not of this project\n");

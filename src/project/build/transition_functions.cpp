@@ -106,6 +106,14 @@ std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_el
   return found;
 }
 
+std::vector<std::string> TransitionFunctions::leftovers(const codegen::Stub& stub) const {
+  std::set<std::string> found;
+  for (const auto& [file, scan] : scans_)
+    for (const ScannedFunction& function : scan.functions)
+      if (function.space == stub.space && !is_wanted(function)) found.insert(function.name);
+  return {found.begin(), found.end()};
+}
+
 fs::path TransitionFunctions::file_for(const codegen::Stub& stub) const {
   for (const auto& [file, scan] : scans_) {
     if (!is_compiled(file)) continue;

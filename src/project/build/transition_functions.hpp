@@ -39,6 +39,8 @@ class TransitionFunctions {
   [[nodiscard]] std::vector<Definition> definitions(const codegen::Stub& stub) const;
   /// Where functions of its name are defined in namespaces that are nobody's: most likely it was meant there.
   [[nodiscard]] std::vector<Definition> definitions_elsewhere(const codegen::Stub& stub) const;
+  /// Names of functions in its namespace that no behaviour has: most likely those of behaviours that had other names.
+  [[nodiscard]] std::vector<std::string> leftovers(const codegen::Stub& stub) const;
   /// The file where it would be added: where the others of its subsystem are, else that of the stub.
   [[nodiscard]] std::filesystem::path file_for(const codegen::Stub& stub) const;
   /// It is one of the sources.

@@ -19,6 +19,8 @@ class LanguageAnswers {
 
   void handle(const httplib::Request& request, httplib::Response& response) const;
 
+  [[nodiscard]] const language::Grammar& grammar() const { return *grammar_; }
+
  private:
   std::unique_ptr<const language::Grammar> grammar_;
 };

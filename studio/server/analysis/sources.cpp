@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "codegen/codegen.hpp"
+#include "language/language.hpp"
 #include "project/build/transition_functions.hpp"
+#include "project/files/files.hpp"
 
 namespace tessera::server {
 
@@ -37,7 +40,8 @@ json Sources::functions(const spec::Model& model) const {
                    {"state", name_of(known.presence(stub))},
                    {"file", file.generic_string()},
                    {"line", definitions.empty() ? json(nullptr) : json(definitions.front().line)},
-                   {"stub", stub.body}});
+                   {"stub", stub.body},
+                   {"leftovers", known.leftovers(stub)}});
   }
   return all;
 }
@@ -54,6 +58,73 @@ Sources::Added Sources::add(const spec::Model& model, const std::string& subsyst
   if (!path_of(file)) return {file, file + " is not in src/, or a symbolic link leads there"};
   static_cast<void>(known.add(codegen::Stub(*stub)));
   return {file, {}};
+}
+
+namespace {
+
+/// Where a behaviour has its name; nullopt: there is none of that name.
+std::optional<language::Position> name_of_behaviour(const language::Document& document,
+                                                    const std::string& subsystem, const std::string& name) {
+  const language::Index& index = document.index();
+  for (const language::DefinitionNames& definition : index.definitions())
+    for (const language::UnitNames& unit : definition.units)
+      if (const auto found = unit.behaviours.find(name);
+          definition.name + "." + unit.name == subsystem && found != unit.behaviours.end())
+        return document.lines().position(index[found->second].definition.begin);
+  return std::nullopt;
+}
+
+/// Makes those edits of a file that surely mean the name. The last one comes first, so that the others stay
+/// where they are.
+std::string edited(std::string text, std::vector<language::TextEdit> edits, const std::string& path) {
+  std::ranges::sort(edits, std::greater{}, [](const language::TextEdit& edit) { return edit.range; });
+  for (const language::TextEdit& edit : edits)
+    if (edit.path == path && edit.sure) language::replace(text, edit.range, edit.text);
+  return text;
+}
+
+std::vector<language::Source> code_of(const fs::path& project) {
+  std::vector<language::Source> all;
+  for (const char* folder : {"src", "test"}) {
+    std::error_code missing;
+    for (fs::recursive_directory_iterator at(project / folder, missing), end; !missing && at != end;
+         at.increment(missing))
+      if (is_source(at->path()) && !at->is_symlink(missing) && at->is_regular_file(missing))
+        all.push_back({at->path().lexically_relative(project).generic_string(),
+                       project::content_of(at->path())});
+  }
+  return all;
+}
+
+}  // namespace
+
+Sources::Renamed Sources::rename(const std::string& text, const language::Grammar& grammar,
+                                 const std::string& subsystem, const std::string& from,
+                                 const std::string& function) const {
+  // The specification as it was when the function had its name. Only then is the function known as that of a behaviour.
+  const language::Document now(text, grammar);
+  const auto here = name_of_behaviour(now, subsystem, function);
+  if (!here) return {{}, "there is no behaviour " + subsystem + "." + function};
+  const language::Renaming back = language::rename(now, nullptr, *here, {}, from);
+  if (!back.problem.empty()) return {{}, back.problem};
+  const language::Document before(edited(text, back.edits, ""), grammar);
+  const auto there = name_of_behaviour(before, subsystem, from);
+  if (!there) return {{}, "there is no function " + from};
+  const std::vector<language::Source> sources = code_of(project_);
+  const language::Renaming renaming = language::rename(before, nullptr, *there, sources, function);
+  if (!renaming.problem.empty()) return {{}, renaming.problem};
+  Renamed renamed;
+  for (const language::Source& source : sources) {
+    const std::string changed = edited(source.text, renaming.edits, source.path);
+    if (changed == source.text) continue;
+    SpecFile file(project_ / source.path);
+    const SpecFile::Content known = file.read();
+    if (known.text != source.text || file.write(changed, known.revision).written != SpecFile::Written::yes)
+      return {renamed.files, source.path + " cannot be written, or somebody else changes it"};
+    renamed.files.push_back(source.path);
+  }
+  if (renamed.files.empty()) return {{}, "there is no function " + from};
+  return renamed;
 }
 
 std::optional<fs::path> Sources::path_of(const std::string& file) const {

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "language/schema/grammar.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/spec_file.hpp"
 
@@ -19,9 +21,9 @@ class Sources {
  public:
   explicit Sources(std::filesystem::path project) : project_(std::move(project)) {}
 
-  /// [{"subsystem", "function", "state", "file", "line", "stub"}]: one for each behaviour of each definition.
-  /// "state" is "defined", "missing", or "unclear" (only the linker can tell). "line" is null if it is not
-  /// known.
+  /// [{"subsystem", "function", "state", "file", "line", "stub", "leftovers"}]: one for each behaviour of each
+  /// definition. "state" is "defined", "missing", or "unclear" (only the linker can tell). "line" is null if it
+  /// is not known. "leftovers": functions of the same namespace that no behaviour has.
   [[nodiscard]] nlohmann::json functions(const spec::Model& model) const;
 
   struct Added {
@@ -31,6 +33,16 @@ class Sources {
   /// Adds the function of a behaviour to its file, in its namespace, if it is missing.
   [[nodiscard]] Added add(const spec::Model& model, const std::string& subsystem,
                           const std::string& function) const;
+
+  struct Renamed {
+    std::vector<std::string> files;  ///< that were changed, relative to the project
+    std::string error;               ///< empty: all of them were written
+  };
+  /// Gives the function `from` the name that its behaviour has now, wherever src/ and test/ use it. text: the
+  /// specification. The rest of each file stays as it is.
+  [[nodiscard]] Renamed rename(const std::string& text, const language::Grammar& grammar,
+                               const std::string& subsystem, const std::string& from,
+                               const std::string& function) const;
 
   /// The file, if there may be one of that name: "src/control.cpp". nullopt: it is no source of this project.
   [[nodiscard]] std::optional<SpecFile::Content> read(const std::string& file) const;

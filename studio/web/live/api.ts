@@ -110,6 +110,10 @@ export class Api {
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });
   addFunction = (text: string, subsystem: string, name: string) =>
     this.ask("POST /api/functions/add", { body: { text, subsystem, function: name } });
+  renameFunction = (text: string, subsystem: string, from: string, name: string) =>
+    this.ask("POST /api/functions/rename", { body: { text, subsystem, from, function: name } });
+  /** What drivers in the simulated world may name, by their kinds. */
+  worldTargets = (text: string) => this.ask("POST /api/world", { body: { text } });
   source = (file: string) => this.ask("GET /api/sources", { query: { file } });
   saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });
   examples = () => this.ask("GET /api/examples");

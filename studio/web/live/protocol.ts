@@ -79,6 +79,21 @@ export interface Requests {
     status: 200;
     answer: { file: string };
   };
+  /** Gives a function the name that its behaviour has now. */
+  "POST /api/functions/rename": {
+    body: { text: string; subsystem: string; from: string; function: string };
+    status: 200;
+    answer: { files: string[] };
+  };
+  /** What drivers in the simulated world of a text may name. */
+  "POST /api/world": {
+    body: { text: string };
+    status: 200;
+    answer: {
+      /** By the kind of driver: "actuator": ["wheel_left"]. */
+      targets: { [k: string]: string[] };
+    };
+  };
   "GET /api/sources": {
     query: {
       /** src/control.cpp */
@@ -421,6 +436,8 @@ export interface FunctionShown {
   line: number | null;
   /** The function to begin with. */
   stub: string;
+  /** Functions of the same namespace that no behaviour has. */
+  leftovers: string[];
 }
 export interface StartRequest {
   kind: "simulate" | "run";

@@ -60,6 +60,16 @@ export class Sources {
     }
   }
 
+  /** Gives the function `from` the name of its behaviour, in all sources. */
+  async rename({ subsystem, function: name }: FunctionShown, from: string): Promise<void> {
+    try {
+      const { files } = await this.api.renameFunction(this.draft.store.get().text, subsystem, from, name);
+      await Promise.all([this.look(), ...files.filter((file) => file.startsWith("src/")).map((file) => this.open(file))]);
+    } catch (error) {
+      this.store.set({ problem: message(error) });
+    }
+  }
+
   /** Saves a source as a whole. false: somebody else has changed it, or it cannot be written. */
   async save(file: string, text: string): Promise<boolean> {
     const known = this.store.get().files.get(file);

@@ -48,15 +48,36 @@ function afterLiteral(source: string, at: number): number {
 
 export interface BuildMessage {
   line: number;
+  /** From 1; 0: not told. */
+  column: number;
   severity: "error" | "warning";
+  /** Such as "E501"; empty: a message of the compiler itself. */
+  code: string;
   text: string;
+  hint: string;
 }
 
-/** What compilers say about a file, of the lines of a build: "src/control.cpp:12:3: error: ...". */
+const head = /^(\S+?):(\d+):(?:(\d+):)? (?:fatal )?(error|warning)(?: ([A-Z]\d{3}))?: (.*)$/;
+
+/**
+ * What a build says about a file: the messages of `tessera` and those of compilers. A hint belongs to the message before it.
+ */
 export function buildMessages(build: readonly string[], file: string): BuildMessage[] {
-  return build.flatMap((one) => {
-    const found = /^(\S+?):(\d+):(?:\d+:)? (?:fatal )?(error|warning): (.*)$/.exec(one);
-    if (!found || !(found[1] === file || found[1]!.endsWith(`/${file}`))) return [];
-    return [{ line: Number(found[2]), severity: found[3] as "error" | "warning", text: found[4]! }];
-  });
+  const found: BuildMessage[] = [];
+  let last: BuildMessage | undefined;
+  for (const one of build) {
+    const [, where, line, column, severity, code, text] = head.exec(one) ?? [];
+    if (where !== undefined) {
+      last = {
+        line: Number(line),
+        column: Number(column ?? 0),
+        severity: severity as BuildMessage["severity"],
+        code: code ?? "",
+        text: text!,
+        hint: "",
+      };
+      if (where === file || where.endsWith(`/${file}`)) found.push(last);
+    } else if (one.startsWith("hint: ") && last) last.hint = one.slice("hint: ".length);
+  }
+  return found;
 }

@@ -22,7 +22,7 @@ export function BehaviourForm({
         label="Name"
         value={behaviour.name}
         wrong={nameProblem(behaviour.name, namesIn(subsystem))}
-        hint="Its C++ function has the same name; rename it there too"
+        hint="Its C++ function has the same name"
         onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
       />
       <Field

@@ -12,7 +12,7 @@ export const nameProblem =
     !isName(text)
       ? "Letters, digits and single underscores, beginning with a letter"
       : text !== own && taken.includes(text)
-        ? `There is a ${text} here already`
+        ? `The name ${text} is taken here`
         : undefined;
 
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);

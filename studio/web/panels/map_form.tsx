@@ -31,7 +31,7 @@ export function MapForm({ structure, at, title, one, fresh, hint, choices, paths
   const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
   const problem = (own: string) => (text: string) =>
     text !== own && names.includes(text)
-      ? `There is a ${one} ${text} already`
+      ? `The name ${text} is taken here`
       : paths || isName(text)
         ? undefined
         : "Letters, digits and single underscores, beginning with a letter";

@@ -1,7 +1,7 @@
 import { useCallback, useEffect, useState } from "react";
 import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import { message } from "../live/draft";
-import type { RunRequest } from "../live/protocol";
+import type { Project, RunRequest } from "../live/protocol";
 import { Choice, Field } from "./field";
 
 const kindsOf = (hasWorld: boolean, deployed: boolean) =>
@@ -85,17 +85,23 @@ function DeploymentForm() {
   );
 }
 
+/** What may lie on the floor of the simulated world; nothing if that world has no floor picture. */
+const tracksOf = (project: Project | null) =>
+  project?.simulation?.track
+    ? (project.worlds.find(({ name }) => name === project.simulation!.world.split("/").at(-1))?.tracks ?? [])
+    : [];
+
 /** The settings of the next run. */
 export function StartForm() {
   const studio = useStudio();
   const runner = useStore(studio.runner.store, (all) => all);
-  const worlds = useStore(studio.project, (all) => all.project?.worlds ?? []);
+  const project = useStore(studio.project, (all) => all.project);
   const hasWorld = useHasWorld();
   const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const { wishes } = studio.runner;
   const { kind, track, time, seed, speed, all } = useStore(wishes, (all) => all);
-  const tracks = worlds.flatMap((world) => world.tracks);
+  const tracks = tracksOf(project);
   if (kind === "attach") return <AttachForm />;
   if (kind === "deployment") return <DeploymentForm />;
   const start = async (paused: boolean) => {
@@ -106,7 +112,7 @@ export function StartForm() {
       kind,
       paused,
       ...(time ? { for: time } : {}),
-      ...(track ? { track } : {}),
+      ...(tracks.includes(track) ? { track } : {}),
       ...(all ? { values: "all" } : {}),
       ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
     };
@@ -115,10 +121,10 @@ export function StartForm() {
   return (
     <>
       <KindChoice />
-      {hasWorld && tracks.length > 0 && (
+      {tracks.length > 0 && (
         <Choice
           label="Track"
-          value={track}
+          value={tracks.includes(track) ? track : ""}
           onChange={(track) => wishes.set({ track })}
           choices={[{ value: "", title: "as the specification says" }, ...tracks.map((one) => ({ value: one, title: one }))]}
         />

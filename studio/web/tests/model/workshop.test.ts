@@ -115,16 +115,32 @@ describe("functionAt", () => {
   });
 });
 
-it("messages of a build are found by their file", () => {
-  const build = [
-    "/home/x/p/src/control.cpp:12:3: error: no y",
-    "src/control.cpp:13:1: warning: odd",
-    "src/other.cpp:1:1: error: z",
-  ];
-  expect(buildMessages(build, "src/control.cpp")).toEqual([
-    { line: 12, severity: "error", text: "no y" },
-    { line: 13, severity: "warning", text: "odd" },
+it("messages of a build are found by their file, with their hints", () => {
+  // As `tessera simulate` prints them, and a message of the compiler itself.
+  const build = `src/robot/control.cpp:12:25: error E501: robot.control has no input 'rom'
+   12 |   const bool known = in.rom.valid && in.scan.known && in.scan.age < std::chrono::milliseconds(300);
+      |                         ^~~
+hint: declare it in the specification under \`inputs\`
+src/robot/base.cpp:6:84: error E501: robot.base has no input 'motin'
+    6 | void drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.command = in.motin; }
+      |                                                                                                 ^~~~~
+hint: did you mean 'motion'?
+src/robot/control.cpp:22:10: error E501: robot.control has no memory 'fre'
+   22 |   memory.fre = room.free_m;
+      |          ^~~
+hint: did you mean 'free'?
+/home/x/p/src/robot/control.cpp:13:1: warning: odd
+src/robot/control.cpp:24:1: error E507: the function 'drive' of robot.control has other parameters
+the whole output of the compiler: /home/x/p/.tessera/build/release/compiler.log
+tessera: error: the controller was not built`;
+  const all = buildMessages(build.split("\n"), "src/robot/control.cpp");
+  expect(all.map(({ line, column, severity, code, text, hint }) => [line, column, severity, code, text, hint])).toEqual([
+    [12, 25, "error", "E501", "robot.control has no input 'rom'", "declare it in the specification under `inputs`"],
+    [22, 10, "error", "E501", "robot.control has no memory 'fre'", "did you mean 'free'?"],
+    [13, 1, "warning", "", "odd", ""],
+    [24, 1, "error", "E507", "the function 'drive' of robot.control has other parameters", ""],
   ]);
+  expect(buildMessages(build.split("\n"), "src/robot/base.cpp")).toHaveLength(1);
 });
 
 it("a table has a row for each time, with the values that hold then", () => {

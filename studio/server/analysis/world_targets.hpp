@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "spec/model/model.hpp"
+#include "tessera/result.hpp"
+
+namespace tessera::server {
+
+/// What drivers in the simulated world may name, by their kind: {"actuator": ["wheel_left"], ...}. Elements of the
+/// placed model of an agent have the names that its drivers use, without the agent. {}: there is no world of
+/// MuJoCo. Problem: the world cannot be opened.
+///
+/// Threads: any.
+[[nodiscard]] Result<nlohmann::json> world_targets(const spec::Model& model,
+                                                   const std::filesystem::path& project);
+
+}  // namespace tessera::server

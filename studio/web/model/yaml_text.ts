@@ -41,7 +41,7 @@ export function apply(text: string, edits: readonly TextEdit[]): string {
  */
 export function scalarText(text: string): string {
   const trimmed = text.trim();
-  if (/^(true|false|-?\d+(\.\d+)?)$/.test(trimmed)) return trimmed;
+  if (/^(true|false|-?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)$/.test(trimmed)) return trimmed;
   if (/^[[{]/.test(trimmed) && parseDocument(trimmed).errors.length === 0) return trimmed;
   return stringify([trimmed], { collectionStyle: "flow", lineWidth: 0 }).trim().slice(1, -1).trim();
 }
@@ -140,14 +140,17 @@ export class YamlText {
     return [colon, Math.max(colon, pair.value?.range ? endOf(pair) : colon)];
   }
 
-  /** Sets a scalar of the map at `path`; an empty text removes the key. Spaces before the value stay. */
-  set(path: YamlPath, key: string, text: string): TextEdit[] {
+  /**
+   * Sets a scalar of the map at `path`; an empty text removes the key. Spaces before the value stay. `as`: how the text is
+   * to stand in the file.
+   */
+  set(path: YamlPath, key: string, text: string, as = scalarText): TextEdit[] {
     const at = [...path, key];
     const pair = this.pair(at);
     if (text.trim() === "") return pair ? this.remove(at) : [];
-    if (!pair) return this.insert(path, key, scalarText(text));
-    if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, scalarText(text));
-    return [{ from: pair.value.range[0], to: endOf(pair), insert: scalarText(text) }];
+    if (!pair) return this.insert(path, key, as(text));
+    if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, as(text));
+    return [{ from: pair.value.range[0], to: endOf(pair), insert: as(text) }];
   }
 
   /** Replaces the scalar or collection at a path. */

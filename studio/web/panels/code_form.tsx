@@ -122,7 +122,8 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
   const inside = messages.filter(({ line }) => line >= found.firstLine && line <= found.lastLine);
   /** Errors that no form of another function shows: those of the rest of the file. */
   const outside = messages.filter(
-    ({ line, severity }) => severity === "error" && !functionsIn(source, functions, known.file).some((one) => isWithin(line, one)),
+    ({ line, severity }) =>
+      severity === "error" && !functionsIn(source, functions, known.file).some((one) => isWithin(line, one)),
   );
   const save = () => void studio.sources.save(known.file, source.slice(0, found.from) + text + source.slice(found.to));
   return (

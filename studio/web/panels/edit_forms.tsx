@@ -12,6 +12,9 @@ import type { YamlPath } from "../model/yaml_text";
 import { BehaviourForm } from "./behaviour_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
+import { ConnectForm } from "./forms/connect_form";
+import { ParameterFields } from "./forms/parameter_fields";
+import { MemoryFields, TypeInputs } from "./forms/type_fields";
 import { MapForm } from "./map_form";
 
 export function EditForm({ structure, thing }: { structure: Structure; thing: Thing }) {
@@ -152,8 +155,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Memory"
         one="memory"
         fresh={{ name: "count", value: "int32" }}
-        choices={[...structure.types, ...plainTypes]}
-        hint="Values that stay from one round to the next, by their types"
+        hint="Values that stay from one round to the next"
+        fields={(name) => <MemoryFields structure={structure} at={[...subsystem.yaml, "memory", name]} />}
       />
       <MapForm
         structure={structure}
@@ -161,6 +164,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Parameters"
         one="parameter"
         fresh={{ name: "limit", value: "1.0" }}
+        fields={(name) => <ParameterFields structure={structure} at={[...subsystem.yaml, "parameters", name]} />}
       />
       {subsystem.kind === "effector" && subsystem.buffers.some(({ direction }) => direction === "real") && (
         <MapForm
@@ -177,7 +181,6 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
 }
 
 const directionTitle = { input: "input buffer", output: "output buffer", real: "buffer of a device" };
-const plainTypes = ["bool", "int32", "uint32", "float32", "float64", "string"];
 
 function BufferForm({ structure, buffer, subsystem }: { structure: Structure; buffer: Buffer; subsystem: Subsystem }) {
   const edit = useEdit();
@@ -190,14 +193,8 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
         wrong={nameProblem(buffer.name, namesIn(subsystem))}
         onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)}
       />
-      <Field
-        label="Type"
-        mono
-        value={buffer.type}
-        choices={[...structure.types, ...plainTypes]}
-        hint="A unit may follow a number: float64 m/s"
-        onChange={(type) => edit(edits.setType(structure, buffer, type))}
-      />
+      <TypeInputs structure={structure} value={buffer.type} onChange={(type) => edit(edits.setType(structure, buffer, type))} />
+      <ConnectForm key={buffer.path} structure={structure} buffer={buffer} />
       <div className="buttons">
         <Remove
           what="buffer"

@@ -1,3 +1,4 @@
+import { lazy, Suspense } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import type { Breakpoint } from "../live/protocol";
@@ -5,9 +6,11 @@ import { sameBreakpoint } from "../live/runner";
 import { layerTitle, operationText } from "../model/labels";
 import type { Element, NetModel } from "../model/net";
 import { findThing, type Thing } from "../model/structure";
-import { EditForm } from "./edit_forms";
 import { MemoryNow } from "./memory_now";
-import { SystemForm } from "./system_form";
+
+const forms = () => import("./forms/every_form");
+const EditForm = lazy(() => forms().then((all) => ({ default: all.EditForm })));
+const SystemForm = lazy(() => forms().then((all) => ({ default: all.SystemForm })));
 
 /** Describes the selected element, and shows what can be changed about it. */
 export function InspectPanel() {
@@ -17,7 +20,12 @@ export function InspectPanel() {
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const view = useStore(studio.view, (all) => all.view);
   const selected = useStore(studio.view, (all) => all.selected);
-  if (selected === null) return <SystemForm structure={structure} />;
+  if (selected === null)
+    return (
+      <Suspense fallback={<p className="faint">Loading the form…</p>}>
+        <SystemForm structure={structure} />
+      </Suspense>
+    );
   const thing = findThing(structure, selected);
   const element = net?.find(selected);
   if (!thing && !element) return <p className="faint">{selected} is not there any more.</p>;
@@ -32,7 +40,11 @@ export function InspectPanel() {
         </p>
       ))}
       {net && <MemoryNow subsystem={ownerOf(thing, selected)} />}
-      {thing && <EditForm key={selected} structure={structure} thing={thing} />}
+      {thing && (
+        <Suspense fallback={<p className="faint">Loading the form…</p>}>
+          <EditForm key={selected} structure={structure} thing={thing} />
+        </Suspense>
+      )}
       {net && element && (
         <>
           {thing && <h3>Its net</h3>}

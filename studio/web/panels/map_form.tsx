@@ -1,9 +1,10 @@
-import { useState } from "react";
+import { useState, type ReactNode } from "react";
 import { useStudio } from "../hooks/use";
-import { freeName, isName } from "../model/edits";
+import { freeName } from "../model/edits";
 import type { Structure } from "../model/structure";
 import { apply, scalarText, type YamlPath } from "../model/yaml_text";
 import { Field } from "./field";
+import { nameProblem } from "./form_parts";
 
 interface MapFormProps {
   structure: Structure;
@@ -12,85 +13,120 @@ interface MapFormProps {
   title: string;
   /** What one entry is called: "type". */
   one: string;
-  /** A new entry, as text of the file. */
-  fresh: { name: string; value: string };
+  /** A new entry, as text of the file; none: entries are not added here. */
+  fresh?: { name: string; value: string };
   hint?: string;
-  choices?: readonly string[];
   /** Names are paths and not plain names. */
   paths?: boolean;
+  /** Offered while a name is typed. */
+  names?: readonly string[];
+  /** Entries that are shown elsewhere. */
+  without?: readonly string[];
   /** What follows from a new name, besides the key itself: the text with it. */
   renamed?: (text: string, from: string, to: string) => string;
+  /** The fields of an entry; without them it is shown as text. */
+  fields?: (name: string) => ReactNode;
 }
 
-/** The entries of a map of the specification: a name and a value each. */
-export function MapForm({ structure, at, title, one, fresh, hint, choices, paths, renamed }: MapFormProps) {
+/** The entries of a map of the specification: each has a name, and fields or a value. */
+export function MapForm(props: MapFormProps) {
+  const { structure, at, title, one, fresh, hint, paths, without = [] } = props;
   const studio = useStudio();
   const { yaml } = structure;
-  const [opened, setOpened] = useState<string | null>(null);
-  const names = yaml.keys(at);
-  const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
-  const problem = (own: string) => (text: string) =>
-    text !== own && names.includes(text)
-      ? `The name ${text} is taken here`
-      : paths || isName(text)
-        ? undefined
-        : "Letters, digits and single underscores, beginning with a letter";
-  const rename = (from: string, to: string) => {
-    const text = renamed ? renamed(yaml.text, from, to) : yaml.text;
-    const edits = yaml.renameKey([...at, from], to);
-    studio.draft.edit(text === yaml.text ? apply(yaml.text, edits) : text, "edit");
-    setOpened(to);
-  };
+  const [opened, open] = useState<string | null>(null);
+  const taken = yaml.keys(at);
   return (
     <fieldset className="map-form">
       <legend>{title}</legend>
-      {names.map((name) => {
-        const value = yaml.valueText([...at, name]) ?? "";
-        const long = value.includes("\n");
-        return (
-          <div key={name} className="map-entry">
-            {long ? (
-              <button className="link" onClick={() => studio.showLine(yaml.line([...at, name]))}>
-                {name}: in the text, line {yaml.line([...at, name])}
-              </button>
-            ) : (
-              <Field
-                label={name}
-                mono
-                value={value}
-                {...(choices ? { choices } : {})}
-                onChange={(text) => change(yaml.set(at, name, text))}
-              />
-            )}
-            <button
-              className="quiet"
-              aria-label={`Rename or remove ${name}`}
-              aria-expanded={opened === name}
-              onClick={() => setOpened(opened === name ? null : name)}
-            >
-              …
-            </button>
-            {opened === name && (
-              <div className="map-more">
-                <Field label={`New name of ${name}`} value={name} wrong={problem(name)} onChange={(to) => rename(name, to)} />
-                <button className="danger" onClick={() => change(yaml.remove([...at, name]))}>
-                  Remove {name}
-                </button>
-              </div>
-            )}
-          </div>
-        );
-      })}
+      {taken
+        .filter((name) => !without.includes(name))
+        .map((name) => (
+          <Entry key={name} of={props} name={name} taken={taken} opened={opened === name} open={open} />
+        ))}
       {hint && <p className="faint">{hint}</p>}
-      <button
-        onClick={() => {
-          const name = freeName(fresh.name, names);
-          change(yaml.insert(at, paths ? scalarText(name) : name, fresh.value));
-          setOpened(name);
-        }}
-      >
-        Add {one}
-      </button>
+      {fresh && (
+        <button
+          onClick={() => {
+            const name = freeName(fresh.name, taken);
+            studio.draft.edit(apply(yaml.text, yaml.insert(at, paths ? scalarText(name) : name, fresh.value)), "edit");
+            open(name);
+          }}
+        >
+          Add {one}
+        </button>
+      )}
     </fieldset>
+  );
+}
+
+interface EntryProps {
+  of: MapFormProps;
+  name: string;
+  taken: readonly string[];
+  opened: boolean;
+  open: (name: string | null) => void;
+}
+
+function Entry({ of, name, taken, opened, open }: EntryProps) {
+  const { structure, at, paths, names, renamed, fields } = of;
+  const studio = useStudio();
+  const { yaml } = structure;
+  const where = [...at, name];
+  const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
+  const rename = (to: string) => {
+    const text = renamed ? renamed(yaml.text, name, to) : yaml.text;
+    if (text === yaml.text) change(yaml.renameKey(where, to));
+    else studio.draft.edit(text, "edit");
+    open(to);
+  };
+  const wrong = (text: string) =>
+    paths
+      ? text !== name && taken.includes(text)
+        ? `The name ${text} is taken here`
+        : undefined
+      : nameProblem(name, taken)(text);
+  const value = yaml.valueText(where) ?? "";
+  const asText = value.includes("\n") ? (
+    <button className="link" onClick={() => studio.showLine(yaml.line(where))}>
+      {name}: in the text, line {yaml.line(where)}
+    </button>
+  ) : (
+    <Field label={fields ? `${name} as text` : name} mono value={value} onChange={(text) => change(yaml.set(at, name, text))} />
+  );
+  const more = (
+    <button
+      className="quiet"
+      aria-label={`Rename or remove ${name}`}
+      aria-expanded={opened}
+      onClick={() => open(opened ? null : name)}
+    >
+      …
+    </button>
+  );
+  const opening = opened && (
+    <div className="map-more">
+      <Field label={`New name of ${name}`} value={name} wrong={wrong} {...(names ? { choices: names } : {})} onChange={rename} />
+      {fields && asText}
+      <button className="danger" onClick={() => change(yaml.remove(where))}>
+        Remove {name}
+      </button>
+    </div>
+  );
+  if (fields)
+    return (
+      <fieldset className="entry" aria-label={name}>
+        <legend>
+          <span className="mono">{name}</span> {more}
+        </legend>
+        {opening}
+        {fields(name)}
+      </fieldset>
+    );
+  return (
+    <div className="map-entry">
+      {asText}
+      {more}
+      {opening}
+    </div>
   );
 }

@@ -1,13 +1,20 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
 import { useStore, useStudio } from "../hooks/use";
+import { useStructure } from "../hooks/use_structure";
 import { layerTitle } from "../model/labels";
 import type { NetModel } from "../model/net";
 import { rank } from "../model/rank";
+import type { Structure } from "../model/structure";
 
 interface Found {
   path: string;
   kind: string;
 }
+
+/** Buffers have no page of the net: they are shown in the structure. */
+const buffer = "buffer";
+const buffersOf = (structure: Structure): Found[] =>
+  structure.agents.flatMap((agent) => agent.subsystems.flatMap((one) => one.buffers.map(({ path }) => ({ path, kind: buffer }))));
 
 /** A net with more agents than this is searched by agents first. */
 const manyAgents = 1000;
@@ -41,13 +48,17 @@ export function Search() {
   const [text, setText] = useState("");
   const [chosen, setChosen] = useState(0);
   const head = net && net.elements.agents.length > manyAgents ? text : "";
-  const all = useMemo(() => candidates(net, head), [net, head]);
+  const structure = useStructure();
+  const all = useMemo(() => [...candidates(net, head), ...buffersOf(structure)], [net, head, structure]);
   const found = useMemo(() => rank(text, all, (one) => one.path).slice(0, 12), [text, all]);
   const dialog = useRef<HTMLDialogElement>(null);
   const close = () => studio.view.set({ searching: false });
   useEffect(() => void dialog.current?.showModal(), []);
   const take = (one: Found | undefined) => {
-    if (one) studio.flyTo(one.path);
+    if (one?.kind === buffer) {
+      studio.view.set({ view: "structure" });
+      studio.choose(one.path, structure);
+    } else if (one) studio.flyTo(one.path);
     close();
   };
   const key = (event: KeyboardEvent) => {

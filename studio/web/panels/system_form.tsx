@@ -3,6 +3,10 @@ import { renameParameter, renameType, setField } from "../model/edits";
 import type { Structure } from "../model/structure";
 import { apply } from "../model/yaml_text";
 import { Field } from "./field";
+import { DriversForm } from "./forms/driver_fields";
+import { ParameterFields } from "./forms/parameter_fields";
+import { StructureFields } from "./forms/type_fields";
+import { WorldForm } from "./forms/world_form";
 import { MapForm } from "./map_form";
 
 /** What belongs to no agent: the name, types, parameters, properties, templates, models, drivers and the world. */
@@ -21,7 +25,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
         title="Types"
         one="type"
         fresh={{ name: "Value", value: "{ x: float64 }" }}
-        hint="Fields in braces: { x: float64 m, done: bool }"
+        fields={(name) => <StructureFields structure={structure} at={["types", name]} />}
         renamed={(text, from, to) => renameType(text, from, to)}
       />
       <MapForm
@@ -30,7 +34,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
         title="Parameters"
         one="parameter"
         fresh={{ name: "speed", value: "1.0" }}
-        hint="A value with its unit: 0.2 m/s"
+        fields={(name) => <ParameterFields structure={structure} at={["parameters", name]} />}
         renamed={(text, from, to) => renameParameter(text, from, to)}
       />
       <fieldset className="map-form">
@@ -75,35 +79,9 @@ export function SystemForm({ structure }: { structure: Structure }) {
         one="model"
         fresh={{ name: "own", value: "{}" }}
       />
-      <MapForm
-        structure={structure}
-        at={["drivers"]}
-        title="Drivers of the real robot"
-        one="driver"
-        paths
-        fresh={{ name: firstReal(structure), value: "{ cpp: Device }" }}
-      />
-      <MapForm
-        structure={structure}
-        at={["simulation"]}
-        title="Simulated world"
-        one="entry"
-        fresh={{ name: "world", value: "world.xml" }}
-      />
-      <MapForm
-        structure={structure}
-        at={["simulation", "drivers"]}
-        title="Drivers in the world"
-        one="driver"
-        paths
-        fresh={{ name: firstReal(structure), value: "{ position: sensor }" }}
-      />
+      <WorldForm structure={structure} />
+      <DriversForm structure={structure} where="world" />
+      <DriversForm structure={structure} where="robot" />
     </div>
   );
 }
-
-const firstReal = (structure: Structure) =>
-  structure.agents
-    .flatMap((one) => one.subsystems)
-    .flatMap((one) => one.buffers)
-    .find(({ direction }) => direction === "real")?.path ?? "robot.sensor.device";

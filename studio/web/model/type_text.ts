@@ -1,0 +1,39 @@
+/** A type of the specification in parts: "float64[8] m/s", "string<=64", "Pose". */
+export interface TypeParts {
+  base: string;
+  /** The most characters of a text; empty: it is none. */
+  most: string;
+  /** The number of elements; empty: it is no array. */
+  length: string;
+  unit: string;
+}
+
+export const numberTypes = [
+  "float64",
+  "float32",
+  "int8",
+  "int16",
+  "int32",
+  "int64",
+  "uint8",
+  "uint16",
+  "uint32",
+  "uint64",
+] as const;
+export const plainTypes: readonly string[] = ["bool", ...numberTypes, "string"];
+
+export const isNumber = (base: string) => (numberTypes as readonly string[]).includes(base);
+
+/** null: the text is no type. */
+export function typeParts(text: string): TypeParts | null {
+  const found = /^\s*([A-Za-z_]\w*)\s*(?:<=\s*(\d+))?\s*(?:\[\s*(\d+)\s*\])?\s*(.*?)\s*$/.exec(text);
+  if (!found) return null;
+  const [, base = "", most = "", length = "", unit = ""] = found;
+  return /[<[\]{}"]/.test(unit) ? null : { base, most, length, unit };
+}
+
+/** Only texts have a most, and only numbers a unit. */
+export function typeText({ base, most, length, unit }: TypeParts): string {
+  const limit = base === "string" ? `<=${most || "64"}` : "";
+  return `${base}${limit}${length && `[${length}]`}${isNumber(base) && unit ? ` ${unit}` : ""}`;
+}

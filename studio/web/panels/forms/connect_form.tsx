@@ -1,0 +1,40 @@
+import { useId, useState } from "react";
+import { addChannel } from "../../model/edits";
+import { channelEnd, partnersOf } from "../../model/connections";
+import { channelPath, type Buffer, type Structure } from "../../model/structure";
+import { useEdit } from "../form_parts";
+
+/** A channel from or to a buffer, without the mouse. */
+export function ConnectForm({ structure, buffer }: { structure: Structure; buffer: Buffer }) {
+  const edit = useEdit();
+  const id = useId();
+  const partners = partnersOf(structure, buffer);
+  const [wish, choose] = useState("");
+  const chosen = partners.find(({ path, reason }) => path === wish && !reason) ?? partners.find(({ reason }) => !reason);
+  const sends = buffer.direction === "output";
+  if (buffer.direction === "real") return null;
+  const connect = () => {
+    if (!chosen) return;
+    const ends = [buffer.path, chosen.path].map((path) => channelEnd(structure, path));
+    const [from, to] = sends ? ends : ends.reverse();
+    const modes = { send: "non_blocking", receive: "non_blocking", timeout: "" } as const;
+    edit(addChannel(structure, from!, to!, modes), channelPath(structure.channels.length));
+  };
+  return (
+    <div className="field connect">
+      <label htmlFor={id}>{sends ? "Connect to" : "Connect from"}</label>
+      <select id={id} value={chosen?.path ?? ""} onChange={(event) => choose(event.target.value)}>
+        {!chosen && <option value="">{partners.length === 0 ? "there is no buffer to connect" : "no buffer fits"}</option>}
+        {partners.map(({ path, reason }) => (
+          <option key={path} value={path} disabled={reason !== ""}>
+            {path}
+            {reason && `: ${reason}`}
+          </option>
+        ))}
+      </select>
+      <button disabled={!chosen} onClick={connect}>
+        Connect
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,111 @@
+import { useStudio } from "../../hooks/use";
+import { driverKinds, type DriverKind } from "../../model/schema_fields";
+import type { Structure } from "../../model/structure";
+import { withoutIndex } from "../../model/structure";
+import { apply, type YamlPath } from "../../model/yaml_text";
+import { Choice, Field } from "../field";
+import { MapForm } from "../map_form";
+import { listAsTyped, listAsWritten, ObjectFields } from "./object_fields";
+import { schema } from "./schema";
+import { useTargets, type Targets } from "./targets";
+
+const kinds = driverKinds(schema);
+
+/** The real buffers, in the order of the text. */
+const realBuffers = (structure: Structure) =>
+  structure.agents.flatMap((agent) =>
+    agent.subsystems.flatMap((one) =>
+      one.buffers
+        .filter(({ direction }) => direction === "real")
+        .map(({ name }) => ({ kind: one.kind, path: `${agent.name}${agent.count ? "[*]" : ""}.${one.name}.${name}` })),
+    ),
+  );
+
+const sideOf = (structure: Structure, path: string) =>
+  structure.agents
+    .flatMap(({ subsystems }) => subsystems)
+    .find((one) => withoutIndex(path) === one.path || withoutIndex(path).startsWith(`${one.path}.`))?.kind;
+
+/** The kinds that fit a real buffer in the world, or at the real robot. */
+const fitting = (side: string | undefined, where: "world" | "robot") =>
+  kinds.filter((one) => (one.side === "both" || one.side === side) && (one.where === "both" || one.where === where));
+
+const firstTarget = (kind: DriverKind, targets: Targets) =>
+  ({ cpp: "Device", panel: "true", ros2: "/topic" })[kind.kind] ?? targets[kind.kind]?.[0] ?? "name";
+
+/** The drivers of one section: which device is behind a real buffer. */
+export function DriversForm({ structure, where }: { structure: Structure; where: "world" | "robot" }) {
+  const targets = useTargets();
+  const at: YamlPath = where === "world" ? ["simulation", "drivers"] : ["drivers"];
+  const driven = structure.yaml.keys(at);
+  const buffers = realBuffers(structure);
+  const free = buffers.find(({ path }) => !driven.some((one) => path === one || path.startsWith(`${one}.`)));
+  const possible = fitting(free?.kind, where);
+  const first = possible.find(({ kind }) => (targets[kind]?.length ?? 0) > 0) ?? possible[0]!;
+  return (
+    <MapForm
+      structure={structure}
+      at={at}
+      title={where === "world" ? "Drivers in the world" : "Drivers of the real robot"}
+      one="driver"
+      paths
+      names={buffers.map(({ path }) => path)}
+      fresh={{
+        name: free?.path ?? "robot.sensor.device",
+        value: `{ ${first.kind}: ${listAsWritten(firstTarget(first, targets))} }`,
+      }}
+      fields={(name) => <DriverFields structure={structure} at={[...at, name]} where={where} targets={targets} />}
+      {...(buffers.length === 0 ? { hint: "A driver is the device behind a real buffer of a receptor or an effector" } : {})}
+    />
+  );
+}
+
+interface DriverFieldsProps {
+  structure: Structure;
+  at: YamlPath;
+  where: "world" | "robot";
+  targets: Targets;
+}
+
+function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
+  const studio = useStudio();
+  const { yaml } = structure;
+  const edit = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
+  const keys = yaml.keys(at);
+  const is = kinds.find(({ kind }) => keys.includes(kind));
+  const possible = fitting(sideOf(structure, String(at.at(-1))), where);
+  const choices = is && !possible.includes(is) ? [is, ...possible] : possible;
+  const target = is ? (yaml.valueText([...at, is.kind]) ?? "") : "";
+  const choose = (kind: string) => {
+    const next = kinds.find((one) => one.kind === kind)!;
+    // Options belong to a kind. A target that the new kind knows stays.
+    const kept = targets[kind]?.includes(target) ? target : firstTarget(next, targets);
+    const type = kind === "ros2" ? ", type: std_msgs/msg/Float64" : "";
+    edit(yaml.replace(at, `{ ${kind}: ${listAsWritten(kept)}${type} }`));
+  };
+  return (
+    <>
+      <Choice
+        label="Kind"
+        value={is?.kind ?? ""}
+        choices={[
+          ...(is ? [] : [{ value: "", title: "…" }]),
+          ...choices.map(({ kind }) => ({ value: kind, title: kind.replaceAll("_", " ") })),
+        ]}
+        onChange={choose}
+      />
+      {is && (
+        <>
+          <Field
+            label="Device"
+            value={listAsTyped(target)}
+            hint={is.description}
+            choices={targets[is.kind] ?? []}
+            onChange={(text) => text.trim() && edit(yaml.set(at, is.kind, text, listAsWritten))}
+          />
+          <ObjectFields structure={structure} at={at} shapes={is.options} without={[is.kind]} open={is.open} />
+        </>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,121 @@
+import { freeName } from "../../model/edits";
+import type { Structure } from "../../model/structure";
+import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/type_text";
+import { apply, scalarText, type YamlPath } from "../../model/yaml_text";
+import { Choice, Field } from "../field";
+import { nameProblem, useEdit } from "../form_parts";
+
+interface TypeInputsProps {
+  structure: Structure;
+  value: string;
+  /** What is typed: "of left"; empty: of the element that the form is about. */
+  of?: string;
+  /** Types that may not be chosen, such as the one that is described. */
+  without?: readonly string[];
+  /** The unit and the length have fields of their own. */
+  whole?: boolean;
+  onChange: (text: string) => void;
+}
+
+const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
+
+/** A type, chosen by its parts: what it is, how many, and the unit. */
+export function TypeInputs({ structure, value, of = "", without = [], whole = true, onChange }: TypeInputsProps) {
+  const parts = typeParts(value);
+  const label = (what: string) => (of ? `${what} ${of}` : what);
+  if (!parts) return <Field label={label("Type")} mono value={value} onChange={onChange} />;
+  const change = (part: Partial<TypeParts>) => onChange(typeText({ ...parts, ...part }));
+  const types = [...structure.types.filter((one) => !without.includes(one)), ...plainTypes];
+  // A type that does not exist stays what it is until another one is chosen.
+  const choices = (types.includes(parts.base) ? types : [parts.base, ...types]).map((one) => ({ value: one, title: one }));
+  return (
+    <div className="type-inputs">
+      <Choice label={label("Type")} value={parts.base} choices={choices} onChange={(base) => change({ base })} />
+      {whole && isNumber(parts.base) && (
+        <Field label={label("Unit")} value={parts.unit} placeholder="none" onChange={(unit) => change({ unit: unit.trim() })} />
+      )}
+      {parts.base === "string" && (
+        <Field
+          label={label("Letters")}
+          value={parts.most}
+          wrong={wrongNumber}
+          onChange={(most) => change({ most: most.trim() })}
+        />
+      )}
+      {whole && parts.base !== "string" && (
+        <Field
+          label={label("Array of")}
+          value={parts.length}
+          placeholder="one"
+          wrong={wrongNumber}
+          onChange={(length) => change({ length: length.trim() })}
+        />
+      )}
+    </div>
+  );
+}
+
+/** The fields of a structure: a name and a type each. */
+export function StructureFields({ structure, at }: { structure: Structure; at: YamlPath }) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  const names = yaml.keys(at);
+  const change = (edits: Parameters<typeof apply>[1]) => edit(apply(yaml.text, edits));
+  return (
+    <>
+      {names.map((name, index) => (
+        <div key={index} className="type-row">
+          <Field
+            label={`Field ${index + 1}`}
+            value={name}
+            wrong={nameProblem(name, names)}
+            onChange={(to) => change(yaml.renameKey([...at, name], to))}
+          />
+          <TypeInputs
+            structure={structure}
+            of={`of ${name}`}
+            without={[String(at.at(-1))]}
+            value={yaml.valueText([...at, name]) ?? ""}
+            onChange={(type) => change(yaml.set(at, name, type))}
+          />
+          {names.length > 1 && (
+            <button className="quiet" aria-label={`Remove the field ${name}`} onClick={() => change(yaml.remove([...at, name]))}>
+              ×
+            </button>
+          )}
+        </div>
+      ))}
+      <button onClick={() => change(yaml.insert(at, freeName("value", names), "float64"))}>Add field</button>
+    </>
+  );
+}
+
+/** What a subsystem remembers: its type, and its value at the start. */
+export function MemoryFields({ structure, at }: { structure: Structure; at: YamlPath }) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  const map = yaml.map(at) !== undefined;
+  const name = String(at.at(-1));
+  const type = yaml.valueText(map ? [...at, "type"] : at) ?? "";
+  const set = (to: YamlPath, key: string, text: string) => edit(apply(yaml.text, yaml.set(to, key, text)));
+  return (
+    <>
+      <TypeInputs
+        structure={structure}
+        value={type}
+        of={`of ${name}`}
+        onChange={(text) => (map ? set(at, "type", text) : set(at.slice(0, -1), name, text))}
+      />
+      <Field
+        label={`Start of ${name}`}
+        value={(map && yaml.valueText([...at, "initial"])) || ""}
+        placeholder="zero"
+        onChange={(text) =>
+          map
+            ? set(at, "initial", text)
+            : edit(apply(yaml.text, yaml.replace(at, `{ type: ${scalarText(type)}, initial: ${text} }`)))
+        }
+      />
+    </>
+  );
+}

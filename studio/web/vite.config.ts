@@ -7,7 +7,12 @@ export default defineConfig({
   base: "./",
   worker: { format: "es" },
   build: { target: "es2022", chunkSizeWarningLimit: 1800 },
-  server: { host: "127.0.0.1", proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" } },
+  // The forms are made from the schema in share/.
+  server: {
+    host: "127.0.0.1",
+    fs: { allow: ["../.."] },
+    proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" },
+  },
   // ELK takes seconds while many builds run at once.
   test: { include: ["tests/{model,live,panels}/**/*.test.ts"], testTimeout: 60_000 },
 });

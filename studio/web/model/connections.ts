@@ -7,6 +7,9 @@ export interface Partner {
   reason: string;
 }
 
+/** The reason of a buffer at the other end of a channel. */
+export const already = "connected already";
+
 /** How a channel names a buffer: `robot[i].control.line` for each member of a fleet. */
 export function channelEnd(structure: Structure, path: string): string {
   const agent = structure.agents.find((one) => path.startsWith(`${one.name}.`));
@@ -29,9 +32,9 @@ export function partnersOf(structure: Structure, buffer: Buffer): Partner[] {
   if (buffer.direction === "real") return [];
   const wanted = buffer.direction === "output" ? "input" : "output";
   const own = subsystemOf(buffer.path);
-  const already = connected(structure, buffer);
+  const others = connected(structure, buffer);
   const reason = (one: Buffer) => {
-    if (already.includes(one.path)) return "connected already";
+    if (others.includes(one.path)) return already;
     if (!sameType(one.type, buffer.type)) return `its type is ${one.type || "not given"}`;
     const input = wanted === "input" ? one : buffer;
     return isFed(structure, input) ? `${wanted === "input" ? "it" : "this input"} has its source already` : "";

@@ -8,12 +8,15 @@ import {
   type Subsystem,
   type Thing,
 } from "../model/structure";
+import { fieldsOf, type FieldShape } from "../model/schema_fields";
 import type { YamlPath } from "../model/yaml_text";
 import { BehaviourForm } from "./behaviour_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
 import { ConnectForm } from "./forms/connect_form";
+import { ObjectFields } from "./forms/object_fields";
 import { ParameterFields } from "./forms/parameter_fields";
+import { schema } from "./forms/schema";
 import { MemoryFields, TypeInputs } from "./forms/type_fields";
 import { MapForm } from "./map_form";
 
@@ -31,6 +34,8 @@ export function EditForm({ structure, thing }: { structure: Structure; thing: Th
       return <ChannelForm structure={structure} channel={thing.of} />;
   }
 }
+
+const otherOptions = ["overrun", "watchdog", "non_finite", "recovery"];
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
@@ -149,6 +154,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
           onClick={(text) => edit(text, agent.name)}
         />
       </div>
+      <ObjectFields structure={structure} at={subsystem.yaml} shapes={optionsOf[subsystem.kind]} />
       <MapForm
         structure={structure}
         at={[...subsystem.yaml, "memory"]}
@@ -179,6 +185,14 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
     </>
   );
 }
+
+/** Keys of a subsystem that have no form of their own, and hold no map. */
+const optionsOf = Object.fromEntries(
+  (["control", "receptor", "effector"] as const).map((kind) => [
+    kind,
+    fieldsOf({ $ref: `#/$defs/${kind}` }, schema).filter(({ key }) => otherOptions.includes(key)),
+  ]),
+) as Record<Subsystem["kind"], FieldShape[]>;
 
 const directionTitle = { input: "input buffer", output: "output buffer", real: "buffer of a device" };
 

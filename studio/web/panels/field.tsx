@@ -2,6 +2,8 @@ import { useEffect, useId, useState, type KeyboardEvent } from "react";
 
 interface FieldProps {
   label: string;
+  /** What the label is about, if that is seen beside the field: "of left". It is read out. */
+  of?: string;
   value: string;
   hint?: string;
   placeholder?: string;
@@ -16,7 +18,7 @@ interface FieldProps {
 /**
  * A text field whose value takes effect when the field is left or on Enter; Escape restores the old value.
  */
-export function Field({ label, value, hint, placeholder, choices, mono, wrong, onChange }: FieldProps) {
+export function Field({ label, of, value, hint, placeholder, choices, mono, wrong, onChange }: FieldProps) {
   const id = useId();
   const [text, setText] = useState(value);
   useEffect(() => setText(value), [value]);
@@ -30,7 +32,7 @@ export function Field({ label, value, hint, placeholder, choices, mono, wrong, o
   };
   return (
     <div className="field">
-      <label htmlFor={id}>{label}</label>
+      <Label id={id} label={label} of={of} />
       <input
         id={id}
         type="text"
@@ -62,13 +64,24 @@ export function Field({ label, value, hint, placeholder, choices, mono, wrong, o
   );
 }
 
+function Label({ id, label, of }: { id: string; label: string; of: string | undefined }) {
+  return (
+    <label htmlFor={id}>
+      {label}
+      {of && <span className="visually-hidden"> {of}</span>}
+    </label>
+  );
+}
+
 export function Choice<T extends string>({
   label,
+  of,
   value,
   choices,
   onChange,
 }: {
   label: string;
+  of?: string;
   value: T;
   choices: readonly { value: T; title: string }[];
   onChange: (value: T) => void;
@@ -76,7 +89,7 @@ export function Choice<T extends string>({
   const id = useId();
   return (
     <div className="field">
-      <label htmlFor={id}>{label}</label>
+      <Label id={id} label={label} of={of} />
       <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
         {choices.map((choice) => (
           <option key={choice.value} value={choice.value}>

@@ -1,10 +1,10 @@
 import { useStudio } from "../hooks/use";
 import { renameParameter, renameType, setField } from "../model/edits";
 import type { Structure } from "../model/structure";
-import { apply } from "../model/yaml_text";
 import { Field } from "./field";
 import { DriversForm } from "./forms/driver_fields";
 import { ParameterFields } from "./forms/parameter_fields";
+import { PropertiesForm } from "./forms/properties_form";
 import { StructureFields } from "./forms/type_fields";
 import { WorldForm } from "./forms/world_form";
 import { MapForm } from "./map_form";
@@ -12,9 +12,7 @@ import { MapForm } from "./map_form";
 /** What belongs to no agent: the name, types, parameters, properties, templates, models, drivers and the world. */
 export function SystemForm({ structure }: { structure: Structure }) {
   const studio = useStudio();
-  const { yaml } = structure;
   const edit = (text: string) => studio.draft.edit(text, "edit");
-  const properties = yaml.seq(["properties"])?.items ?? [];
   return (
     <div className="inspect">
       <h2>System</h2>
@@ -37,33 +35,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
         fields={(name) => <ParameterFields structure={structure} at={["parameters", name]} />}
         renamed={(text, from, to) => renameParameter(text, from, to)}
       />
-      <fieldset className="map-form">
-        <legend>Properties</legend>
-        {properties.map((_, at) => {
-          const value = yaml.valueText(["properties", at]) ?? "";
-          return (
-            <Field
-              key={at}
-              label={`Property ${at + 1}`}
-              mono
-              value={value.replace(/\s*\n\s*/g, " ")}
-              onChange={(text) =>
-                edit(apply(yaml.text, text.trim() ? yaml.replace(["properties", at], text) : yaml.remove(["properties", at])))
-              }
-            />
-          );
-        })}
-        <p className="faint">{"{ name: it can always rest, always_reachable: robot.control.rest }"}</p>
-        <button
-          onClick={() => {
-            const path = structure.agents.flatMap((one) => one.subsystems).flatMap((one) => one.behaviours)[0]?.path;
-            const text = `{ name: property ${properties.length + 1}, always_reachable: ${path ?? "robot.control.run"} }`;
-            edit(apply(yaml.text, yaml.append(["properties"], text)));
-          }}
-        >
-          Add property
-        </button>
-      </fieldset>
+      <PropertiesForm structure={structure} />
       <MapForm
         structure={structure}
         at={["templates"]}

@@ -1,6 +1,6 @@
 import { useId, useState } from "react";
 import { addChannel } from "../../model/edits";
-import { channelEnd, partnersOf } from "../../model/connections";
+import { already, channelEnd, partnersOf } from "../../model/connections";
 import { channelPath, type Buffer, type Structure } from "../../model/structure";
 import { useEdit } from "../form_parts";
 
@@ -13,6 +13,12 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
   const chosen = partners.find(({ path, reason }) => path === wish && !reason) ?? partners.find(({ reason }) => !reason);
   const sends = buffer.direction === "output";
   if (buffer.direction === "real") return null;
+  const nothing =
+    partners.length === 0
+      ? "there is no buffer to connect"
+      : !sends && partners.some(({ reason }) => reason === already)
+        ? "it has its source"
+        : "no buffer fits";
   const connect = () => {
     if (!chosen) return;
     const ends = [buffer.path, chosen.path].map((path) => channelEnd(structure, path));
@@ -24,7 +30,7 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
     <div className="field connect">
       <label htmlFor={id}>{sends ? "Connect to" : "Connect from"}</label>
       <select id={id} value={chosen?.path ?? ""} onChange={(event) => choose(event.target.value)}>
-        {!chosen && <option value="">{partners.length === 0 ? "there is no buffer to connect" : "no buffer fits"}</option>}
+        {!chosen && <option value="">{nothing}</option>}
         {partners.map(({ path, reason }) => (
           <option key={path} value={path} disabled={reason !== ""}>
             {path}

@@ -12,7 +12,7 @@ interface ObjectFieldsProps {
   shapes: readonly FieldShape[];
   /** Keys that have fields elsewhere. */
   without?: readonly string[];
-  /** Keys may have any name. */
+  /** Keys may have any name; otherwise those that the shapes do not name are shown elsewhere. */
   open?: boolean;
   /** Offered while typing, by key. */
   choices?: { readonly [key: string]: readonly string[] };
@@ -41,7 +41,7 @@ export function ObjectFields({ structure, at, shapes, without = [], open, choice
   const known = shapes.filter(({ key }) => !hidden(key));
   const shown = [
     ...known.filter(({ key, required }) => required || there.includes(key) || wanted.includes(key)),
-    ...there.filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
+    ...(open ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
   ];
   const left = known.filter((one) => !shown.includes(one));
   const set = (key: string, text: string, as = scalarText) => edit(apply(yaml.text, yaml.set(at, key, text, as)));

@@ -13,7 +13,13 @@ export function ParameterFields({ structure, at }: { structure: Structure; at: Y
   const parts = parameterParts(yaml, at);
   const set = (change: Partial<ParameterParts>) => edit(apply(yaml.text, setParameter(yaml, at, change)));
   const field = (key: keyof ParameterParts, label: string, placeholder = "") => (
-    <Field label={`${label} of ${name}`} value={parts[key]} placeholder={placeholder} onChange={(text) => set({ [key]: text })} />
+    <Field
+      label={label}
+      of={`of ${name}`}
+      value={parts[key]}
+      placeholder={placeholder}
+      onChange={(text) => set({ [key]: text })}
+    />
   );
   const types = ["", ...numberTypes.slice(1), "bool", "string"];
   const known = types.includes(parts.type) ? types : [...types, parts.type];
@@ -22,21 +28,24 @@ export function ParameterFields({ structure, at }: { structure: Structure; at: Y
     <div className="parameter-fields">
       {parts.type === "bool" ? (
         <Choice
-          label={`Value of ${name}`}
+          label="Value"
+          of={`of ${name}`}
           value={parts.value}
           choices={["true", "false"].map((one) => ({ value: one, title: one }))}
           onChange={(value) => set({ value })}
         />
       ) : (
         <Field
-          label={`Value of ${name}`}
+          label="Value"
+          of={`of ${name}`}
           value={parts.value}
           onChange={(value) => value.trim() && set({ value: value.trim() })}
         />
       )}
       {number && field("unit", "Unit", "none")}
       <Choice
-        label={`Type of ${name}`}
+        label="Type"
+        of={`of ${name}`}
         value={parts.type}
         choices={known.map((one) => ({ value: one, title: one || "float64" }))}
         onChange={(type) => set({ type })}

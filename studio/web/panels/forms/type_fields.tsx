@@ -12,41 +12,41 @@ interface TypeInputsProps {
   of?: string;
   /** Types that may not be chosen, such as the one that is described. */
   without?: readonly string[];
-  /** The unit and the length have fields of their own. */
-  whole?: boolean;
   onChange: (text: string) => void;
 }
 
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
 
 /** A type, chosen by its parts: what it is, how many, and the unit. */
-export function TypeInputs({ structure, value, of = "", without = [], whole = true, onChange }: TypeInputsProps) {
+export function TypeInputs({ structure, value, of = "", without = [], onChange }: TypeInputsProps) {
   const parts = typeParts(value);
-  const label = (what: string) => (of ? `${what} ${of}` : what);
-  if (!parts) return <Field label={label("Type")} mono value={value} onChange={onChange} />;
+  const about = of ? { of } : {};
+  if (!parts) return <Field label="Type" {...about} mono value={value} onChange={onChange} />;
   const change = (part: Partial<TypeParts>) => onChange(typeText({ ...parts, ...part }));
   const types = [...structure.types.filter((one) => !without.includes(one)), ...plainTypes];
   // A type that does not exist stays what it is until another one is chosen.
   const choices = (types.includes(parts.base) ? types : [parts.base, ...types]).map((one) => ({ value: one, title: one }));
   return (
     <div className="type-inputs">
-      <Choice label={label("Type")} value={parts.base} choices={choices} onChange={(base) => change({ base })} />
-      {whole && isNumber(parts.base) && (
-        <Field label={label("Unit")} value={parts.unit} placeholder="none" onChange={(unit) => change({ unit: unit.trim() })} />
+      <Choice label="Type" {...about} value={parts.base} choices={choices} onChange={(base) => change({ base })} />
+      {isNumber(parts.base) && (
+        <Field label="Unit" {...about} value={parts.unit} placeholder="none" onChange={(unit) => change({ unit: unit.trim() })} />
       )}
       {parts.base === "string" && (
         <Field
-          label={label("Letters")}
+          label="Letters"
+          {...about}
           value={parts.most}
           wrong={wrongNumber}
           onChange={(most) => change({ most: most.trim() })}
         />
       )}
-      {whole && parts.base !== "string" && (
+      {parts.base !== "string" && (
         <Field
-          label={label("Array of")}
+          label="Length"
+          {...about}
           value={parts.length}
-          placeholder="one"
+          placeholder="no array"
           wrong={wrongNumber}
           onChange={(length) => change({ length: length.trim() })}
         />
@@ -107,7 +107,8 @@ export function MemoryFields({ structure, at }: { structure: Structure; at: Yaml
         onChange={(text) => (map ? set(at, "type", text) : set(at.slice(0, -1), name, text))}
       />
       <Field
-        label={`Start of ${name}`}
+        label="Start"
+        of={`of ${name}`}
         value={(map && yaml.valueText([...at, "initial"])) || ""}
         placeholder="zero"
         onChange={(text) =>

@@ -260,11 +260,15 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         if (unit) await fill(field("Unit"), unit);
       };
 
+      const judged = [];
+      const judge = await judges(page, judged);
+      for (const width of [640, 1024, 1440]) {
+        await page.setViewportSize({ width, height: 900 });
+        await judge(`the start page at ${width}`);
+      }
       await button(page, "An empty system").click();
       await page.locator('.chip[data-path="robot.control.run"]').waitFor();
       await page.getByRole("group", { name: "Types" }).waitFor();
-      const judged = [];
-      const judge = await judges(page, judged);
       await structure("Light", [
         ["left", "bool"],
         ["middle", "bool"],

@@ -90,8 +90,8 @@ std::vector<language::Source> code_of(const fs::path& project) {
     for (fs::recursive_directory_iterator at(project / folder, missing), end; !missing && at != end;
          at.increment(missing))
       if (is_source(at->path()) && !at->is_symlink(missing) && at->is_regular_file(missing))
-        all.push_back({at->path().lexically_relative(project).generic_string(),
-                       project::content_of(at->path())});
+        all.push_back(
+            {at->path().lexically_relative(project).generic_string(), project::content_of(at->path())});
   }
   return all;
 }

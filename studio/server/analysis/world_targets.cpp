@@ -17,31 +17,22 @@ struct KindOfDriver {
   const char *kind, *list;
 };
 /// docs/worlds.md
-constexpr std::array kinds{KindOfDriver{"sensor", "sensors"},
-                           KindOfDriver{"joint_position", "joints"},
-                           KindOfDriver{"joint_velocity", "joints"},
-                           KindOfDriver{"scan", "sites"},
-                           KindOfDriver{"pose", "bodies"},
-                           KindOfDriver{"pose", "sites"},
-                           KindOfDriver{"contact", "bodies"},
-                           KindOfDriver{"contact", "sites"},
-                           KindOfDriver{"camera", "cameras"},
-                           KindOfDriver{"depth", "cameras"},
-                           KindOfDriver{"labels", "cameras"},
-                           KindOfDriver{"reflectance", "sites"},
-                           KindOfDriver{"actuator", "actuators"},
-                           KindOfDriver{"velocity", "actuators"},
-                           KindOfDriver{"weld", "equalities"},
-                           KindOfDriver{"mocap", "bodies"},
-                           KindOfDriver{"place", "bodies"},
-                           KindOfDriver{"colour", "geoms"}};
+constexpr std::array kinds{KindOfDriver{"sensor", "sensors"},        KindOfDriver{"joint_position", "joints"},
+                           KindOfDriver{"joint_velocity", "joints"}, KindOfDriver{"scan", "sites"},
+                           KindOfDriver{"pose", "bodies"},           KindOfDriver{"pose", "sites"},
+                           KindOfDriver{"contact", "bodies"},        KindOfDriver{"contact", "sites"},
+                           KindOfDriver{"camera", "cameras"},        KindOfDriver{"depth", "cameras"},
+                           KindOfDriver{"labels", "cameras"},        KindOfDriver{"reflectance", "sites"},
+                           KindOfDriver{"actuator", "actuators"},    KindOfDriver{"velocity", "actuators"},
+                           KindOfDriver{"weld", "equalities"},       KindOfDriver{"mocap", "bodies"},
+                           KindOfDriver{"place", "bodies"},          KindOfDriver{"colour", "geoms"}};
 
 /// "laser" of "robot[3]/laser", if robot[3] is an agent.
 std::string as_in_drivers(const std::string& name, const spec::Model& model) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) return name;
-  const bool of_agent =
-      std::ranges::any_of(model.agents, [&](const auto& agent) { return agent.path == name.substr(0, slash); });
+  const bool of_agent = std::ranges::any_of(
+      model.agents, [&](const auto& agent) { return agent.path == name.substr(0, slash); });
   return of_agent ? name.substr(slash + 1) : name;
 }
 

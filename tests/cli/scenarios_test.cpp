@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -135,25 +136,34 @@ class Scenario {
     }
   }
 
-  /// A confirmed item was taken once. A taker that was killed may have died before it could write that down.
+  /// A confirmed item was taken once. A taker that was killed, or whose run was over, may have got one that it could not
+  /// write down any more: the one after the last that this start has taken.
   void judge_items() const {
-    std::map<Item, int> taken;
-    std::set<Item> confirmed;
+    std::map<Item, int> taken;  // by which start of its taker
+    std::set<Item> confirmed, twice;
     for (const auto& [machine, starts] : said_)
       for (const auto& [start, lines] : starts)
         for (const Line& line : lines) {
-          if (line.what == "took") ++taken[{line.a, line.b, line.c}];
-          if (line.what != "confirmed") continue;
-          EXPECT_TRUE(confirmed.emplace(line.a, line.b, line.c).second) << log(machine, start);
+          const Item item{line.a, line.b, line.c};
+          if (line.what == "took" && !taken.emplace(item, start).second) twice.insert(item);
+          if (line.what == "confirmed" && !confirmed.insert(item).second)
+            ADD_FAILURE() << "item " << line.c << " was confirmed twice: " << log(machine, start);
         }
     EXPECT_GT(confirmed.size(), 100U) << folder_;
     confirmed_ = confirmed.size();
-    std::array<int, machines> lost{};
+    std::set<Item> ends;
     for (const Item& item : confirmed) {
-      EXPECT_LE(taken[item], 1) << "item " << std::get<2>(item) << " was taken twice: " << folder_;
-      if (taken[item] == 0) ++lost.at(std::get<0>(item));
+      const unsigned long giver = std::get<0>(item), number = std::get<2>(item);
+      EXPECT_FALSE(twice.contains(item)) << "item " << number << " was taken twice: " << folder_;
+      if (taken.contains(item)) continue;
+      const auto after = taken.upper_bound(item);
+      const bool is_last = after == taken.end() || std::get<0>(after->first) != giver;
+      const bool is_first = after == taken.begin() || std::get<0>(std::prev(after)->first) != giver;
+      EXPECT_TRUE(is_last || is_first || std::prev(after)->second != after->second)
+          << "item " << number << " is confirmed and lost: " << folder_;
+      EXPECT_TRUE(ends.insert(is_last ? Item{giver, 0, 0} : after->first).second)
+          << "two confirmed items are lost, item " << number << " is one: " << folder_;
     }
-    for (const int count : lost) EXPECT_LE(count, 1) << "a confirmed item is lost: " << folder_;
   }
 
   void judge_packets() const {

@@ -56,6 +56,7 @@ network::CarrierSetup setup(network::ProcessNumber process, std::uint32_t size) 
   made.process = process;
   made.processes = processes;
   made.incarnation = 1;
+  made.liveliness = std::chrono::milliseconds(900);
   made.domain = domain();
   made.channels = std::span(&only, 1);
   return made;

@@ -54,6 +54,7 @@ struct Fleet {
     made.process = process;
     made.processes = processes;
     made.incarnation = 1;
+    made.liveliness = std::chrono::milliseconds(900);
     made.domain = domain;
     made.channels = channels;
     return made;

@@ -77,6 +77,7 @@ struct CarrierSetup {
   ProcessNumber process = 0;                    ///< this one
   std::span<const std::string_view> processes;  ///< names, by number
   std::uint64_t incarnation = 0;                ///< of this start of the process; greater than all before
+  std::chrono::nanoseconds liveliness{0};       ///< a process that was silent for so long is not reachable
   int domain = 0;                               ///< of the middleware
   std::string_view interface;                   ///< of the network, or its address; empty: "lo"
   std::span<const std::string_view>
@@ -88,6 +89,6 @@ struct CarrierSetup {
 ///
 /// Errors: nullptr, and `error` (of `size` bytes, 0 at its end) says why.
 using OpenCarrier = Carrier*(const CarrierSetup& setup, char* error, std::size_t size);
-inline constexpr const char* open_carrier_function = "tessera_open_carrier_2";
+inline constexpr const char* open_carrier_function = "tessera_open_carrier_3";
 
 }  // namespace tessera::network

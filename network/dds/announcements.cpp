@@ -66,7 +66,9 @@ std::optional<std::string> Announcements::problem_with(const Announcement& other
   if (!names_.contains(other.process_name))
     return who + " says that it is of system " + own_.system + ", whose deployment does not have it";
   if (other.processes_hash != own_.processes_hash)
-    return who + " has another list of processes than this one: build both from the same specification";
+    return who +
+           " has another `deploy` than this one (its processes or its liveliness): build both from the "
+           "same specification";
   if (other.process_name == own_.process_name && other.incarnation != own_.incarnation)
     return "process " + own_.process_name + " runs twice, here and on " + shown(other.host);
   return std::nullopt;

@@ -173,7 +173,7 @@ Clock::time_point DdsCarrier::next_event() const {
 
 void DdsCarrier::give_sign_of_life(Clock::time_point now) {
   if (now < next_sign_of_life_) return;
-  next_sign_of_life_ = now + sign_of_life_period;
+  next_sign_of_life_ = now + deployment_.sign_of_life_period();
   if (endpoints_.alive_writer() == 0) return;
   const ReceivedAlive sign = signs_.next(now.time_since_epoch(), wall_time());
   const tessera_wire_Alive sample{.process = sign.process,

@@ -11,14 +11,18 @@
 namespace tessera::dds {
 namespace {
 
-/// FNV-1a, of all names in their order. It tells deployments apart; it protects from nobody.
-std::string hash_of_names(std::span<const std::string_view> names) {
+/// FNV-1a, of all names in their order, and of the liveliness: if two processes had different ones, the one with the
+/// shorter would take the other for gone between its signs of life. It tells deployments apart; it protects from
+/// nobody.
+std::string hash_of(std::span<const std::string_view> names, std::chrono::nanoseconds liveliness) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&](unsigned char byte) { hash = (hash ^ byte) * 0x100000001b3U; };
-  for (const std::string_view name : names) {
-    for (const char letter : name) add(static_cast<unsigned char>(letter));
+  const auto add_text = [&](std::string_view text) {
+    for (const char letter : text) add(static_cast<unsigned char>(letter));
     add(0);
-  }
+  };
+  for (const std::string_view name : names) add_text(name);
+  add_text(std::to_string(liveliness.count()));
   std::array<char, 17> digits{};
   std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
   return digits.data();
@@ -71,12 +75,15 @@ Deployment deployment_of(const network::CarrierSetup& setup) {
   if (setup.system.empty() || setup.net_hash.empty()) throw SetupError("the system has no name or no hash");
   if (setup.process >= setup.processes.size()) throw SetupError("this process is not one of the deployment");
   if (setup.incarnation == 0) throw SetupError("the incarnation must be greater than 0");
+  if (setup.liveliness <= std::chrono::nanoseconds::zero())
+    throw SetupError("the deployment has no liveliness");
   deployment.system = setup.system;
   deployment.net_hash = setup.net_hash;
   deployment.process = setup.process;
   deployment.incarnation = setup.incarnation;
+  deployment.liveliness = setup.liveliness;
   deployment.processes.assign(setup.processes.begin(), setup.processes.end());
-  deployment.processes_hash = hash_of_names(setup.processes);
+  deployment.processes_hash = hash_of(setup.processes, setup.liveliness);
   for (const network::ChannelSetup& channel : setup.channels) add_channel(deployment, channel);
   std::ranges::sort(deployment.peers);
   deployment.peers.erase(std::unique(deployment.peers.begin(), deployment.peers.end()),

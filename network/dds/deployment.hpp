@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -21,9 +22,14 @@ struct Channel {
 /// What a process knows of the system that it is a part of: a setup, kept and checked.
 struct Deployment {
   std::string system, net_hash;
-  std::string processes_hash;  ///< 16 hexadecimal digits
+  std::string processes_hash;  ///< 16 hexadecimal digits, of the names of all processes and of the liveliness
   ProcessNumber process = 0;   ///< this one
   std::uint64_t incarnation = 0;
+  std::chrono::nanoseconds liveliness{0};  ///< a process that was silent for so long is not reachable
+
+  /// How often a process says that it is there: five signs of life may be lost in a row.
+  [[nodiscard]] std::chrono::nanoseconds sign_of_life_period() const { return liveliness / 6; }
+
   std::vector<std::string> processes;  ///< names, by number
   std::unordered_map<ChannelNumber, Channel> channels;
   std::vector<ProcessNumber> peers;  ///< the processes that share a channel with this one, in ascending order

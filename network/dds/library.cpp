@@ -16,7 +16,7 @@ void copy_text(std::string_view text, char* target, std::size_t size) {
 }  // namespace
 
 /// Makes a carrier over Cyclone DDS; throws nothing. See tessera::network::OpenCarrier.
-extern "C" __attribute__((visibility("default"))) tessera::network::Carrier* tessera_open_carrier_2(
+extern "C" __attribute__((visibility("default"))) tessera::network::Carrier* tessera_open_carrier_3(
     const tessera::network::CarrierSetup& setup, char* error, std::size_t size) {
   try {
     return new tessera::dds::DdsCarrier(setup);

@@ -10,7 +10,7 @@ constexpr int older_is_there = 5;
 
 }  // namespace
 
-Presence::Presence(const Deployment& deployment) {
+Presence::Presence(const Deployment& deployment) : longest_silence_(deployment.liveliness) {
   for (const ProcessNumber peer : deployment.peers) peers_[peer].name = deployment.processes[peer];
 }
 
@@ -54,7 +54,7 @@ void Presence::left(ProcessNumber process, std::uint64_t incarnation, network::C
 
 void Presence::look(Clock::time_point now, network::Carrier::Listener& listener) {
   for (auto& [process, peer] : peers_) {
-    if (!peer.is_there || now - peer.heard < longest_silence) continue;
+    if (!peer.is_there || now - peer.heard < longest_silence_) continue;
     peer.is_there = false;
     listener.reachable(process, false);
   }
@@ -63,7 +63,8 @@ void Presence::look(Clock::time_point now, network::Carrier::Listener& listener)
 std::optional<Clock::time_point> Presence::next_look() const {
   std::optional<Clock::time_point> next;
   for (const auto& [process, peer] : peers_)
-    if (peer.is_there) next = std::min(next.value_or(Clock::time_point::max()), peer.heard + longest_silence);
+    if (peer.is_there)
+      next = std::min(next.value_or(Clock::time_point::max()), peer.heard + longest_silence_);
   return next;
 }
 

@@ -14,11 +14,6 @@ namespace tessera::dds {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often a process says that it is there.
-inline constexpr std::chrono::milliseconds sign_of_life_period{150};
-/// A process that was not heard for so long is not reachable. Five signs of life may be lost in a row.
-inline constexpr std::chrono::milliseconds longest_silence{900};
-
 /// Which processes are there, from what has been heard of them, and when. Tells the listener of each change.
 /// It knows no middleware.
 class Presence {
@@ -46,6 +41,7 @@ class Presence {
   };
   void heard_older(Peer& peer, std::uint64_t incarnation, network::Carrier::Listener& listener);
 
+  std::chrono::nanoseconds longest_silence_;
   std::map<ProcessNumber, Peer> peers_;
 };
 

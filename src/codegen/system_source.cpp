@@ -142,8 +142,9 @@ std::string process_tables(const spec::Model& model) {
 
 std::string process_members(const spec::Model& model) {
   if (!model.deployment) return {};
-  return fmt::format(",\n    .processes = processes, .process_of = process_of, .domain = {}",
-                     model.deployment->domain);
+  return fmt::format(
+      ",\n    .processes = processes, .process_of = process_of, .domain = {}, .liveliness = {}",
+      model.deployment->domain, duration(model.deployment->liveliness));
 }
 
 /// What stands in the namespace of the system.

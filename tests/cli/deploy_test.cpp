@@ -6,7 +6,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdlib>
 #include <utility>
 
 #include "../eventually.hpp"
@@ -203,17 +202,6 @@ TEST_F(Deploy, ASimulatedRunInWhichProcessesDieIsJudged) {
   EXPECT_EQ(judged->verdict, replay::Legality::Verdict::illegal) << judged->why;
 }
 
-/// Three machines in network namespaces, one scenario; TESSERA_SCENARIOS says how many (16 s each).
-TEST_F(Deploy, MachinesThatAreCutOffAndKilledGoOn) {
-  if (geteuid() != 0) GTEST_SKIP() << "only root may make network namespaces";
-  const char* const given = std::getenv("TESSERA_SCENARIOS");
-  const project::Exit done =
-      shell("'" TESSERA_SOURCE_DIR "/tests/namespaces/crossing' '" TESSERA_BINARY_DIR "/tessera' '" +
-            kept().string() + "' scenarios " + (given == nullptr ? "1" : given));
-  if (done.code == 77) GTEST_SKIP() << done.text;
-  EXPECT_EQ(done.code, 0) << done.text;
-}
-
 TEST_F(Deploy, APackageSaysWhatIsWrongBeforeAnythingIsBuilt) {
   const project::Exit version = tessera("package 11_crossing_apart --release beta");
   EXPECT_EQ(version.code, 2);
@@ -265,6 +253,24 @@ TEST_F(Deploy, AllAreWatchedSetAndResetTogetherAndAWatcherThatDiesDisturbsNone) 
   const project::Exit joint = tessera(checked);
   EXPECT_EQ(joint.code, 3) << joint.text;
   EXPECT_NE(joint.text.find("the recording of gate is cut off"), std::string::npos) << joint.text;
+}
+
+/// examples/13_fleet_apart, with four rovers of its 49.
+TEST_F(Command, AConvoyOfProcessesDrivesAndItsRecordingsAreOneLegalRun) {
+  const fs::path spec = example("13_fleet_apart") / "spec.yaml";
+  replace(spec, "count: 49", "count: 4");
+  replace(spec, "rover[48]", "rover[3]");
+  const project::Exit judged = tessera("verify 13_fleet_apart");
+  EXPECT_NE(judged.text.find("survives_partition: holds"), std::string::npos) << judged.text;
+  const project::Exit tests = tessera("test 13_fleet_apart");
+  EXPECT_EQ(tests.code, 0) << tests.text;
+  const project::Exit run =
+      tessera("run 13_fleet_apart --deploy --for 3s --domain " + std::to_string(1 + getpid() % 230));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(run.text.find("office   | "), std::string::npos) << run.text;
+  const project::Exit joint = tessera("replay 13_fleet_apart/.tessera/last --check");
+  EXPECT_EQ(joint.code, 0) << joint.text;
+  EXPECT_NE(joint.text.find("in 5 recordings"), std::string::npos) << joint.text;
 }
 
 /// `tessera run --deploy` with its output where the test wants it.

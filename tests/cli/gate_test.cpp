@@ -74,8 +74,9 @@ TEST_F(VerificationGate, ADeploymentIsJudgedAndMadeIntoOneController) {
   const project::Exit made = tessera("generate p --stubs");
   EXPECT_EQ(made.code, 0) << made.text;
   const std::string system = content_of(folder_ / "p/.tessera/generated/system.cpp");
-  for (const char* part : {"{\"survives_partition\", \"violated\"", "tessera::networked}",
-                           "{\"right\", \"\", \"\"}", "process_of[] = {0, 1}", ".domain = 0"})
+  for (const char* part :
+       {"{\"survives_partition\", \"violated\"", "tessera::networked}", "{\"right\", \"\", \"\"}",
+        "process_of[] = {0, 1}", ".domain = 0", ".liveliness = 900ms"})
     EXPECT_NE(system.find(part), std::string::npos) << part << "\n" << system;
   EXPECT_EQ(tessera("verify p --scenario out.json").code, 1);
 }

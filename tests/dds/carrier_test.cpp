@@ -125,6 +125,31 @@ TEST(Carrier, SignsOfLifeTellTheClockOfTheOtherAndHowMuchOfItIsCertain) {
   }
 }
 
+/// A busy machine makes a silence longer than it has to be, so that only one of many has to be short.
+TEST(Carrier, ASilentProcessIsGoneAfterTheLivelinessOfTheDeployment) {
+  using Clock = std::chrono::steady_clock;
+  Crossing crossing;
+  crossing.liveliness = 200ms;
+  Pair pair(crossing, crossing);
+  Clock::duration shortest = Clock::duration::max();
+  for (int round = 0; round < 20 && shortest >= 600ms; ++round) {
+    ASSERT_TRUE(pair.meet());
+    const Clock::time_point begin = Clock::now();
+    ASSERT_TRUE(receive_until([&] { return !pair.office.heard.sees(Crossing::cart); }, pair.office));
+    shortest = std::min(shortest, Clock::now() - begin);
+  }
+  EXPECT_LT(shortest, 600ms);
+}
+
+TEST(Carrier, OneOfAnotherLivelinessIsRefusedAndToldOf) {
+  Crossing other;
+  other.liveliness = 300ms;
+  Pair pair({}, other);
+  const auto told = [](const Station& station) { return station.heard.has_complaint("its liveliness"); };
+  EXPECT_TRUE(receive_until([&] { return told(pair.office) && told(pair.cart); }, pair.office, pair.cart));
+  EXPECT_FALSE(pair.office.heard.sees(Crossing::cart));
+}
+
 TEST(Carrier, WakeEndsTheWaitOrTheNextOne) {
   const Crossing crossing;
   DdsCarrier carrier(crossing.setup(Crossing::office, 10));

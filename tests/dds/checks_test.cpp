@@ -90,7 +90,7 @@ TEST(Presence, SilenceARestartAndAFarewellAreToldOf) {
   presence.heard(Crossing::cart, 20, start, heard);
   presence.heard(Crossing::cart, 20, start + 800ms, heard);
   presence.look(start + 1600ms, heard);
-  EXPECT_EQ(presence.next_look(), start + 800ms + dds::longest_silence);
+  EXPECT_EQ(presence.next_look(), start + 800ms + 900ms);
   presence.look(start + 1700ms, heard);
   presence.look(start + 1800ms, heard);
   EXPECT_EQ(heard.changes, (std::vector<Heard::Change>{{Crossing::cart, true}, {Crossing::cart, false}}));
@@ -105,6 +105,20 @@ TEST(Presence, SilenceARestartAndAFarewellAreToldOf) {
       (std::vector<Heard::Change>{
           {Crossing::cart, true}, {Crossing::cart, false}, {Crossing::cart, true}, {Crossing::cart, false}}));
   EXPECT_TRUE(heard.complaints.empty());
+}
+
+TEST(Presence, TheDeploymentSaysWhichSilenceIsTooLong) {
+  Crossing crossing;
+  crossing.liveliness = 300ms;
+  dds::Presence presence(dds::deployment_of(crossing.setup(Crossing::office, 10)));
+  Heard heard;
+  const Clock::time_point start = Clock::now();
+  presence.heard(Crossing::cart, 20, start, heard);
+  EXPECT_EQ(presence.next_look(), start + 300ms);
+  presence.look(start + 299ms, heard);
+  EXPECT_TRUE(heard.sees(Crossing::cart));
+  presence.look(start + 300ms, heard);
+  EXPECT_FALSE(heard.sees(Crossing::cart));
 }
 
 TEST(Presence, AnOlderIncarnationThatGoesOnSpeakingIsToldOfOnce) {
@@ -146,7 +160,7 @@ TEST(Announcements, OnlyProcessesOfTheSameSystemThatDoNotFitAreToldOfAndOnce) {
   EXPECT_THAT(complaint([](auto& other) { other.process_name = "tram"; }),
               testing::HasSubstr("process tram on " + good.host));
   EXPECT_THAT(complaint([](auto& other) { other.processes_hash = "1"; }),
-              testing::HasSubstr("another list of processes"));
+              testing::HasSubstr("another `deploy` than this one"));
   EXPECT_THAT(complaint([](auto& other) { other.process_name = "office"; }),
               testing::HasSubstr("process office runs twice"));
 }
@@ -183,6 +197,14 @@ TEST(Deployment, PeersAreThoseWithWhomAChannelIsShared) {
   Crossing other;
   other.processes = {"office", "cart[1]", "cart[0]"};
   EXPECT_NE(dds::deployment_of(other.setup(0, 1)).processes_hash, deployment().processes_hash);
+}
+
+TEST(Deployment, OneOfAnotherLivelinessIsAnotherDeployment) {
+  Crossing other;
+  other.liveliness = 901ms;
+  EXPECT_NE(dds::deployment_of(other.setup(0, 1)).processes_hash, deployment().processes_hash);
+  other.liveliness = 0ms;
+  EXPECT_THROW(static_cast<void>(dds::deployment_of(other.setup(0, 1))), dds::SetupError);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct Crossing {
       {picture, "office.map->cart[0].map", office, cart, large},
       {other_goal, "office.goal->cart[1].goal", office, other_cart, small}};
   int domain = 1 + static_cast<int>(getpid()) % 229;
+  std::chrono::nanoseconds liveliness = std::chrono::milliseconds(900);
   std::string interface;
   std::vector<std::string_view> peers;
 
@@ -34,6 +36,7 @@ struct Crossing {
     made.process = process;
     made.processes = processes;
     made.incarnation = incarnation;
+    made.liveliness = liveliness;
     made.domain = domain;
     made.interface = interface;
     made.peers = peers;

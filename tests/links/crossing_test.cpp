@@ -178,7 +178,10 @@ TEST(Crossing, ARecordingTellsWhichValueWasReadWhen) {
   EXPECT_EQ(last["read"], 100U);
 }
 
-TEST(Crossing, ASubsystemIsToldThatItsPeerIsNotHeardOf) {
+class Silence : public ::testing::TestWithParam<int> {};
+
+TEST_P(Silence, IsToldToASubsystemAfterTheLivelinessOfTheDeployment) {
+  const int liveliness = GetParam();  // in periods
   TestSystem system;
   std::vector<bool> told;
   const std::uint32_t from = system.add("robot.talk", nets::far_nb_sender,
@@ -190,16 +193,18 @@ TEST(Crossing, ASubsystemIsToldThatItsPeerIsNotHeardOf) {
                                         100ms);
   const std::uint32_t to = system.add("base.listen", nets::far_b_receiver, {});
   system.connect(from, "x", to, "x", networked);
-  system.deploy({0, 1});
+  system.deploy({0, 1}, liveliness * 100ms);
   RunOptions options = over("", {"link:p0-p1:cut=3s@2s"});
   options.duration = 10s;
   static_cast<void>(run(system, options));
   ASSERT_EQ(told.size(), 100U);
   EXPECT_FALSE(told[15]) << "before the cut";
-  EXPECT_FALSE(told[25]) << "the lease is not over";
-  EXPECT_TRUE(told[35]);
+  EXPECT_FALSE(told.at(20 + liveliness - 1)) << "they have not been silent for so long";
+  EXPECT_TRUE(told.at(20 + liveliness + 1));
+  EXPECT_TRUE(told[49]);
   EXPECT_FALSE(told[55]);
 }
+INSTANTIATE_TEST_SUITE_P(Links, Silence, ::testing::Values(2, 9, 25));
 
 TEST(Crossing, ARunInWhichNothingCanHappenEnds) {
   TestSystem system;

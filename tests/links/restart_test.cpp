@@ -134,7 +134,7 @@ TEST(Restart, OneThatDoesNotComeBackIsDisconnectedAndItsDevicesStaySafe) {
   EXPECT_NEAR(static_cast<double>(system.devices.commands.size()), 200, 3) << "nothing after its death";
 }
 
-TEST(Restart, ARestartWithinTheLeaseShowsAsGoneAndThere) {
+TEST(Restart, ARestartWithinTheLivelinessShowsAsGoneAndThere) {
   TestSystem system;
   std::vector<bool> told;
   const std::uint32_t from = system.add("robot.talk", nets::far_nb_sender,

@@ -157,7 +157,8 @@ void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uin
       {*names_.back(), {from, out_port}, {to, in_port}, places, send_timeout, receive_timeout, slots});
 }
 
-void TestSystem::deploy(std::vector<std::uint32_t> process_of) {
+void TestSystem::deploy(std::vector<std::uint32_t> process_of, Duration liveliness) {
+  liveliness_ = liveliness;
   process_of_ = std::move(process_of);
   processes_.clear();
   for (std::uint32_t process = 0; process <= *std::ranges::max_element(process_of_); ++process)
@@ -166,8 +167,8 @@ void TestSystem::deploy(std::vector<std::uint32_t> process_of) {
 }
 
 const System& TestSystem::system() {
-  system_ = {tables_version, "test",   "",       "verification", {},         instances_,
-             channels_,      drivers_, drivers_, processes_,     process_of_};
+  system_ = {tables_version, "test",   "",         "verification", {}, instances_, channels_,
+             drivers_,       drivers_, processes_, process_of_,    0,  liveliness_};
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

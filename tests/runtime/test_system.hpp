@@ -65,7 +65,7 @@ class TestSystem {
                std::span<const FusedPlace> places, Duration send_timeout = Duration{0},
                Duration receive_timeout = Duration{0}, std::uint16_t slots = 1);
   /// Puts the instances into processes "p0", "p1", ...: one number per instance.
-  void deploy(std::vector<std::uint32_t> process_of);
+  void deploy(std::vector<std::uint32_t> process_of, Duration liveliness = std::chrono::seconds(1));
   /// Made up from what was added; valid until the next change.
   [[nodiscard]] const System& system();
 
@@ -79,6 +79,7 @@ class TestSystem {
   std::vector<CppDriver> drivers_;
   std::vector<Process> processes_;
   std::vector<std::uint32_t> process_of_;
+  Duration liveliness_{0};
   std::string hash_;
   System system_{};
 };

@@ -15,7 +15,7 @@
 /// file and states which version of it was used.
 namespace tessera {
 
-inline constexpr int tables_version = 3;
+inline constexpr int tables_version = 4;
 
 /// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
 /// they evaluate conditions when the token arrives, and store which of the conditional transitions
@@ -184,6 +184,7 @@ struct System {
   std::span<const Process> processes{};          ///< empty: all agents are in one
   std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
   std::uint32_t domain = 0;                      ///< of DDS
+  Duration liveliness{0};  ///< a process that was not heard of for so long is disconnected for the others
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

@@ -37,6 +37,7 @@ namespace {
       .process = process,
       .processes = names,
       .incarnation = assembly.incarnation.value,
+      .liveliness = whole.liveliness,
       .domain = given.domain.value_or(static_cast<int>(whole.domain)),
       .interface =
           given.interface.empty() ? whole.processes[process].interface : std::string_view(given.interface),
@@ -60,7 +61,7 @@ namespace {
   for (const Channel& channel : whole.channels)
     channels.push_back({whole.process_of[channel.from.instance], whole.process_of[channel.to.instance]});
   assembly.network = std::make_unique<SimulatedNetwork>(
-      conditions, cuts_of(assembly.faults), assembly.outages, assembly.options.seed, clock,
+      conditions, cuts_of(assembly.faults), assembly.outages, whole.liveliness, assembly.options.seed, clock,
       std::move(channels),
       [&links = *assembly.links](network::ProcessNumber one, network::ProcessNumber other, bool are) {
         links.joined(one, other, are);

@@ -11,11 +11,12 @@ constexpr int overtaken_delays = 10;
 }  // namespace
 
 SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts,
-                                   std::vector<Outage> outages, std::uint64_t seed, const Clock& clock,
-                                   std::vector<Channel> channels, Joined joined)
+                                   std::vector<Outage> outages, Duration liveliness, std::uint64_t seed,
+                                   const Clock& clock, std::vector<Channel> channels, Joined joined)
     : conditions_(conditions),
       cuts_(std::move(cuts)),
       outages_(std::move(outages)),
+      liveliness_(liveliness),
       random_(seed ^ 0x6c696e6b73U),  // not the numbers of the order of turns
       clock_(clock),
       channels_(std::move(channels)),
@@ -26,7 +27,8 @@ SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vec
   for (const auto& [one, other] : pairs)
     if (one != other) news_.emplace(Time{}, News{one, other, true});
   for (const Cut& cut : cuts_) {
-    if (cut.until - cut.from > lease) news_.emplace(cut.from + lease, News{cut.one, cut.other, false});
+    if (cut.until - cut.from > liveliness_)
+      news_.emplace(cut.from + liveliness_, News{cut.one, cut.other, false});
     news_.emplace(cut.until, News{cut.one, cut.other, true});
   }
   for (const Outage& outage : outages_) tell_of(outage, pairs);
@@ -39,7 +41,7 @@ void SimulatedNetwork::tell_of(
   const Time back = ends ? outage.until + conditions_.delay : Time::max();
   for (const auto& [one, other] : pairs) {
     if (one == other || (one != outage.process && other != outage.process)) continue;
-    news_.emplace(std::min(outage.from + lease, back), News{one, other, false});
+    news_.emplace(std::min(outage.from + liveliness_, back), News{one, other, false});
     if (ends) news_.emplace(back, News{one, other, true});
   }
 }

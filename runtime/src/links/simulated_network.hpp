@@ -25,11 +25,12 @@ class SimulatedNetwork final : public network::Carrier {
   struct Channel {
     network::ProcessNumber sender = 0, receiver = 0;
   };
-  /// joined: two processes hear each other from now on, or have not for `lease`.
+  /// joined: two processes hear each other from now on, or have not for the time `liveliness`.
   using Joined = std::function<void(network::ProcessNumber, network::ProcessNumber, bool)>;
   /// channels: by number; those within a process are left out by nobody sending on them.
   SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts, std::vector<Outage> outages,
-                   std::uint64_t seed, const Clock& clock, std::vector<Channel> channels, Joined joined);
+                   Duration liveliness, std::uint64_t seed, const Clock& clock, std::vector<Channel> channels,
+                   Joined joined);
 
   void send(network::ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void send(network::ChannelNumber channel, const network::State& state) override;
@@ -41,9 +42,6 @@ class SimulatedNetwork final : public network::Carrier {
   [[nodiscard]] Time next() const;
   /// When the last cut is over, and the last process that begins again has done so.
   [[nodiscard]] Time last_cut() const;
-
-  /// A process that was not heard of for so long is not connected.
-  static constexpr Duration lease = std::chrono::seconds(1);
 
  private:
   struct Message {
@@ -71,6 +69,7 @@ class SimulatedNetwork final : public network::Carrier {
   NetworkConditions conditions_;
   std::vector<Cut> cuts_;
   std::vector<Outage> outages_;
+  Duration liveliness_;
   std::mt19937_64 random_;
   const Clock& clock_;
   std::vector<Channel> channels_;

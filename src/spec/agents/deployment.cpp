@@ -53,10 +53,12 @@ class DeploymentReader {
 
   void read(const Entry& entry) {
     const std::size_t before = out_.error_count();
-    const Section section(*entry.value, entry.span, "a deployment", {"domain", "processes"}, out_);
+    const Section section(*entry.value, entry.span, "a deployment", {"domain", "liveliness", "processes"},
+                          out_);
     if (!section.readable()) return;
     deployment_.span = entry.span;
     if (const Entry* domain = section.find("domain")) read_domain(*domain);
+    if (const Entry* liveliness = section.find("liveliness")) read_liveliness(*liveliness);
     const Entry* processes =
         section.require("processes", "for example processes: { base: base, carts: \"cart[*]\" }");
     if (processes == nullptr) return;
@@ -79,6 +81,15 @@ class DeploymentReader {
       out_.error("E206", domain.value->span, "a DDS domain is a whole number from 0 to 232");
     else
       deployment_.domain = static_cast<Index>(*number);
+  }
+
+  void read_liveliness(const Entry& liveliness) {
+    const auto time = read_duration(*liveliness.value, liveliness.span, "liveliness", out_);
+    if (!time) return;
+    if (*time < shortest_liveliness || *time > longest_liveliness)
+      out_.error("E206", liveliness.value->span, "liveliness must lie between 100 ms and 10 s");
+    else
+      deployment_.liveliness = *time;
   }
 
   void read_process(const Entry& entry) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,9 +21,14 @@ struct Process {
 /// Which agents run in which process (`deploy:`). Every agent is in one process.
 struct Deployment {
   std::uint32_t domain = 0;  ///< of DDS
+  /// A process that was not heard of for so long is disconnected for the others. It is no part of the net.
+  std::chrono::nanoseconds liveliness = std::chrono::milliseconds(900);
   std::vector<Process> processes;
   diagnostics::Span span;
 };
 inline constexpr std::uint32_t largest_domain = 232;  ///< of DDS: the ports of a larger one do not exist
+/// A busy machine keeps a process from being heard for a while. The middleware forgets one after 20 s.
+inline constexpr std::chrono::milliseconds shortest_liveliness{100};
+inline constexpr std::chrono::seconds longest_liveliness{10};
 
 }  // namespace tessera::spec

@@ -155,7 +155,7 @@ function Links({ links }: { links: readonly LinkSeen[] }) {
             <th scope="col" title="Age of the newest message or sign of life">
               Heard
             </th>
-            <th scope="col" title="Of the signs of life of the last ten seconds">
+            <th scope="col" title="Of the last 64 signs of life">
               Loss
             </th>
             <th scope="col">Sent</th>

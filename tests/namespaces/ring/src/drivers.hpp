@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <tessera/device.hpp>
+
+#include "say.hpp"
+
+namespace ring {
+
+/// Writes down what it is told, and who tells it: the controller, or the guardian when that has died.
+class Lamp final : public tessera::Effector<std::uint64_t>, public tessera::Guarded {
+ public:
+  bool write(const std::uint64_t& brightness) override {
+    say("lamp", brightness, static_cast<std::uint64_t>(getpid()));
+    return true;
+  }
+};
+
+}  // namespace ring

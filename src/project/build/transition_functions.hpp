@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,16 @@ class TransitionFunctions {
     std::filesystem::path file;  ///< relative to the project, where it is in it
     std::uint32_t line = 0;
     std::string space;
+    std::string name, heading;
   };
   /// Where it is defined.
   [[nodiscard]] std::vector<Definition> definitions(const codegen::Stub& stub) const;
   /// Where functions of its name are defined in namespaces that are nobody's: most likely it was meant there.
   [[nodiscard]] std::vector<Definition> definitions_elsewhere(const codegen::Stub& stub) const;
+  /// Functions of its name in its namespace whose arguments are not those of a transition function.
+  [[nodiscard]] std::vector<Definition> definitions_with_other_arguments(const codegen::Stub& stub) const;
+  /// A function in its namespace that no behaviour or condition has, and whose name is nearly its.
+  [[nodiscard]] std::optional<Definition> nearly(const codegen::Stub& stub) const;
   /// The file where it would be added: where the others of its subsystem are, else that of the stub.
   [[nodiscard]] std::filesystem::path file_for(const codegen::Stub& stub) const;
   /// It is one of the sources.
@@ -56,6 +62,8 @@ class TransitionFunctions {
   [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
 
   [[nodiscard]] bool is_wanted(const ScannedFunction& function) const;
+  [[nodiscard]] Definition definition(const std::filesystem::path& file,
+                                      const ScannedFunction& function) const;
   std::filesystem::path project_;
   std::vector<codegen::Stub> wanted_;
   std::map<std::filesystem::path, SourceScan> scans_;
@@ -66,7 +74,7 @@ class TransitionFunctions {
 [[nodiscard]] std::string with_function(std::string text, const codegen::Stub& stub);
 
 /// "src/control.cpp: error: robot.control has no function 'rest'", with what to write
-/// there and what may be meant.
+/// there and what may be meant: a function with nearly that name, or one in another namespace.
 [[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
 
 /// Where functions may be in the wrong namespace; one line each.

@@ -135,6 +135,10 @@ void ConditionNames::read_word(std::size_t at) {
     value.begin = word.position;
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
+  } else if (const std::string home =
+                 is_free && !is_behind_operand(at) && !is_keyword(word.text) ? other_home(word.text) : "";
+             !home.empty() && may_be_of_cpp(word.text, scope_.types)) {
+    out_.error("E101", span_of(word), quoted(word.text) + " is a name of C++, not " + home, "write " + home);
   } else if (is_free && !is_behind_operand(at) && !may_be_of_cpp(word.text, scope_.types)) {
     out_.error("E101", span_of(word), "unknown name " + quoted(word.text), hint_for_word(word.text));
   }

@@ -135,12 +135,12 @@ void ConditionNames::read_word(std::size_t at) {
     value.begin = word.position;
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
-  } else if (const std::string home =
-                 is_free && !is_behind_operand(at) && !is_keyword(word.text) ? other_home(word.text) : "";
-             !home.empty() && may_be_of_cpp(word.text, scope_.types)) {
-    out_.error("E101", span_of(word), quoted(word.text) + " is a name of C++, not " + home, "write " + home);
-  } else if (is_free && !is_behind_operand(at) && !may_be_of_cpp(word.text, scope_.types)) {
-    out_.error("E101", span_of(word), "unknown name " + quoted(word.text), hint_for_word(word.text));
+  } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text)) {
+    const std::string home = other_home(word.text), word_text = quoted(word.text);
+    const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
+    const std::string says =
+        is_of_cpp ? word_text + " is a name of C++, not " + home : "unknown name " + word_text;
+    if (!is_of_cpp || !home.empty()) out_.error("E101", span_of(word), says, hint_for_word(word.text));
   }
 }
 

@@ -136,10 +136,9 @@ void ConditionNames::read_word(std::size_t at) {
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
   } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text)) {
-    const std::string home = other_home(word.text), word_text = quoted(word.text);
+    const std::string home = other_home(word.text), name = quoted(word.text);
     const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
-    const std::string says =
-        is_of_cpp ? word_text + " is a name of C++, not " + home : "unknown name " + word_text;
+    const std::string says = is_of_cpp ? name + " is a name of C++, not " + home : "unknown name " + name;
     if (!is_of_cpp || !home.empty()) out_.error("E101", span_of(word), says, hint_for_word(word.text));
   }
 }

@@ -42,8 +42,10 @@ std::string drawn(const net::HierarchicalNet& net, net::PageId page) {
   }
 }
 
-bool is_ready(const std::shared_future<std::string>& picture, std::chrono::milliseconds patience) {
-  return picture.wait_for(patience) == std::future_status::ready;
+using Clock = std::chrono::steady_clock;
+
+bool is_ready(const std::shared_future<std::string>& picture, Clock::time_point latest) {
+  return picture.wait_until(latest) == std::future_status::ready;
 }
 
 }  // namespace
@@ -71,6 +73,7 @@ std::string Pictures::markdown(const std::string& uri, const std::string& text,
                                const language::PageName& name, PictureForm form,
                                std::chrono::milliseconds patience) {
   if (form == PictureForm::none || name.path.empty()) return {};
+  const Clock::time_point latest = Clock::now() + patience;
   const std::lock_guard lock(mutex_);
   const auto kept = kept_.find(uri);
   if (kept == kept_.end() || kept->second.text != text) return {};
@@ -81,10 +84,10 @@ std::string Pictures::markdown(const std::string& uri, const std::string& text,
   if (page.nodes.size() + page.transitions.size() > most_elements) return {};
   std::shared_future<std::string>& picture = kept->second.drawn[id.value];
   if (!picture.valid()) {
-    if (last_.valid() && !is_ready(last_, patience)) return {};
+    if (last_.valid() && !is_ready(last_, latest)) return {};
     last_ = picture = std::async(std::launch::async, [net, id] { return drawn(*net, id); }).share();
   }
-  if (!is_ready(picture, patience) || picture.get().empty()) return {};
+  if (!is_ready(picture, latest) || picture.get().empty()) return {};
   std::string source;
   if (form == PictureForm::embedded)
     source = "data:image/svg+xml," + escaped(picture.get());

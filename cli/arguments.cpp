@@ -4,13 +4,32 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include "cli/terminal.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::cli {
+
+namespace {
+
+/// Says what a value that is no number of that type should be.
+template <class Number>
+CLI::Option& checked(CLI::Option& option) {
+  option.check([](const std::string& text) -> std::string {
+    Number number{};
+    if (CLI::detail::lexical_cast(text, number)) return {};
+    if (std::is_floating_point_v<Number>) return fmt::format("'{}' is no number", text);
+    return fmt::format("'{}' is no whole number from {} to {}", text, std::numeric_limits<Number>::min(),
+                       std::numeric_limits<Number>::max());
+  });
+  return option;
+}
+
+}  // namespace
 
 Option& Option::required() {
   option_->required();
@@ -67,19 +86,19 @@ Option Subcommand::option(const std::string& names, std::vector<std::string>& va
 }
 
 Option Subcommand::option(const std::string& names, double& value, const std::string& help) {
-  return Option(*app_->add_option(names, value, help));
+  return Option(checked<double>(*app_->add_option(names, value, help)));
 }
 
 Option Subcommand::option(const std::string& names, std::uint64_t& value, const std::string& help) {
-  return Option(*app_->add_option(names, value, help));
+  return Option(checked<std::uint64_t>(*app_->add_option(names, value, help)));
 }
 
 Option Subcommand::option(const std::string& names, unsigned& value, const std::string& help) {
-  return Option(*app_->add_option(names, value, help));
+  return Option(checked<unsigned>(*app_->add_option(names, value, help)));
 }
 
 Option Subcommand::option(const std::string& names, int& value, const std::string& help) {
-  return Option(*app_->add_option(names, value, help));
+  return Option(checked<int>(*app_->add_option(names, value, help)));
 }
 
 Option Subcommand::flag(const std::string& names, bool& value, const std::string& help) {

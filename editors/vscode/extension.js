@@ -18,6 +18,7 @@ function adopt(document) {
 async function start() {
   const program = { command: command(), args: ["lsp"] };
   client = new LanguageClient("tessera", "Tessera", program, {
+    initializationOptions: { pictures: "embedded" },
     // Only files that are specifications: other YAML belongs to other extensions.
     documentSelector: [
       { scheme: "file", language: "tessera" },

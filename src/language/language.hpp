@@ -38,9 +38,16 @@ struct Proposal {
   std::string insert;
 };
 
+/// What a page of the net is called, and the line that describes it, counted from 1.
+struct PageName {
+  std::string path;
+  std::uint32_t line = 0;
+};
+
 struct Explanation {
   std::string markdown;
   Range range;
+  PageName page;  ///< of an agent, subsystem or behaviour; an empty path: it has none
 };
 
 struct TextEdit {

@@ -7,10 +7,13 @@
 
 namespace tessera::language_server {
 
-std::vector<diagnostics::Diagnostic> check(const std::string& name, const std::string& text) {
+Checked check(const std::string& name, const std::string& text) {
   diagnostics::Diagnostics out(name, text);
-  (void)project::draft_of(out);
-  return out.sorted();
+  project::Draft draft = project::draft_of(out);
+  Checked checked{out.sorted(), nullptr};
+  if (draft.nets.pages && !out.has_errors())
+    checked.pages = std::make_shared<const net::HierarchicalNet>(*std::move(draft.nets.pages));
+  return checked;
 }
 
 Checker::Checker(std::chrono::milliseconds delay, Told told)
@@ -60,7 +63,7 @@ void Checker::work() {
     checked_now_ = text.uri;
     forgotten_ = false;
     lock.unlock();
-    const std::vector<diagnostics::Diagnostic> found = check(text.uri, text.text);
+    const Checked found = check(text.uri, text.text);
     lock.lock();
     // A newer text follows, or nobody looks at it any more.
     if (!forgotten_ && !waiting_.contains(text.uri) && !ends_) told_(text, found);

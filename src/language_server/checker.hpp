@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -11,11 +12,17 @@
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
+#include "net/net.hpp"
 
 namespace tessera::language_server {
 
-/// The diagnostics of a text: those of project::draft_of, which `tessera check` finds too.
-[[nodiscard]] std::vector<diagnostics::Diagnostic> check(const std::string& name, const std::string& text);
+/// What is known of a text that was checked.
+struct Checked {
+  std::vector<diagnostics::Diagnostic>
+      found;  ///< those of project::draft_of, which `tessera check` finds too
+  std::shared_ptr<const net::HierarchicalNet> pages;  ///< nullptr: of a text with errors
+};
+[[nodiscard]] Checked check(const std::string& name, const std::string& text);
 
 /// Checks texts in a thread of its own, some time after they were changed for the last time.
 ///
@@ -27,7 +34,7 @@ class Checker {
     std::string text;
     std::int64_t version = 0;
   };
-  using Told = std::function<void(const Text&, const std::vector<diagnostics::Diagnostic>&)>;
+  using Told = std::function<void(const Text&, const Checked&)>;
   /// told: called by the thread; `delay`: of the check after a change.
   Checker(std::chrono::milliseconds delay, Told told);
   ~Checker();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "codegen/codegen.hpp"
 #include "language_server/session.hpp"
@@ -15,6 +16,8 @@ using nlohmann::json;
 namespace {
 
 constexpr int request_failed = -32803;
+/// A hover waits so long for a picture that is being drawn.
+constexpr std::chrono::milliseconds picture_patience{40};
 
 /// Markdown as plain text, for an editor that shows none.
 std::string plain(std::string text) {
@@ -72,6 +75,10 @@ json Session::hover(const json& parameters) {
     if (explanation) explanation->range = {about->position, about->position};
   }
   if (!explanation) return nullptr;
+  if (const std::string picture = pictures_.markdown(about->specification.uri, document.text(),
+                                                     explanation->page, pictures_form_, picture_patience);
+      !picture.empty())
+    explanation->markdown += "\n\n" + picture;
   json hover{{"contents",
               {{"kind", markdown_ ? "markdown" : "plaintext"},
                {"value", markdown_ ? explanation->markdown : plain(explanation->markdown)}}}};
@@ -133,7 +140,7 @@ json Session::code_actions(const json& parameters) {
   if (!specification || specification->uri != uri) return actions;
   const language::Document& document = *specification->document;
   const language::Range range = range_of(parameters.at("range"));
-  for (const language::Fix& fix : language::fixes(document, range, check(uri, document.text())))
+  for (const language::Fix& fix : language::fixes(document, range, check(uri, document.text()).found))
     actions.push_back(action_of(fix, uri));
   add_function_fixes(*specification, range, actions);
   return actions;

@@ -23,6 +23,12 @@ bool has(const json& object, std::initializer_list<const char*> keys) {
   return !at->is_boolean() || at->get<bool>();
 }
 
+/// Of the options that an editor may give: {"pictures": "embedded"}.
+PictureForm picture_form(const json& options) {
+  const json form = options.is_object() ? options.value("pictures", json()) : json();
+  return form == "embedded" ? PictureForm::embedded : form == "none" ? PictureForm::none : PictureForm::file;
+}
+
 }  // namespace
 
 Session::Session(Connection& connection, const language::Grammar& grammar)
@@ -38,9 +44,7 @@ Session::Session(Connection& connection, const language::Grammar& grammar)
                 {"textDocument/documentSymbol", &Session::symbols}},
       grammar_(grammar),
       checker_(check_delay,
-               [this](const Checker::Text& text, const std::vector<diagnostics::Diagnostic>& found) {
-                 publish(text, found);
-               }) {}
+               [this](const Checker::Text& text, const Checked& checked) { publish(text, checked); }) {}
 
 std::optional<int> Session::handle(const Connection::Incoming& incoming) {
   const json& message = incoming.message;
@@ -123,6 +127,7 @@ json Session::initialize(const json& parameters) {
     const json& formats = abilities["textDocument"]["hover"]["contentFormat"];
     markdown_ = formats.is_array() && std::find(formats.begin(), formats.end(), "markdown") != formats.end();
   }
+  if (markdown_) pictures_form_ = picture_form(parameters.value("initializationOptions", json()));
   initialized_ = true;
   return {{"capabilities",
            {{"positionEncoding", "utf-16"},
@@ -171,6 +176,7 @@ void Session::did_close(const json& parameters) {
 void Session::take_back(const std::string& uri) {
   if (checked_.erase(uri) == 0) return;
   checker_.forget(uri);
+  pictures_.forget(uri);
   connection_.write({{"jsonrpc", "2.0"},
                      {"method", "textDocument/publishDiagnostics"},
                      {"params", {{"uri", uri}, {"diagnostics", json::array()}}}});
@@ -182,10 +188,11 @@ void Session::check_later(const Workspace::Open& document) {
   checker_.changed({document.uri, document.text, document.version});
 }
 
-void Session::publish(const Checker::Text& text, const std::vector<diagnostics::Diagnostic>& found) {
+void Session::publish(const Checker::Text& text, const Checked& checked) {
+  pictures_.keep(text.uri, text.text, checked.pages);
   const language::Document document(text.text, grammar_);
   json list = json::array();
-  for (const diagnostics::Diagnostic& one : found) list.push_back(to_json(one, document));
+  for (const diagnostics::Diagnostic& one : checked.found) list.push_back(to_json(one, document));
   connection_.write(
       {{"jsonrpc", "2.0"},
        {"method", "textDocument/publishDiagnostics"},

@@ -10,6 +10,7 @@
 
 #include "language_server/checker.hpp"
 #include "language_server/connection.hpp"
+#include "language_server/pictures.hpp"
 #include "language_server/wire.hpp"
 #include "language_server/workspace.hpp"
 
@@ -45,7 +46,7 @@ class Session {
   void did_close(const json& parameters);
   void check_later(const Workspace::Open& document);
   void take_back(const std::string& uri);
-  void publish(const Checker::Text& text, const std::vector<diagnostics::Diagnostic>& found);
+  void publish(const Checker::Text& text, const Checked& checked);
 
   json completion(const json& parameters);
   json hover(const json& parameters);
@@ -73,6 +74,8 @@ class Session {
   EditAbilities edits_;
   std::set<std::string> checked_;  ///< texts whose mistakes the editor may show
   bool markdown_ = false;
+  PictureForm pictures_form_ = PictureForm::none;
+  Pictures pictures_;
   bool initialized_ = false;
   bool shut_down_ = false;
   const language::Grammar& grammar_;

@@ -53,9 +53,9 @@ fs::path path_of(const std::string& uri) {
   return path;
 }
 
-std::string uri_of(const fs::path& path) {
-  std::string uri = "file://";
-  for (const char c : path.string()) {
+std::string escaped(std::string_view text) {
+  std::string uri;
+  for (const char c : text) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                        std::string_view("/-._~").find(c) != std::string_view::npos;
     if (plain) {
@@ -68,6 +68,8 @@ std::string uri_of(const fs::path& path) {
   }
   return uri;
 }
+
+std::string uri_of(const fs::path& path) { return "file://" + escaped(path.string()); }
 
 bool Workspace::is_specification(const fs::path& file, const std::string& text) const {
   if (is_code(file)) return false;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "language/language.hpp"
@@ -13,6 +14,8 @@ namespace tessera::language_server {
 
 /// "/home/me/spec.yaml" of "file:///home/me/spec.yaml"; empty: it is no file.
 [[nodiscard]] std::filesystem::path path_of(const std::string& uri);
+/// With %20 for a blank: what is no letter, digit or one of "/-._~" as its bytes.
+[[nodiscard]] std::string escaped(std::string_view text);
 [[nodiscard]] std::string uri_of(const std::filesystem::path& path);
 
 /// The texts that the editor has open, and the files of their projects.

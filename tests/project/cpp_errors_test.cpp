@@ -6,6 +6,7 @@
 
 #include "folder.hpp"
 #include "project/build/build_errors.hpp"
+#include "project/build/cmake_errors.hpp"
 #include "project/build/controller.hpp"
 #include "project/process/process.hpp"
 
@@ -104,6 +105,9 @@ constexpr auto statements = std::to_array<const char*>({
     "return 3;",
     "out.motion.linear = context.parameters.speed.value;",
     "hlper(3);",
+    "memory.count = 1\n  const double speed = double{context.parameters.speed};\n  out.motion = {speed, 0};",
+    "if (in.line.left) {\n    const double speed = 1;\n  }\n  out.motion.linear = speed;",
+    "if (in.line.left) {",
 });
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -244,16 +248,87 @@ TEST_F(CppErrors, OfCMake) {
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24) << text;
 }
 
+/// What CMake, the compiler and the linker refuse of a user's project.cmake.
+TEST_F(CppErrors, OfTheUsersCMake) {
+  prepare("in.line.left");
+  const std::string user_file = (folder_ / "project/project.cmake").string();
+  write("project/.tessera/generated/CMakeLists.txt",
+        "cmake_minimum_required(VERSION 3.25)\nproject(any LANGUAGES NONE)\nadd_library(project "
+        "INTERFACE)\ninclude(" +
+            user_file + ")\n");
+  write("project/main.cpp", "int main() {}\n");
+  std::string all;
+  const auto tell = [&](const std::string& lines, const std::string& said) {
+    EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 24) << said;
+    all += "=== " + lines + "\n" + said;
+  };
+  const std::string in_project = "cd " + (folder_ / "project").string() + " && LC_ALL=C.UTF-8 ";
+  for (const char* lines :
+       {"target_link_librares(project INTERFACE m)", "tell_me(project)", "find_package(Eigen33 REQUIRED)",
+        "target_link_libraries(project INTERFACE m", "target_link_libraries(projct INTERFACE m)",
+        "include(${CMAKE_CURRENT_LIST_DIR}/more.cmake)", "target_link_libraries(project PRIVATE m)"}) {
+    write("project/project.cmake", "# libraries\n" + std::string(lines) + "\n");
+    const project::Exit done = shell(in_project + "cmake -S .tessera/generated -B build");
+    EXPECT_NE(done.code, 0) << lines;
+    std::string said = project::explain_cmake_errors(done.text, folder_ / "project");
+    for (std::size_t at = said.find(folder_.string()); at != std::string::npos;
+         at = said.find(folder_.string()))
+      said.replace(at, folder_.string().size(), "FOLDER");
+    tell(lines, said);
+  }
+  const struct {
+    const char *lines, *flags;
+  } refused[]{
+      {"target_link_libraries(project INTERFACE nolib)", "-lnolib"},
+      {"target_link_libraries(project INTERFACE m\n  -lnolib)  # nolib", "-lnolib"},
+      {"target_link_options(project INTERFACE -Wl,--fooo)", "-Wl,--fooo"},
+      {"target_compile_options(project INTERFACE -mfoo)", "-mfoo"},
+      {"target_compile_options(project INTERFACE -Wall -Wshadw)", "-Wall -Wshadw"},
+      {"target_compile_options(project INTERFACE -march=fast)", "-march=fast"},
+      {"# target_compile_options(project INTERFACE -mfoo)", "-mfoo"},
+  };
+  for (const auto& one : refused) {
+    write("project/project.cmake", "# libraries\n" + std::string(one.lines) + "\n");
+    // As often as a build has sources.
+    const std::string compile = "g++ -o main main.cpp " + std::string(one.flags);
+    const project::Exit done = shell(in_project + "sh -c '" + compile + "; " + compile + "'");
+    EXPECT_NE(done.code, 0) << one.lines;
+    tell(one.lines, explained(done.text));
+  }
+  write("project/project.cmake", "target_link_libraries(project INTERFACE /nowhere/libx.a)\n");
+  tell("a file that is not there",
+       explained(
+           "ninja: error: '/nowhere/libx.a', needed by 'rover', missing and no known rule to make it\n"));
+  fs::remove(folder_ / "project/project.cmake");
+  EXPECT_TRUE(
+      explained("/usr/bin/ld: cannot find -lnolib\n").starts_with("/usr/bin/ld: cannot find -lnolib\n"));
+  expect_golden("cmake.expected", all);
+}
+
 /// Other parameters make another function, which only the linker notices.
 TEST_F(CppErrors, OfTheLinker) {
   prepare("in.line.left");
-  write("project/src/control.cpp", with(with(function, "HERE", ""), ", Memory& memory", ""));
-  EXPECT_EQ(explained("/usr/bin/ld: system.a(robot.control.cpp.o): in function `x':\nundefined reference to "
-                      "`rover::robot::control::follow(rover::robot::control::Context&)'\n"
-                      "collect2: error: ld returned 1 exit status\n"),
-            "src/control.cpp:5: error E507: the function 'follow' of robot.control has other parameters\n"
-            "hint: write void follow(Context& context, const Inputs& in, Memory& memory, Outputs& out)\n"
+  const struct {
+    const char *from, *to, *found;
+  } cases[]{
+      {", Memory& memory", "", "void follow(Context& context, const Inputs& in, Outputs& out)"},
+      {"Context& context, ", "Context context,\n  ",
+       "void follow(Context context, const Inputs& in, Memory& memory, Outputs& out)"},
+      {"const Inputs& in", "Inputs in",
+       "void follow(Context& context, Inputs in, Memory& memory, Outputs& out)"},
+  };
+  for (const auto& one : cases) {
+    write("project/src/control.cpp", with(with(function, "HERE", ""), one.from, one.to));
+    EXPECT_EQ(
+        explained("/usr/bin/ld: system.a(robot.control.cpp.o): in function `x':\nundefined reference to "
+                  "`rover::robot::control::follow(rover::robot::control::Context&)'\n"
+                  "collect2: error: ld returned 1 exit status\n"),
+        "src/control.cpp:5: error E507: the function 'follow' of robot.control has other parameters\n"
+        "found:  " +
+            std::string(one.found) +
+            "\nwanted: void follow(Context& context, const Inputs& in, Memory& memory, Outputs& out)\n"
             "the whole output of the compiler: compiler.log\n");
+  }
 }
 
 }  // namespace

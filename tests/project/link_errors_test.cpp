@@ -61,6 +61,22 @@ TEST_F(LinkErrors, AFunctionIsAddedWhereItsSubsystemIs) {
   EXPECT_EQ(files(), (std::set<std::string>{"src/control.cpp", "src/motor.cpp"}));
 }
 
+TEST_F(LinkErrors, AFunctionWithNearlyItsNameIsShown) {
+  write("src/robot.cpp",
+        "namespace rover::robot::control {\nvoid helper(int n) {}\nvoid folow(Context& c) {}\n"
+        "void init(Context& c) {}\n}\nvoid rover::robot::motor::int1(Context c) {}\n");
+  const TransitionFunctions functions(folder_, wanted);
+  EXPECT_EQ(functions.presence(wanted[1]), Presence::missing);
+  const std::string told = missing_text(wanted[1], functions);
+  EXPECT_TRUE(told.starts_with(
+      "src/robot.cpp:3: error: robot.control has no function 'follow'\n"
+      "hint: did you mean 'folow' at src/robot.cpp:3? Then call it 'follow'; else add it (or run "
+      "`tessera generate --stubs`):\n\nvoid follow(Context& context) {}\n"))
+      << told;
+  // Also if its arguments are wrong too.
+  EXPECT_TRUE(missing_text(wanted[2], functions).starts_with("src/robot.cpp:6: error: robot.motor has no "));
+}
+
 TEST_F(LinkErrors, LinkersAreExplained) {
   write("src/one.cpp", "namespace rover::robot::control {\nvoid follow(Context& c) {}\n}\n");
   write("src/two.cpp", "\n\nvoid rover::robot::control::follow(Context& c) {}\n");

@@ -54,6 +54,33 @@ TEST(SourceScan, FindsFunctionsInTheirNamespaces) {
   for (const auto& one : cases) EXPECT_EQ(found(one.text), one.functions) << one.text;
 }
 
+TEST(SourceScan, KnowsBodiesAndFunctionsWithOtherArguments) {
+  const project::SourceScan scan = project::scan_source(
+      "namespace a {\nvoid f(Context c, // copied\n  int n) {\n  if (n) {\n  }\n}\nstruct S {\n};\n}\nvoid "
+      "g() {\n");
+  ASSERT_EQ(scan.others.size(), 2U);
+  EXPECT_EQ(scan.others[0].heading, "void f(Context c, int n)");
+  EXPECT_EQ(scan.others[0].line, 2U);
+  ASSERT_EQ(scan.bodies.size(), 3U);
+  EXPECT_EQ(scan.bodies[0].first, 3U);
+  EXPECT_EQ(scan.bodies[0].last, 6U);
+  EXPECT_EQ(scan.bodies[1].last, 8U);
+  EXPECT_EQ(scan.bodies[2].last, 11U) << "one that is not closed";
+}
+
+TEST(SourceScan, FindsDeclarationsInTheSameBody) {
+  const std::string text =
+      "void f(int n) {\n  { double speed = 1; }\n  std::vector<int> all{};\n  return n > less;\n}\n"
+      "void g() {\n  int other;\n  x(speed, all, less, other);\n}\n";
+  EXPECT_EQ(project::declaration_before(text, "speed", 4), 2U);
+  EXPECT_EQ(project::declaration_before(text, "all", 4), 3U);
+  EXPECT_EQ(project::declaration_before(text, "less", 5), 0U);
+  EXPECT_EQ(project::declaration_before(text, "speed", 8), 0U) << "of another function";
+  EXPECT_EQ(project::declaration_before(text, "other", 8), 7U);
+  EXPECT_EQ(project::declaration_before(text, "other", 7), 0U);
+  EXPECT_EQ(project::declaration_before("", "other", 7), 0U);
+}
+
 TEST(SourceScan, KnowsWordsThatMayMakeAFunction) {
   const project::SourceScan scan = project::scan_source(
       "#include \"robot/control.hpp\"\n#define MAKE(name) void name(Context& c)\n"

@@ -75,6 +75,9 @@ std::optional<Explanation> explain(const Document& document, Position position) 
   if (const Use* use = document.index().at(offset)) {
     explanation.markdown = about(document, use->symbol);
     explanation.range = document.lines().range(use->extent);
+    const Symbol& symbol = document.index()[use->symbol];
+    if (symbol.kind == Kind::behaviour || symbol.kind == Kind::subsystem || symbol.kind == Kind::agent)
+      explanation.page = {symbol.path, document.lines().position(symbol.definition.begin).line + 1};
   }
   if (place && place->key != nullptr) {
     Way way = place->way;

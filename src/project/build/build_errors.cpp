@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
+#include "project/build/cmake_errors.hpp"
 #include "project/build/compiler_messages.hpp"
 #include "project/build/cpp_mistakes.hpp"
 #include "project/files/files.hpp"
@@ -59,9 +62,11 @@ class Explanation {
     if (!shown || (count_ > 0 && !is_of_user(shown->file.string()))) return;
     // Two conditions may stand in one line of the specification.
     const bool is_specification = shown->file == context_.specification.file;
+    if (!is_specification && follows_from_punctuation(*shown)) return;
     const std::string place = fmt::format("{}:{}:{}", shown->file.string(), shown->span.line,
                                           is_specification ? shown->span.column : 0);
     if (!seen_.insert(place).second) return;
+    if (!is_specification && shown->mistake.code == "E508") note_misread(*shown);
     if (++count_ > most_mistakes) return;
     text_ += rendered(*shown);
   }
@@ -79,6 +84,26 @@ class Explanation {
     diagnostics::Span span;
     CppMistake mistake;
   };
+
+  /// Lines that the compiler has read wrongly, because a `;` or a bracket is missing before them.
+  struct Misread {
+    fs::path file;
+    std::uint32_t first = 0, last = 0;
+  };
+
+  [[nodiscard]] bool follows_from_punctuation(const Shown& shown) const {
+    return std::ranges::any_of(misread_, [&](const Misread& one) {
+      return one.file == shown.file && one.first <= shown.span.line && shown.span.line <= one.last;
+    });
+  }
+
+  /// The rest of the function; outside of functions the rest of the file.
+  void note_misread(const Shown& shown) {
+    Misread rest{shown.file, shown.span.line, UINT32_MAX};
+    for (const ScannedBody& body : scan_source(content_of(shown.file)).bodies)
+      if (body.first <= shown.span.line && shown.span.line <= body.last) rest.last = body.last;
+    misread_.push_back(std::move(rest));
+  }
 
   [[nodiscard]] bool is_of_user(const std::string& file) const {
     const fs::path path = fs::path(file).lexically_normal();
@@ -113,13 +138,13 @@ class Explanation {
       if (error.text.starts_with("drivers.hpp:"))
         return of_driver("", "",
                          {"E504", "src/drivers.hpp is missing: it has the classes of the drivers",
-                          "docs/drivers.md shows how to write one"});
+                          fmt::format("write it, with #include <tessera/device.hpp>: {}", driver_rule)});
       const diagnostics::Diagnostics source(place.file, content_of(place.file));
       const std::string_view line = source.line(place.line);
       if (const auto alias = driver_alias(line))
         return of_driver(*alias, "",
                          {"E505", fmt::format("there is no class {} in src/drivers.hpp", *alias),
-                          "docs/drivers.md shows how to write one; a class in a namespace is named with it"});
+                          fmt::format("{}; a class in a namespace is named with it", driver_rule)});
       // Of a driver that does not fit, other errors follow.
       const auto row = driver_row(line);
       if (!row || !error.text.starts_with("static assertion failed")) continue;
@@ -162,6 +187,7 @@ class Explanation {
   std::string text_;
   std::size_t count_ = 0;
   std::set<std::string> seen_;
+  std::vector<Misread> misread_;
 };
 
 /// The first lines of a text that is not understood.
@@ -198,10 +224,13 @@ std::string explain_build(std::string_view output, const BuildContext& context) 
   Explanation explanation(context);
   for (const CompilerError& error : read_compiler_errors(output)) explanation.add(error);
   std::string text = explanation.text();
-  if (explanation.count() == 0)
-    text = beginning(explain_build_errors(without_commands(output), context.functions), 20);
-  else
+  if (explanation.count() > 0)
     text += misplaced_functions(context.functions);
+  else if (const std::string refused = explain_refused_words(output, context.specification.project);
+           !refused.empty())
+    text = refused;
+  else
+    text = beginning(explain_build_errors(without_commands(output), context.functions), 20);
   return text + whole_output(context.log);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace tessera::project {
 
@@ -15,5 +16,13 @@ inline constexpr const char* user_build_file = "project.cmake";
 ///
 /// text: all output of CMake.
 [[nodiscard]] std::string explain_cmake_errors(const std::string& text, const std::filesystem::path& project);
+
+/// Explains which libraries and options of project.cmake the compiler or the linker refused: each once, at the
+/// line that has it (E511). A word that stands nowhere in the file is told without a line. Empty: nothing was
+/// refused, or the project has no such file.
+///
+/// output: of g++ or clang, and of GNU ld, gold, lld or mold.
+[[nodiscard]] std::string explain_refused_words(std::string_view output,
+                                                const std::filesystem::path& project);
 
 }  // namespace tessera::project

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "project/build/source_scan.hpp"
 #include "project/build/standard_headers.hpp"
+#include "project/files/files.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::project {
@@ -218,6 +220,9 @@ class Meaning {
   }
 
   [[nodiscard]] std::string hint_for_name(const std::string& name) const {
+    if (const std::uint32_t line = declaration_before(content_of(error_.at.file), name, error_.at.line);
+        line > 0)
+      return fmt::format("the '{}' of line {} ends with its block: declare it before that block", name, line);
     const auto holds = [&](const auto& all) {
       return std::ranges::any_of(all, [&](const auto& one) { return one.name == name; });
     };
@@ -324,19 +329,23 @@ class Meaning {
     }
     if (has_one(text_, {"but does not override", "only virtual member functions can be marked",
                         "conflicting return type", "different return type", "invalid covariant return type"}))
-      return CppMistake{
-          "E505", simple(text_),
-          "a receptor has `std::optional<T> read() override`, an effector `bool write(const T&) "
-          "override`; T is the type of the real buffer"};
-    if (has(text_, "abstract class"))
-      return CppMistake{"E505", simple(text_), "docs/drivers.md lists what a driver needs"};
+      return CppMistake{"E505", simple(text_), driver_rule};
+    if (has(text_, "abstract class")) return CppMistake{"E505", simple(text_), driver_rule};
     return std::nullopt;
   }
 
   [[nodiscard]] std::optional<CppMistake> punctuation() const {
     if (!text_.starts_with("expected ")) return std::nullopt;
-    const bool semicolon = text_.starts_with("expected ';'") || text_.starts_with("expected ',' or ';'");
-    return CppMistake{"E508", simple(text_), semicolon ? "end the statement with ;" : ""};
+    std::string hint;
+    if (text_.starts_with("expected ';'") || text_.starts_with("expected ',' or ';'"))
+      hint = "end the statement with ;";
+    // The places of the notes are the last ones.
+    const std::size_t before = error_.reached.size() - std::min(error_.reached.size(), error_.notes.size());
+    for (std::size_t i = 0; i < error_.notes.size() && before + i < error_.reached.size(); ++i)
+      if (error_.notes[i].starts_with("to match this '"))
+        hint = fmt::format("a {} from line {} on is not closed", error_.notes[i].substr(15, 1),
+                           error_.reached[before + i].line);
+    return CppMistake{"E508", simple(text_), hint};
   }
 
   const CompilerError& error_;

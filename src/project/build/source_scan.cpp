@@ -1,6 +1,7 @@
 #include "project/build/source_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace tessera::project {
@@ -168,6 +169,20 @@ std::vector<Token> tokens_of(std::string_view text) {
   return tokens;
 }
 
+/// Whether a name between these words is declared there: "double NAME =", "std::vector<int> NAME{".
+bool declares(std::string_view before, std::string_view behind) {
+  constexpr std::array no_types =
+      std::to_array<std::string_view>({"return", "else", "do", "throw", "new", "delete", "goto", "case",
+                                       "and", "or", "not", "using", "co_return", "co_await", "co_yield"});
+  if (behind == "=" || behind == "{") {
+    if (before == ">" || before == "&" || before == "*") return true;
+  } else if (behind != ";" && behind != "(" && behind != "," && behind != ")" && behind != ":" &&
+             behind != "[") {
+    return false;
+  }
+  return in_name(before.front()) && std::ranges::find(no_types, before) == no_types.end();
+}
+
 std::string joined(const std::string& outer, const std::string& inner) {
   return outer.empty() || inner.empty() ? outer + inner : outer + "::" + inner;
 }
@@ -184,12 +199,13 @@ class Walk {
       if (token == "namespace")
         enter_namespace();
       else if (token == "{")
-        scopes_.push_back({"", at_ > 0 && tokens_[at_ - 1].text == "extern"});
+        enter();
       else if (token == "}")
         leave();
       else if ((token == "void" || token == "auto") && only_namespaces())
         look_for_function();
     }
+    if (!only_namespaces()) scan_.bodies.back().last = line_of(text_.size());
   }
 
  private:
@@ -220,10 +236,21 @@ class Walk {
     scopes_.push_back({name.empty() ? "(unnamed)" : name, true});
     at_ = next;
   }
+  void enter() {
+    const bool is_linkage = at_ > 0 && tokens_[at_ - 1].text == "extern";
+    if (!is_linkage && only_namespaces()) scan_.bodies.push_back({line_of(tokens_[at_].at), 0});
+    scopes_.push_back({"", is_linkage});
+  }
   void leave() {
     if (scopes_.empty()) return;
     if (scopes_.back().is_namespace) scan_.ends[space()] = tokens_[at_].at;
+    const bool was_inside = !only_namespaces();
     scopes_.pop_back();
+    if (was_inside && only_namespaces()) scan_.bodies.back().last = line_of(tokens_[at_].at);
+  }
+  [[nodiscard]] std::uint32_t line_of(std::size_t position) const {
+    return static_cast<std::uint32_t>(
+        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
   }
   /// The index after `)` at `index` and its specifiers.
   [[nodiscard]] std::size_t after_parentheses(std::size_t index) const {
@@ -242,16 +269,24 @@ class Walk {
       path = joined(path, name);
       name = token(next);
     }
-    if (name.empty() || token(next) != "(" || !takes_context(next + 1)) return;
+    if (name.empty() || token(next) != "(") return;
     std::size_t end = after_parentheses(next);
     while (end < tokens_.size() && token(end) != "{" && token(end) != ";" && token(end) != "}" &&
            token(end) != "=")
       ++end;
     if (token(end) != "{") return;
-    const std::size_t position = tokens_[next - 1].at;
-    const auto line =
-        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(position), '\n');
-    scan_.functions.push_back({name, joined(space(), path), static_cast<std::uint32_t>(line)});
+    (takes_context(next + 1) ? scan_.functions : scan_.others)
+        .push_back({name, joined(space(), path), line_of(tokens_[next - 1].at), in_one_line(at_, end)});
+  }
+  /// The text of the tokens from `begin` to before `end`.
+  [[nodiscard]] std::string in_one_line(std::size_t begin, std::size_t end) const {
+    std::string line;
+    for (std::size_t index = begin; index < end; ++index) {
+      const Token& one = tokens_[index];
+      const bool touches = index == begin || tokens_[index - 1].at + tokens_[index - 1].text.size() == one.at;
+      line += (touches ? "" : " ") + std::string(one.text);
+    }
+    return line;
   }
   [[nodiscard]] bool takes_context(std::size_t index) const {
     std::string_view last;
@@ -275,6 +310,28 @@ SourceScan scan_source(const std::string& text) {
   Directives(text, blanked, scan).take_out();
   Walk(blanked, scan).walk();
   return scan;
+}
+
+std::uint32_t declaration_before(const std::string& text, std::string_view name, std::uint32_t line) {
+  const std::vector<ScannedBody> bodies = scan_source(text).bodies;
+  const auto body = std::ranges::find_if(
+      bodies, [&](const ScannedBody& one) { return one.first <= line && line <= one.last; });
+  if (body == bodies.end()) return 0;
+  const std::string blanked = Blanker(text).blanked();
+  const std::vector<Token> tokens = tokens_of(blanked);
+  std::uint32_t at_line = 1, found = 0;
+  std::size_t counted = 0;
+  for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
+    at_line += static_cast<std::uint32_t>(
+        std::count(blanked.begin() + static_cast<std::ptrdiff_t>(counted),
+                   blanked.begin() + static_cast<std::ptrdiff_t>(tokens[at].at), '\n'));
+    counted = tokens[at].at;
+    if (at_line >= line) break;
+    if (at > 0 && at_line >= body->first && tokens[at].text == name &&
+        declares(tokens[at - 1].text, tokens[at + 1].text))
+      found = at_line;
+  }
+  return found;
 }
 
 }  // namespace tessera::project

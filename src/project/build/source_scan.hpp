@@ -8,18 +8,26 @@
 
 namespace tessera::project {
 
-/// A function with a body that takes a Context as its first argument, as transition functions do.
+/// A function with a body that returns nothing, or says so behind its arguments.
 struct ScannedFunction {
   std::string name;
   /// "rover::robot::control": the namespaces around it, and those written before its name
   std::string space;
   std::uint32_t line = 0;
+  std::string heading;  ///< "void follow(Context& context)"; on one line, without comments
+};
+
+/// Lines from the opening to the closing brace.
+struct ScannedBody {
+  std::uint32_t first = 0, last = 0;
 };
 
 /// The contents of a C++ file, as far as its text shows them. Comments and literals do not count; macros are
 /// not expanded; all branches of `#if` count except those of `#if 0`.
 struct SourceScan {
-  std::vector<ScannedFunction> functions;
+  std::vector<ScannedFunction> functions;  ///< their first argument is a Context&, as in transition functions
+  std::vector<ScannedFunction> others;     ///< with other arguments
+  std::vector<ScannedBody> bodies;         ///< of functions and classes, without those inside of them
   std::map<std::string, std::size_t> ends;  ///< for each namespace, where its last block is closed
   /// number of occurrences of identifiers outside of bodies and in macros
   std::map<std::string, std::size_t> words;
@@ -28,5 +36,9 @@ struct SourceScan {
 };
 
 [[nodiscard]] SourceScan scan_source(const std::string& text);
+
+/// The line before `line`, in the same body, that declares a variable or an argument of that name. 0: there is none.
+[[nodiscard]] std::uint32_t declaration_before(const std::string& text, std::string_view name,
+                                               std::uint32_t line);
 
 }  // namespace tessera::project

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <iterator>
 #include <set>
 #include <utility>
 
 #include "project/files/files.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::project {
 
@@ -92,7 +94,7 @@ std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions(
   for (const auto& [file, scan] : scans_)
     for (const ScannedFunction& function : scan.functions)
       if (function.name == stub.function && function.space == stub.space)
-        found.push_back({shown(file), function.line, function.space});
+        found.push_back(definition(file, function));
   return found;
 }
 
@@ -101,8 +103,7 @@ std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_el
   std::vector<Definition> found;
   for (const auto& [file, scan] : scans_)
     for (const ScannedFunction& function : scan.functions)
-      if (function.name == stub.function && !is_wanted(function))
-        found.push_back({shown(file), function.line, function.space});
+      if (function.name == stub.function && !is_wanted(function)) found.push_back(definition(file, function));
   return found;
 }
 
@@ -112,6 +113,36 @@ std::vector<std::string> TransitionFunctions::leftovers(const codegen::Stub& stu
     for (const ScannedFunction& function : scan.functions)
       if (function.space == stub.space && !is_wanted(function)) found.insert(function.name);
   return {found.begin(), found.end()};
+}
+
+std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_with_other_arguments(
+    const codegen::Stub& stub) const {
+  std::vector<Definition> found;
+  for (const auto& [file, scan] : scans_)
+    for (const ScannedFunction& function : scan.others)
+      if (function.name == stub.function && function.space == stub.space)
+        found.push_back(definition(file, function));
+  return found;
+}
+
+std::optional<TransitionFunctions::Definition> TransitionFunctions::nearly(const codegen::Stub& stub) const {
+  std::vector<Definition> candidates;
+  std::vector<std::string> names;
+  for (const auto& [file, scan] : scans_)
+    for (const std::vector<ScannedFunction>& all : {scan.functions, scan.others})
+      for (const ScannedFunction& function : all) {
+        if (function.space != stub.space || is_wanted(function)) continue;
+        candidates.push_back(definition(file, function));
+        names.push_back(function.name);
+      }
+  const std::string name = nearest(stub.function, names);
+  const auto found = std::ranges::find(candidates, name, &Definition::name);
+  return found == candidates.end() ? std::nullopt : std::optional(*found);
+}
+
+TransitionFunctions::Definition TransitionFunctions::definition(const fs::path& file,
+                                                                const ScannedFunction& function) const {
+  return {shown(file), function.line, function.space, function.name, function.heading};
 }
 
 fs::path TransitionFunctions::file_for(const codegen::Stub& stub) const {
@@ -200,13 +231,16 @@ std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& fun
   return text + "hint: keep one of them; every source in src/ is part of the controller\n";
 }
 
-/// A function of that name is there, but the linker does not take it.
+/// What is said of a function of that name that is there, but that the linker does not take; empty: there is none.
 std::string other_parameters_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
+  std::vector<TransitionFunctions::Definition> all = functions.definitions(stub);
+  std::ranges::move(functions.definitions_with_other_arguments(stub), std::back_inserter(all));
   std::string text;
-  for (const auto& definition : functions.definitions(stub))
-    text += fmt::format("{}:{}: error E507: the function '{}' of {} has other parameters\n",
-                        definition.file.string(), definition.line, stub.function, stub.subsystem);
-  return text + fmt::format("hint: write {}\n", stub.signature);
+  for (const auto& definition : all)
+    text += fmt::format("{}:{}: error E507: the function '{}' of {} has other parameters\nfound:  {}\n",
+                        definition.file.string(), definition.line, stub.function, stub.subsystem,
+                        definition.heading);
+  return text.empty() ? text : text + fmt::format("wanted: {}\n", stub.signature);
 }
 
 }  // namespace
@@ -214,10 +248,15 @@ std::string other_parameters_text(const codegen::Stub& stub, const TransitionFun
 std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
   const fs::path home = functions.file_for(stub);
   const bool is_new = !functions.knows(home);
-  return fmt::format(
-      "{}: error: {} has no function '{}'\n{}hint: add it (or run `tessera generate --stubs`):\n\n{}\n",
-      home.string(), stub.subsystem, stub.function, notes_of(functions.definitions_elsewhere(stub), stub),
-      is_new ? whole_file(stub) : stub.body);
+  std::string place = home.string(), hint = "add it (or run `tessera generate --stubs`)";
+  if (const auto near = functions.nearly(stub)) {
+    place = fmt::format("{}:{}", near->file.string(), near->line);
+    hint = fmt::format("did you mean '{}' at {}? Then call it '{}'; else {}", near->name, place,
+                       stub.function, hint);
+  }
+  return fmt::format("{}: error: {} has no function '{}'\n{}hint: {}:\n\n{}\n", place, stub.subsystem,
+                     stub.function, notes_of(functions.definitions_elsewhere(stub), stub), hint,
+                     is_new ? whole_file(stub) : stub.body);
 }
 
 std::string misplaced_functions(const TransitionFunctions& functions) {
@@ -250,9 +289,10 @@ std::string explain_build_errors(const std::string& text, const TransitionFuncti
   }
   if (missing.empty() && twice.empty()) return text + misplaced_functions(functions);
   std::string explanation;
-  for (const std::size_t stub : missing)
-    explanation += functions.definitions(all[stub]).empty() ? missing_text(all[stub], functions)
-                                                            : other_parameters_text(all[stub], functions);
+  for (const std::size_t stub : missing) {
+    const std::string other = other_parameters_text(all[stub], functions);
+    explanation += other.empty() ? missing_text(all[stub], functions) : other;
+  }
   for (const std::size_t stub : twice) explanation += twice_text(all[stub], functions);
   return explanation + (more ? rest : "");
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class TransitionFunctions {
     std::filesystem::path file;  ///< relative to the project, where it is in it
     std::uint32_t line = 0;
     std::string space;
+    std::string name, heading;
   };
   /// Where it is defined.
   [[nodiscard]] std::vector<Definition> definitions(const codegen::Stub& stub) const;
@@ -41,6 +43,10 @@ class TransitionFunctions {
   [[nodiscard]] std::vector<Definition> definitions_elsewhere(const codegen::Stub& stub) const;
   /// Names of functions in its namespace that no behaviour has: most likely those of behaviours that had other names.
   [[nodiscard]] std::vector<std::string> leftovers(const codegen::Stub& stub) const;
+  /// Functions of its name in its namespace whose arguments are not those of a transition function.
+  [[nodiscard]] std::vector<Definition> definitions_with_other_arguments(const codegen::Stub& stub) const;
+  /// A function in its namespace that no behaviour or condition has, and whose name is nearly its.
+  [[nodiscard]] std::optional<Definition> nearly(const codegen::Stub& stub) const;
   /// The file where it would be added: where the others of its subsystem are, else that of the stub.
   [[nodiscard]] std::filesystem::path file_for(const codegen::Stub& stub) const;
   /// It is one of the sources.
@@ -58,6 +64,8 @@ class TransitionFunctions {
   [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
 
   [[nodiscard]] bool is_wanted(const ScannedFunction& function) const;
+  [[nodiscard]] Definition definition(const std::filesystem::path& file,
+                                      const ScannedFunction& function) const;
   std::filesystem::path project_;
   std::vector<codegen::Stub> wanted_;
   std::map<std::filesystem::path, SourceScan> scans_;
@@ -68,7 +76,7 @@ class TransitionFunctions {
 [[nodiscard]] std::string with_function(std::string text, const codegen::Stub& stub);
 
 /// "src/control.cpp: error: robot.control has no function 'rest'", with what to write
-/// there and what may be meant.
+/// there and what may be meant: a function with nearly that name, or one in another namespace.
 [[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
 
 /// Where functions may be in the wrong namespace; one line each.

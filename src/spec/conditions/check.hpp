@@ -15,7 +15,7 @@ namespace tessera::spec {
 /// others: names of conditions, which an expression cannot name.
 /// Errors: E101 a name that does not exist; E204 an element that an array does not have; E209 an operator is
 ///         missing or misspelt; E212 operands that do not go together, or no truth value.
-/// Warnings: W325 numbers of different units.
+/// Warnings: W325 numbers of different units; W326 a number as true or false.
 void check_expression(Expression& expression, const Node& text, const ConditionScope& scope,
                       const std::vector<std::string>& others, Diagnostics& out);
 

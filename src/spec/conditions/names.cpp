@@ -135,8 +135,11 @@ void ConditionNames::read_word(std::size_t at) {
     value.begin = word.position;
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
-  } else if (is_free && !is_behind_operand(at) && !may_be_of_cpp(word.text, scope_.types)) {
-    out_.error("E101", span_of(word), "unknown name " + quoted(word.text), hint_for_word(word.text));
+  } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text)) {
+    const std::string home = other_home(word.text), name = quoted(word.text);
+    const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
+    const std::string says = is_of_cpp ? name + " is a name of C++, not " + home : "unknown name " + name;
+    if (!is_of_cpp || !home.empty()) out_.error("E101", span_of(word), says, hint_for_word(word.text));
   }
 }
 

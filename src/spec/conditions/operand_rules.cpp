@@ -34,7 +34,17 @@ Value ConditionOperators::combine_logical(const Token& mark, const Value& left, 
 }
 
 void ConditionOperators::need_truth(const Value& value, const std::string& where) {
-  if (value.kind == Is::unknown || value.is_plain()) return;
+  if (value.kind == Is::unknown || value.kind == Is::boolean) return;
+  if (value.kind == Is::number) {
+    // Counts and flags of integers are usual conditions in C++; a measured value that is exactly 0 is not.
+    const bool is_measure =
+        value.declared && (!value.type.unit.empty() || value.type.scalar == Scalar::float32 ||
+                           value.type.scalar == Scalar::float64);
+    if (!is_measure) return;
+    warn_of_truth(value, where + " needs true or false; " + described(value),
+                  "every number but 0 is true; compare it: " + text_of(value) + " > 0");
+    return;
+  }
   std::string hint;
   if (value.kind == Is::duration) hint = "compare it: " + text_of(value) + " > 500 ms";
   if (value.kind == Is::structure && value.declared) {
@@ -54,6 +64,7 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
                "write two comparisons: a < b && b < c");
     return result;
   }
+  hint_at_minutes(left, right);
   for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
     if (one.kind == Is::unknown || other.kind == Is::unknown) return result;
     if (one.kind == other.kind) continue;
@@ -87,8 +98,31 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
       return result;
     }
   }
+  const bool mixed = left.kind != right.kind && left.is_plain() && right.is_plain();
+  const Value& number = left.kind == Is::number ? left : right;
+  if (mixed && !(number.literal && (text_of(number) == "0" || text_of(number) == "1"))) {
+    const Value& truth = left.kind == Is::number ? right : left;
+    warn_of_truth(number, described(truth) + ", " + described(number), "true is 1 there, and false is 0");
+  }
   check_units(mark, left, right);
   return result;
+}
+
+/// "2 m" beside a duration was said to be no number: it means minutes.
+void ConditionOperators::hint_at_minutes(const Value& left, const Value& right) {
+  for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
+    const std::string text = text_of(other);
+    if (one.kind != Is::duration || !other.literal || other.kind != Is::unknown || !text.ends_with('m'))
+      continue;
+    mistakes_.back().message = described(one) + ", " + quoted(text) + " is a length";
+    mistakes_.back().hint = fmt::format("write {} min", text.substr(0, text.find_last_not_of(" m") + 1));
+  }
+}
+
+/// Warns of a number where true or false is meant. C++ allows both.
+void ConditionOperators::warn_of_truth(const Value& value, std::string message, std::string hint) {
+  mistakes_.push_back({true, "W326", positions_.part(value.begin, value.end - value.begin),
+                       std::move(message), std::move(hint)});
 }
 
 /// Warns of m and mm; false: it has.

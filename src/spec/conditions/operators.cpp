@@ -47,9 +47,10 @@ ConditionOperators::ConditionOperators(const std::vector<Token>& tokens, const P
 
 void ConditionOperators::check() {
   const Value whole = read(assignment);
-  if (!given_up_ && token().kind != Token::Kind::end) misspelt();
+  const bool is_whole = token().kind == Token::Kind::end;
+  if (!given_up_ && !is_whole) misspelt();
   if (given_up_) return;
-  need_truth(whole, "a condition");
+  if (is_whole) need_truth(whole, "a condition");
   for (Mistake& one : mistakes_) {
     if (one.warning)
       out_.warning(std::move(one.code), one.span, std::move(one.message), std::move(one.hint));

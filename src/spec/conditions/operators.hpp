@@ -12,7 +12,8 @@ namespace tessera::spec {
 /// it does not understand (casts, templates, assignments to unknown things) is left to the compiler.
 ///
 /// Errors: E209 an operator is missing or misspelt; E212 operands that do not go together, a condition that
-///         is neither true nor false. Warnings: W325 numbers of different units.
+///         is neither true nor false. Warnings: W325 numbers of different units,
+///         W326 a number as true or false.
 class ConditionOperators {
  public:
   ConditionOperators(const std::vector<Token>& tokens, const Positions& positions,
@@ -46,6 +47,8 @@ class ConditionOperators {
   Value compare(const Token& mark, const Value& left, const Value& right);
   Value add(const Token& mark, const Value& left, const Value& right);
   Value multiply(const Token& mark, const Value& left, const Value& right);
+  void hint_at_minutes(const Value& left, const Value& right);
+  void warn_of_truth(const Value& value, std::string message, std::string hint);
   bool check_units(const Token& mark, const Value& left, const Value& right);
   void misspelt();
   void need_truth(const Value& value, const std::string& where);

@@ -68,7 +68,11 @@ std::optional<std::string> Announcements::problem_with(const Announcement& other
   if (other.processes_hash != own_.processes_hash)
     return who + " has another list of processes than this one: build both from the same specification";
   if (other.process_name == own_.process_name && other.incarnation != own_.incarnation)
-    return "process " + own_.process_name + " runs twice, here and on " + shown(other.host);
+    return other.incarnation > own_.incarnation
+               ? "process " + own_.process_name + " was started a second time, on " + shown(other.host) +
+                     ": the other processes follow the later start and do not listen to this one any more"
+               : "process " + own_.process_name + " runs already on " + shown(other.host) +
+                     ": the other processes follow this later start";
   return std::nullopt;
 }
 

@@ -57,8 +57,9 @@ class Subscriber final : public RealReceptor {
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     fresh_ = false;
     endpoint_->watch();
-    (*endpoint_)->take(
-        [](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); }, this);
+    (*endpoint_)
+        ->take([](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); },
+               this);
     return fresh_ && prepared_.encoding->take(value.data(), newest_);
   }
 

@@ -33,8 +33,7 @@ dds::DomainParticipantQos on_loopback() {
 }  // namespace
 
 Peer::Peer(std::uint32_t domain, Reach reach) {
-  const dds::DomainParticipantQos qos =
-      reach == Reach::all ? dds::PARTICIPANT_QOS_DEFAULT : on_loopback();
+  const dds::DomainParticipantQos qos = reach == Reach::all ? dds::PARTICIPANT_QOS_DEFAULT : on_loopback();
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
   if (participant_ == nullptr) throw std::runtime_error("Fast DDS makes no participant");
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);

@@ -27,11 +27,13 @@ TEST(OtherSideWatch, TellsOnceOfNobodyAndOfWhoComes) {
   OtherSideWatch::Clock::time_point now{};
   OtherSideWatch watch(setup, /*writes=*/false, now);
   EXPECT_FALSE(watch.look(false, now += milliseconds(2900)));
-  EXPECT_EQ(watch.look(false, now += milliseconds(200)),
-            "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7: is ROS_DOMAIN_ID the same at "
-            "the other side, and does the network carry multicast (else name `peers`)?");
+  EXPECT_EQ(
+      watch.look(false, now += milliseconds(200)),
+      "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7: is ROS_DOMAIN_ID the same at "
+      "the other side, and does the network carry multicast (else name `peers`)?");
   EXPECT_FALSE(watch.look(false, now += milliseconds(9000)));
-  EXPECT_EQ(watch.look(true, now), "robot.laser.scan: somebody publishes /scan on interface eth0 in domain 7");
+  EXPECT_EQ(watch.look(true, now),
+            "robot.laser.scan: somebody publishes /scan on interface eth0 in domain 7");
   EXPECT_FALSE(watch.look(true, now));
   EXPECT_FALSE(watch.look(false, now += milliseconds(9000))) << "it has gone just now";
   EXPECT_TRUE(watch.look(false, now += milliseconds(3100)));
@@ -41,10 +43,11 @@ TEST(OtherSideWatch, TellsOnceOfNobodyAndOfWhoComes) {
 bool in_own_network(const std::function<void()>& what) {
   bool made = false;
   std::thread([&] {
-    made = unshare(CLONE_NEWNET) == 0 &&
-           std::system("{ ip link set lo up && ip link add v0 type veth peer name v1 && "
-                       "ip addr add 10.91.0.1/24 dev v0 && ip link set v0 up && ip link set v1 up; } 2>/dev/null") ==
-               0;
+    made =
+        unshare(CLONE_NEWNET) == 0 &&
+        std::system(
+            "{ ip link set lo up && ip link add v0 type veth peer name v1 && "
+            "ip addr add 10.91.0.1/24 dev v0 && ip link set v0 up && ip link set v1 up; } 2>/dev/null") == 0;
     if (made) what();
   }).join();
   return made;
@@ -65,7 +68,8 @@ TEST(OtherSide, OfADefaultParticipantIsToldAsMissingOnLoopbackAndFoundOnItsInter
       EXPECT_TRUE(eventually([&] {
         EXPECT_TRUE(write(*effector, Motion{1, 0}));
         return fast::Peer::take<fast::Twist>(*reader).has_value();
-      })) << "peers: " << peers;
+      })) << "peers: "
+          << peers;
     }
     std::string told;
     testing::internal::CaptureStderr();

@@ -13,8 +13,8 @@
 
 #include "../eventually.hpp"
 #include "controlled_run.hpp"
-#include "test_system.hpp"
 #include "tessera/monitor.hpp"
+#include "test_system.hpp"
 #include "watch/monitor_socket.hpp"
 
 using namespace std::chrono_literals;
@@ -26,7 +26,8 @@ using nlohmann::json;
 
 TEST(MonitorSocket, ListensWhateverTheLengthOfTheNameOrOfTheFolder) {
   const std::string before = std::getenv("XDG_RUNTIME_DIR") == nullptr ? "" : std::getenv("XDG_RUNTIME_DIR");
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("m" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("m" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
   const std::string robot = "warehouse_of_the_north.", cart = std::string(90, 'c') + "art";

@@ -83,7 +83,11 @@ inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;
 /// at most 107 bytes. So the end of a longer name is replaced by a hash: "warehouse_of_the_n~1a2b3c4d.4711.sock".
 [[nodiscard]] std::string monitor_file(std::string_view name, std::int64_t process);
 
+inline constexpr char cut_off_name = '~';  ///< before the hash; no name has it
+
 /// Whether the name in the name of such a file was cut off: then only the lines of the process tell it.
-[[nodiscard]] bool has_shortened_name(std::string_view file);
+[[nodiscard]] constexpr bool has_shortened_name(std::string_view file) {
+  return file.substr(file.rfind('/') + 1).find(cut_off_name) != std::string_view::npos;
+}
 
 }  // namespace tessera

@@ -75,7 +75,6 @@ void remove_left_behind(const std::string& folder) {
 namespace {
 
 constexpr std::size_t longest_path = sizeof(sockaddr_un::sun_path) - 1;
-constexpr char cut_off = '~';  // no name has it
 
 /// FNV-1a.
 std::string hash_of(std::string_view name) {
@@ -100,12 +99,8 @@ std::string monitor_file(std::string_view name, std::int64_t process) {
   const std::string begin = monitor_folder() + "/", end = fmt::format(".{}.sock", process);
   const std::size_t room = longest_path - begin.size() - end.size();
   if (name.size() <= room) return begin + std::string(name) + end;
-  const std::string hash = cut_off + hash_of(name);
+  const std::string hash = cut_off_name + hash_of(name);
   return begin + std::string(name.substr(0, room - hash.size())) + hash + end;
-}
-
-bool has_shortened_name(std::string_view file) {
-  return file.substr(file.rfind('/') + 1).find(cut_off) != std::string_view::npos;
 }
 
 MonitorSocket::MonitorSocket(std::string_view name) { listen(name); }

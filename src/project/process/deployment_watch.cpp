@@ -132,7 +132,7 @@ void DeploymentWatch::look_for_sockets() {
 void DeploymentWatch::note_found(const std::string& socket, Connected& one,
                                  WatchedProcess::State state) const {
   const ProcessOfSocket known = process_of_socket(socket, system_);
-  if (known.name.empty() || !socket.starts_with(system_.substr(0, socket.find('~')))) return;
+  if (known.name.empty() || !socket.starts_with(system_.substr(0, socket.find(cut_off_name)))) return;
   Snapshot snapshot;
   snapshot.system = system_;
   snapshot.name = known.name;

@@ -23,6 +23,5 @@ struct Deployment {
   std::vector<Process> processes;
   diagnostics::Span span;
 };
-inline constexpr std::uint32_t largest_domain = 232;  ///< of DDS: the ports of a larger one do not exist
 
 }  // namespace tessera::spec

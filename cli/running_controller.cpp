@@ -28,27 +28,39 @@ std::optional<std::string> RunningController::line() {
   }
 }
 
+void RunningController::learn_name() {
+  connection_.limit_waits(std::chrono::seconds(2));
+  const std::optional<std::string> first = line();
+  if (!first) return;
+  pending_.insert(0, *first + "\n");
+  std::optional<project::ControlLine> said = project::read_control_line(*first);
+  const auto* snapshot = said ? std::get_if<project::Snapshot>(&*said) : nullptr;
+  if (snapshot == nullptr) return;
+  name_ = snapshot->system + "." + (snapshot->name ? *snapshot->name + "." : "") +
+          std::to_string(snapshot->process);
+}
+
 namespace {
 
-std::vector<fs::path> sockets(const std::string& which) {
-  std::vector<fs::path> found;
-  for (const fs::path& file : project::control_sockets(monitor_folder())) {
-    const std::string name = file.filename().string();  // SYSTEM.PID.sock or SYSTEM.PROCESS.PID.sock
-    if (which.empty() || name.starts_with(which + ".") || name.ends_with("." + which + ".sock") ||
-        name.find("." + which + ".") != std::string::npos)
-      found.push_back(file);
-  }
-  return found;
+/// name: SYSTEM.PID or SYSTEM.PROCESS.PID
+bool is_meant(const std::string& name, const std::string& which) {
+  return which.empty() || name.starts_with(which + ".") || name.ends_with("." + which) ||
+         name.find("." + which + ".") != std::string::npos;
 }
 
 }  // namespace
 
 std::vector<RunningController> find_controllers(const std::string& which) {
   std::vector<RunningController> running;
-  // A socket that does not answer was left behind by a process that was killed.
-  for (const fs::path& file : sockets(which))
-    if (std::optional<RunningController> one = RunningController::attach(file))
-      running.push_back(std::move(*one));
+  for (const fs::path& file : project::control_sockets(monitor_folder())) {
+    const bool shortened = has_shortened_name(file.native());
+    if (!shortened && !is_meant(file.stem().string(), which)) continue;
+    // A socket that does not answer was left behind by a process that was killed.
+    std::optional<RunningController> one = RunningController::attach(file);
+    if (!one) continue;
+    if (shortened) one->learn_name();
+    if (is_meant(one->name(), which)) running.push_back(std::move(*one));
+  }
   if (running.empty())
     complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
              " in real time as this user; `tessera run` starts one");

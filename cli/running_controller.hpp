@@ -20,8 +20,11 @@ class RunningController {
  public:
   /// nullopt: no process listens there, or it takes no connection within a second.
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
-  /// SYSTEM.PROCESS
+  /// SYSTEM.PID, or SYSTEM.PROCESS.PID of a deployed system.
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Takes its name from its first line, which stays the next one, if the name of the socket was too short for
+  /// it. Waits for that for two seconds; a process that hangs keeps what the socket says.
+  void learn_name();
 
   /// The next line from the controller. nullopt: it has ended or was silent for too long (`be_patient_for`).
   [[nodiscard]] std::optional<std::string> line();

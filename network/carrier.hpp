@@ -62,6 +62,9 @@ class Carrier {
   virtual void wake() = 0;
 };
 
+/// The last domain of the middleware that has enough UDP ports.
+inline constexpr int last_domain = 230;
+
 /// A channel between two processes, as its carrier needs to know it.
 struct ChannelSetup {
   ChannelNumber number = 0;

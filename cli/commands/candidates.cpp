@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "cli/running_controller.hpp"
 #include "diagnostics/source.hpp"
 #include "net/net.hpp"
 #include "project/process/control_connection.hpp"
@@ -96,11 +97,17 @@ std::vector<std::string> panel_values(const std::string& path) {
   return {words.begin(), words.end()};
 }
 
-/// Systems that run now, and processes of them: the names in "SYSTEM.PROCESS.PID.sock".
+/// Systems that run now, and processes of them: names like "SYSTEM.PROCESS.PID".
 std::vector<std::string> running_systems() {
   std::set<std::string> names;
   for (const std::filesystem::path& file : project::control_sockets(monitor_folder())) {
     std::string name = file.stem().string();
+    if (has_shortened_name(file.native())) {
+      std::optional<RunningController> one = RunningController::attach(file);
+      if (!one) continue;
+      one->learn_name();
+      name = one->name();
+    }
     name.erase(std::min(name.rfind('.'), name.size()));
     if (const std::size_t dot = name.find('.'); dot != std::string::npos) names.insert(name.substr(0, dot));
     names.insert(name);

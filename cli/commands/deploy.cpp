@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "cli/commands/unhurried_output.hpp"
 #include "cli/terminal.hpp"
@@ -20,6 +22,8 @@
 #include "project/files/file_names.hpp"
 #include "project/process/death.hpp"
 #include "spec/parser.hpp"
+#include "tessera/channel_limits.hpp"
+#include "tessera/process_claim.hpp"
 #include "tessera/signals.hpp"
 
 namespace tessera::cli {
@@ -28,14 +32,58 @@ using namespace project;
 
 namespace {
 
-std::vector<std::string> names_in(const std::string& list) {
+/// The names of `--only`; empty: it was not given. Throws std::runtime_error: it names nothing.
+std::vector<std::string> names_of_only(const std::string& list) {
+  if (list == DeployOptions::all) return {};
   std::vector<std::string> names;
-  for (std::size_t from = 0; from < list.size();) {
+  for (std::size_t from = 0; from <= list.size();) {
     const std::size_t comma = std::min(list.find(',', from), list.size());
-    if (comma > from) names.push_back(list.substr(from, comma - from));
+    const std::size_t first = list.find_first_not_of(" \t", from);
+    if (first < comma)
+      names.push_back(list.substr(first, list.find_last_not_of(" \t", comma - 1) + 1 - first));
     from = comma + 1;
   }
+  if (names.empty()) throw std::runtime_error("--only names no process");
   return names;
+}
+
+/// Throws std::runtime_error: it is none.
+std::uint32_t domain_of(const spec::Deployment& deployment, const NetworkOptions& network) {
+  if (network.domain.empty()) return deployment.domain;
+  std::uint32_t domain = 0;
+  const char* const end = network.domain.data() + network.domain.size();
+  const auto [behind, problem] = std::from_chars(network.domain.data(), end, domain);
+  if (problem == std::errc{} && behind == end && domain <= last_domain) return domain;
+  throw std::runtime_error(
+      fmt::format("--domain {}: expected a whole number from 0 to {}", network.domain, last_domain));
+}
+
+/// Whether all of these processes may start here. Prints why not.
+bool may_start(const spec::Model& model, const std::vector<std::uint32_t>& processes,
+               const NetworkOptions& network) {
+  const std::uint32_t domain = domain_of(*model.deployment, network);
+  for (const std::uint32_t number : processes) {
+    const spec::Process& process = model.deployment->processes[number];
+    const ClaimedProcess claimed{
+        .system = model.system,
+        .process = process.name,
+        .domain = static_cast<int>(domain),
+        .interface = network.interface.empty() ? process.interface : network.interface};
+    if (const auto other = ProcessClaim(claimed).other())
+      return complain(runs_already(claimed, *other) + "; nothing was started"), false;
+  }
+  return true;
+}
+
+/// What a restart cannot mend, since the others wait for ever for what a dead process has lost.
+void warn_of_partition(const Controller& controller, const DeployOptions& deploy) {
+  if (deploy.restart == "never" && deploy.on_failure == "stop") return;
+  const auto& all = controller.report.properties;
+  const auto found = std::ranges::find(all, "survives_partition", &verify::PropertyResult::name);
+  if (found != all.end() && found->verdict == verify::Verdict::violated)
+    terminal().say(
+        "tessera: warning: survives_partition is violated: a process that waits for one that has failed "
+        "may wait for ever (`tessera verify` says where a timeout is missing)\n");
 }
 
 /// Prints what the processes say, and keeps how each has ended.
@@ -176,6 +224,11 @@ class DeployedRun final : public ProcessSetListener {
       text += fmt::format("{:<{}}  {:>6}  {:>7.1f} s  {:>10}  {}\n", name_of(number), width, end.starts,
                           std::chrono::duration<double>(end.end.ran).count(), firings, end.how);
     }
+    if (std::ranges::all_of(placement_.here, [&](std::uint32_t number) {
+          std::error_code none;
+          return !std::filesystem::exists(files_of(number, 1).recording, none);
+        }))
+      return text + "nothing was recorded\n";
     return text + fmt::format("recordings in {}; `tessera replay --check {}` checks them together\n",
                               folder_.string(), shell_line({folder_.string()}));
   }
@@ -237,15 +290,15 @@ bool check_deployment(const std::string& spec, const DeployOptions& deploy, cons
                            deployment.processes.size())),
            false;
   const std::vector<std::string> named =
-      process.empty() ? names_in(deploy.only) : std::vector<std::string>{process};
-  static_cast<void>(placement_of(deployment, named, machine_name()));  // throws for a name that is unknown
-  return true;
+      process.empty() ? names_of_only(deploy.only) : std::vector<std::string>{process};
+  // Throws for a name that is unknown.
+  return may_start(*model, placement_of(deployment, named, machine_name()).here, deploy.network);
 }
 
 int run_deployed(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
                  const DeployOptions& deploy) {
   const spec::Deployment& deployment = *controller.specification.model.deployment;
-  const std::vector<std::string> only = names_in(deploy.only);
+  const std::vector<std::string> only = names_of_only(deploy.only);
   const Placement placement = placement_of(deployment, only, machine_name());
   tell_of_others(deployment, placement, options, !only.empty());
   if (placement.here.empty()) {
@@ -253,6 +306,7 @@ int run_deployed(const Controller& controller, const RunFolder& folder, const La
     return complain("no process of the deployment is for this machine ('" + machine_name() +
                     "'); --only NAME starts one here all the same");
   }
+  warn_of_partition(controller, deploy);
   return DeployedRun(controller, folder, options, deploy, placement).run();
 }
 

@@ -11,7 +11,8 @@ namespace tessera::cli {
 /// The options of `tessera run --deploy`.
 struct DeployOptions {
   bool asked = false;
-  std::string only;  ///< "office,cart[0]"
+  static constexpr const char* all = "*";
+  std::string only = all;  ///< "office,cart[0]"
   std::string restart = "never", on_failure = "stop";
   project::NetworkOptions network;
 };

@@ -70,7 +70,11 @@ std::optional<std::string> Announcements::problem_with(const Announcement& other
            " has another `deploy` than this one (its processes or its liveliness): build both from the "
            "same specification";
   if (other.process_name == own_.process_name && other.incarnation != own_.incarnation)
-    return "process " + own_.process_name + " runs twice, here and on " + shown(other.host);
+    return other.incarnation > own_.incarnation
+               ? "process " + own_.process_name + " was started a second time, on " + shown(other.host) +
+                     ": the other processes follow the later start and do not listen to this one any more"
+               : "process " + own_.process_name + " runs already on " + shown(other.host) +
+                     ": the other processes follow this later start";
   return std::nullopt;
 }
 

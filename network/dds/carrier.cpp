@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 
+#include "network/dds/middleware_log.hpp"
 #include "network/dds/received.hpp"
+#include "network/dds/setup_error.hpp"
 
 namespace tessera::dds {
 namespace {
@@ -99,16 +101,61 @@ Clock::time_point after(Clock::time_point now, std::chrono::nanoseconds time) {
   return time > Clock::time_point::max() - now ? Clock::time_point::max() : now + time;
 }
 
+std::vector<std::string> hosts_of(const std::vector<Location::Unresolved>& unresolved) {
+  std::vector<std::string> hosts;
+  for (const Location::Unresolved& one : unresolved) hosts.push_back(one.host);
+  return hosts;
+}
+
 }  // namespace
 
-DdsCarrier::DdsCarrier(const network::CarrierSetup& setup)
+DdsCarrier::DdsCarrier(const network::CarrierSetup& setup, const AddressOf& address_of,
+                       std::chrono::milliseconds search_interval)
     : deployment_(deployment_of(setup)),
       presence_(deployment_),
       announcements_(deployment_),
       signs_(deployment_),
-      endpoints_(deployment_, setup.domain, locate(setup.interface, setup.peers)),
+      location_(locate(setup.interface, setup.peers, address_of)),
+      search_(hosts_of(location_.unresolved), address_of, search_interval),
+      domain_(setup.domain),
+      endpoints_(std::make_unique<Endpoints>(deployment_, domain_, location_)),
       // One byte more than the longest, so that a longer one is noticed.
       room_(deployment_.longest_received_bytes() + 1) {}
+
+void DdsCarrier::wake() {
+  const std::lock_guard lock(replacing_);
+  endpoints_->wake();
+}
+
+void DdsCarrier::tell_of_unresolved(Listener& listener) {
+  for (const Location::Unresolved& one : location_.unresolved)
+    listener.complaint("peer " + one.host + " has no IPv4 address (" + one.why +
+                       "): this process goes on without it, and asks again");
+  location_.unresolved.clear();
+}
+
+/// The middleware takes peers only when its domain is made. So a second domain replaces the first. The others
+/// see this process leave and come again, with the same incarnation; the protocol of channels sends again what was
+/// on the way.
+void DdsCarrier::join_found(Listener& listener) {
+  bool any = false;
+  for (const PeerSearch::Found& found : search_.take_found()) try {
+      any = add_peer(location_, found.host, found.address) || any;
+      listener.complaint("peer " + found.host + " has an address now: " + found.address);
+    } catch (const SetupError& problem) {
+      listener.complaint(problem.what());
+    }
+  if (!any) return;
+  try {
+    auto wider = std::make_unique<Endpoints>(deployment_, domain_, location_);
+    const std::lock_guard lock(replacing_);
+    endpoints_.swap(wider);
+    endpoints_->wake();  // a wake of the first may be lost
+    next_sign_of_life_ = Clock::time_point::min();
+  } catch (const SetupError& problem) {
+    listener.complaint(std::string("peers cannot be added: ") + problem.what());
+  }
+}
 
 void DdsCarrier::send(ChannelNumber number, const network::Data& data, const network::Value& value) {
   const Channel* channel = deployment_.channel(number);
@@ -130,7 +177,7 @@ void DdsCarrier::send(ChannelNumber number, const network::Data& data, const net
         const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(value.bytes.data()));
     sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(value.bytes.size());
   }
-  count_unsent(dds_write(endpoints_.to(channel->receiver).data, &sample), *channel);
+  count_unsent(dds_write(endpoints_->to(channel->receiver).data, &sample), *channel);
 }
 
 void DdsCarrier::send(ChannelNumber number, const network::State& state) {
@@ -141,7 +188,7 @@ void DdsCarrier::send(ChannelNumber number, const network::State& state) {
                                   .from_incarnation = state.from.value,
                                   .peer_incarnation = state.peer.value,
                                   .taken = state.taken.value};
-  count_unsent(dds_write(endpoints_.to(channel->sender).state, &sample), *channel);
+  count_unsent(dds_write(endpoints_->to(channel->sender).state, &sample), *channel);
 }
 
 void DdsCarrier::count_unsent(dds_return_t result, const Channel& channel) {
@@ -154,16 +201,19 @@ void DdsCarrier::receive(Listener& told, std::chrono::nanoseconds longest) {
   const Clock::time_point end = after(Clock::now(), longest);
   Attentive listener(told);
   for (;;) {
-    const bool woken = endpoints_.was_woken();
+    tell_of_unresolved(listener);
+    join_found(listener);
+    const bool woken = endpoints_->was_woken();
     take_all(listener);
     // After what has arrived: it may have waited for long, if nobody received.
     const Clock::time_point now = Clock::now();
     presence_.look(now, listener);
     dropped_.tell(now, listener);
     unsent_.tell(now, listener);
+    if (const auto text = tell_of_middleware_log(now)) listener.complaint(*text);
     give_sign_of_life(now);
     if (listener.told() || woken || now >= end) return;
-    endpoints_.wait((std::min(end, next_event()) - now).count());
+    endpoints_->wait((std::min(end, next_event()) - now).count());
   }
 }
 
@@ -174,7 +224,7 @@ Clock::time_point DdsCarrier::next_event() const {
 void DdsCarrier::give_sign_of_life(Clock::time_point now) {
   if (now < next_sign_of_life_) return;
   next_sign_of_life_ = now + deployment_.sign_of_life_period();
-  if (endpoints_.alive_writer() == 0) return;
+  if (endpoints_->alive_writer() == 0) return;
   const ReceivedAlive sign = signs_.next(now.time_since_epoch(), wall_time());
   const tessera_wire_Alive sample{.process = sign.process,
                                   .incarnation = sign.incarnation,
@@ -185,7 +235,7 @@ void DdsCarrier::give_sign_of_life(Clock::time_point now) {
                                   .echo_incarnation = sign.echo_incarnation,
                                   .echo_ns = sign.echo_ns,
                                   .held_ns = sign.held_ns};
-  dds_write(endpoints_.alive_writer(), &sample);
+  dds_write(endpoints_->alive_writer(), &sample);
 }
 
 void DdsCarrier::take_all(Listener& listener) {
@@ -204,7 +254,7 @@ bool DdsCarrier::take(tessera_wire_Data& sample, dds_sample_info_t& info) {
   sample.bytes._length = 0;
   sample.bytes._release = false;
   void* pointer = &sample;
-  return dds_take(endpoints_.data(), &pointer, &info, 1, 1) == 1;
+  return dds_take(endpoints_->data(), &pointer, &info, 1, 1) == 1;
 }
 
 void DdsCarrier::take_data(Listener& listener, Clock::time_point now) {
@@ -229,7 +279,7 @@ void DdsCarrier::take_states(Listener& listener, Clock::time_point now) {
   tessera_wire_State sample{};
   void* pointer = &sample;
   dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.state(), &pointer, &info, 1, 1) == 1;
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_->state(), &pointer, &info, 1, 1) == 1;
        ++taken)
     if (info.valid_data) hear(sample, listener, now);
 }
@@ -247,7 +297,7 @@ void DdsCarrier::take_alive(Listener& listener, Clock::time_point now) {
   tessera_wire_Alive sample{};
   void* pointer = &sample;
   dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.alive(), &pointer, &info, 1, 1) == 1;
+  for (int taken = 0; taken < most_at_once && dds_take(endpoints_->alive(), &pointer, &info, 1, 1) == 1;
        ++taken) {
     const ReceivedAlive alive = fields(sample);
     const Refusal refusal = check(alive, deployment_);
@@ -270,13 +320,13 @@ void DdsCarrier::hear(const ReceivedAlive& alive, bool whole, Listener& listener
 void DdsCarrier::take_announcements(Listener& listener) {
   void* sample = nullptr;
   dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_.announcements(), &sample, &info, 1, 1) == 1;
-       ++taken) {
+  for (int taken = 0;
+       taken < most_at_once && dds_take(endpoints_->announcements(), &sample, &info, 1, 1) == 1; ++taken) {
     if (info.valid_data)
       if (const auto problem =
               announcements_.hear(fields(*static_cast<const tessera_wire_Announcement*>(sample))))
         listener.complaint(*problem);
-    dds_return_loan(endpoints_.announcements(), &sample, 1);
+    dds_return_loan(endpoints_->announcements(), &sample, 1);
     sample = nullptr;
   }
 }

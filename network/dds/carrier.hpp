@@ -1,6 +1,9 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "network/carrier.hpp"
@@ -8,6 +11,8 @@
 #include "network/dds/deployment.hpp"
 #include "network/dds/dropped.hpp"
 #include "network/dds/endpoints.hpp"
+#include "network/dds/location.hpp"
+#include "network/dds/peer_search.hpp"
 #include "network/dds/presence.hpp"
 #include "network/dds/received.hpp"
 #include "network/dds/signs_of_life.hpp"
@@ -24,16 +29,21 @@ namespace tessera::dds {
 /// After it was made it allocates nothing for a message. (The middleware does.)
 class DdsCarrier final : public network::Carrier {
  public:
-  /// Errors: SetupError. It waits for the name service if a peer is named by its name.
-  explicit DdsCarrier(const network::CarrierSetup& setup);
+  /// address_of: for peers that are named by their name. It waits for that. A peer that has no address yet is
+  /// asked for again; the process goes on without it meanwhile.
+  /// Errors: SetupError.
+  explicit DdsCarrier(const network::CarrierSetup& setup, const AddressOf& address_of = resolve,
+                      std::chrono::milliseconds search_interval = PeerSearch::interval);
 
   void send(ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void send(ChannelNumber channel, const network::State& state) override;
   void receive(Listener& listener, std::chrono::nanoseconds longest) override;
-  void wake() override { endpoints_.wake(); }
+  void wake() override;
 
  private:
   void take_all(Listener& listener);
+  void tell_of_unresolved(Listener& listener);
+  void join_found(Listener& listener);
   void take_data(Listener& listener, Clock::time_point now);
   void take_states(Listener& listener, Clock::time_point now);
   void take_alive(Listener& listener, Clock::time_point now);
@@ -52,7 +62,11 @@ class DdsCarrier final : public network::Carrier {
   Announcements announcements_;
   SignsOfLife signs_;
   Dropped dropped_{"dropped"}, unsent_{"could not send"};
-  Endpoints endpoints_;
+  Location location_;
+  PeerSearch search_;
+  const int domain_;
+  std::mutex replacing_;  ///< of endpoints_, against wake()
+  std::unique_ptr<Endpoints> endpoints_;
   Clock::time_point next_sign_of_life_ = Clock::time_point::min();
   std::vector<std::uint8_t> room_;  ///< for the value that is read next
 };

@@ -6,6 +6,7 @@
 
 #include "network/dds/announcements.hpp"
 #include "network/dds/closed_sockets.hpp"
+#include "network/dds/middleware_log.hpp"
 #include "network/dds/settings.hpp"
 #include "network/dds/setup_error.hpp"
 #include "wire.h"
@@ -14,7 +15,9 @@ namespace tessera::dds {
 namespace {
 
 dds_entity_t made(dds_entity_t entity, const char* what) {
-  if (entity < 0) throw SetupError(std::string(what) + " cannot be made: " + dds_strretcode(entity));
+  if (entity < 0)
+    throw SetupError(std::string(what) + " cannot be made: " + dds_strretcode(entity) +
+                     take_newest_log_line());
   return entity;
 }
 
@@ -64,6 +67,7 @@ std::uint32_t next_number_of_domain() {
 
 Domain::Domain(int number, const Location& location) {
   const std::string xml = settings(number, location);
+  keep_middleware_log();
   const std::set<int> before = open_files();
   const std::uint32_t id = next_number_of_domain();
   domain_ = made(dds_create_domain(id, xml.c_str()), "the DDS domain");

@@ -26,8 +26,6 @@ const in_addr& address_in(const sockaddr* address) {
   return reinterpret_cast<const sockaddr_in*>(address)->sin_addr;
 }
 
-bool is_loopback(const in_addr& address) { return (ntohl(address.s_addr) >> 24) == 127; }
-
 struct InterfaceList {
   InterfaceList() {
     if (getifaddrs(&first) != 0) throw SetupError("the interfaces of this machine cannot be listed");
@@ -49,40 +47,53 @@ Location find_interface(const std::string& wanted) {
       return {.interface_index = if_nametoindex(one->ifa_name),
               .is_loopback = (one->ifa_flags & IFF_LOOPBACK) != 0,
               .address = address,
-              .peers = {}};
+              .peers = {},
+              .unresolved = {}};
     }
     known += (known.empty() ? "" : ", ") + std::string(one->ifa_name) + " (" + address + ")";
   }
   throw SetupError("there is no interface " + wanted + " with an IPv4 address; there are " + known);
 }
 
-in_addr resolve(const std::string& host) {
+}  // namespace
+
+std::optional<std::string> resolve(const std::string& host, std::string& why) {
   addrinfo hints{};
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;
   const int failure = getaddrinfo(host.c_str(), nullptr, &hints, &found);
-  if (failure != 0) throw SetupError("peer " + host + " has no IPv4 address: " + gai_strerror(failure));
+  if (failure != 0) {
+    why = gai_strerror(failure);
+    return std::nullopt;
+  }
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
-  return address_in(found->ai_addr);
+  return text_of(address_in(found->ai_addr));
 }
 
-}  // namespace
+bool add_peer(Location& location, std::string_view host, const std::string& address) {
+  if (address.starts_with("127.")) return false;
+  if (location.is_loopback)
+    throw SetupError("peer " + std::string(host) + " (" + address +
+                     ") is on another host: name the interface that leads there");
+  if (std::ranges::find(location.peers, address) != location.peers.end()) return false;
+  location.peers.push_back(address);
+  return true;
+}
 
-Location locate(std::string_view interface, std::span<const std::string_view> peers) {
+Location locate(std::string_view interface, std::span<const std::string_view> peers,
+                const AddressOf& address_of) {
   Location location = find_interface(interface.empty() ? "lo" : std::string(interface));
   if (!location.is_loopback && peers.empty())
     throw SetupError("interface " + std::string(interface) +
                      " needs peers: the hosts of the other processes (there is no multicast)");
   location.peers.push_back(location.address);
   for (const std::string_view peer : peers) {
-    const in_addr address = resolve(std::string(peer));
-    if (is_loopback(address)) continue;  // this host, which is there already
-    const std::string text = text_of(address);
-    if (location.is_loopback)
-      throw SetupError("peer " + std::string(peer) + " (" + text +
-                       ") is on another host: name the interface that leads there");
-    if (std::ranges::find(location.peers, text) == location.peers.end()) location.peers.push_back(text);
+    std::string why;
+    if (const auto address = address_of(std::string(peer), why))
+      add_peer(location, peer, *address);
+    else
+      location.unresolved.push_back({std::string(peer), why});
   }
   return location;
 }

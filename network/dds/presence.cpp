@@ -39,10 +39,9 @@ void Presence::heard_older(Peer& peer, std::uint64_t incarnation, network::Carri
   }
   if (peer.heard_of_older > older_is_there) return;
   if (++peer.heard_of_older == older_is_there)
-    listener.complaint(
-        "process " + peer.name +
-        " speaks with an incarnation older than one that was there: it is ignored. Does it run "
-        "twice, or was its clock set back before it was restarted?");
+    listener.complaint("process " + peer.name +
+                       " speaks with an incarnation older than one that was there: it is ignored. It was "
+                       "started a second time, or its clock was set back before it was restarted");
 }
 
 void Presence::left(ProcessNumber process, std::uint64_t incarnation, network::Carrier::Listener& listener) {

@@ -1,5 +1,6 @@
 #include "network/dds/settings.hpp"
 
+#include "network/carrier.hpp"
 #include "network/dds/setup_error.hpp"
 
 namespace tessera::dds {
@@ -48,9 +49,9 @@ std::string writing() {
 int first_port(int domain) { return 7400 + 250 * domain + 10; }
 
 std::string settings(int domain, const Location& location) {
-  if (domain < 0 || domain > last_domain)
+  if (domain < 0 || domain > network::last_domain)
     throw SetupError("there is no domain " + std::to_string(domain) + ": use one of 0 to " +
-                     std::to_string(last_domain));
+                     std::to_string(network::last_domain));
   const std::string interface =
       "<Interfaces><NetworkInterface address=\"" + location.address + "\" multicast=\"false\"/></Interfaces>";
   return element("CycloneDDS", "<Domain Id=\"any\">" +

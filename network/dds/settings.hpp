@@ -8,7 +8,6 @@ namespace tessera::dds {
 
 /// How many processes can be found on one host.
 inline constexpr int most_processes_on_a_host = 80;
-inline constexpr int last_domain = 230;  ///< later ones have no UDP ports
 
 /// The first UDP port of a domain for unicast, and how many follow it.
 [[nodiscard]] int first_port(int domain);

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "network/dds/middleware_log.hpp"
 #include "ros2/codec/cdr.hpp"
 #include "ros2/dds/blob.hpp"
 
@@ -45,7 +46,7 @@ std::vector<std::string> hosts_of(std::string_view list) {
 }
 
 [[noreturn]] void refuse(const std::string& what, dds_return_t code) {
-  throw std::runtime_error(what + ": " + dds_strretcode(code));
+  throw std::runtime_error(what + ": " + dds_strretcode(code) + dds::take_newest_log_line());
 }
 
 dds_entity_t checked(const std::string& what, dds_entity_t entity) {
@@ -68,12 +69,15 @@ void put_identifier(CdrWriter& writer, dds_entity_t entity) {
 
 }  // namespace
 
+bool is_loopback(const Network& network) {
+  return network.interface == "lo" || network.interface.starts_with("127.");
+}
+
 std::string configuration_of(const Network& network) {
   if (!is_host(network.interface))
     throw std::runtime_error("'" + network.interface + "' is no name and no address of a network interface");
   std::vector<std::string> peers = hosts_of(network.peers);
-  const bool loopback = network.interface == "lo" || network.interface.starts_with("127.");
-  if (loopback && peers.empty()) peers.emplace_back("127.0.0.1");
+  if (is_loopback(network) && peers.empty()) peers.emplace_back("127.0.0.1");
   const bool multicast = peers.empty();
   std::string text = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface ";
   text += (is_address(network.interface) ? "address=\"" : "name=\"") + network.interface + "\"";
@@ -125,6 +129,7 @@ Participant::~Participant() { dds_delete(domain_); }
 
 void Participant::open(const Network& network) {
   const std::string configuration = configuration_of(network);
+  dds::keep_middleware_log();
   std::uint32_t number = first_number;
   do domain_ = dds_create_domain(number, configuration.c_str());
   while (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && ++number < first_number + 0x1000);

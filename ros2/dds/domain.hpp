@@ -19,6 +19,8 @@ struct Network {
   auto operator<=>(const Network&) const = default;
 };
 
+[[nodiscard]] bool is_loopback(const Network& network);
+
 /// The configuration of Cyclone DDS for that network: one interface and no other. On loopback, or with
 /// peers, nothing is sent to a multicast group; otherwise only the messages that look for others are.
 /// Throws std::runtime_error: no interface or host is named so.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ros2/dds/clock.hpp"
+#include "ros2/dds/other_side.hpp"
 #include "ros2/dds/prepared.hpp"
 #include "ros2/dds/service_drivers.hpp"
 
@@ -24,21 +25,41 @@ void await_other_side(const Endpoint& endpoint, const Prepared& prepared, const 
     throw std::runtime_error("there is no " + std::string(other) + " of " + prepared.endpoint.topic);
 }
 
+/// The endpoint of a topic, which is watched whether anybody is at its other side.
+class WatchedEndpoint {
+ public:
+  WatchedEndpoint(const EndpointSetup& setup, bool writes)
+      : endpoint_(setup, writes), watch_(setup, writes, OtherSideWatch::Clock::now()) {}
+  [[nodiscard]] Endpoint* operator->() { return &endpoint_; }
+  [[nodiscard]] const Endpoint& operator*() const { return endpoint_; }
+  /// Prints what there is to tell. It takes a microsecond, so that each reading and writing may call it.
+  void watch() {
+    if (const auto text = watch_.look(endpoint_.has_other_side(), OtherSideWatch::Clock::now()))
+      std::fprintf(stderr, "warning: %s\n", text->c_str());
+  }
+
+ private:
+  Endpoint endpoint_;
+  OtherSideWatch watch_;
+};
+
 class Subscriber final : public RealReceptor {
  public:
   explicit Subscriber(Prepared prepared) : prepared_(std::move(prepared)) {}
 
   [[nodiscard]] bool open() override {
     endpoint_.emplace(prepared_.endpoint, /*writes=*/false);
-    await_other_side(*endpoint_, prepared_, "publisher");
+    await_other_side(**endpoint_, prepared_, "publisher");
     return true;
   }
   void close() override { endpoint_.reset(); }
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     fresh_ = false;
-    endpoint_->take(
-        [](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); }, this);
+    endpoint_->watch();
+    (*endpoint_)
+        ->take([](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); },
+               this);
     return fresh_ && prepared_.encoding->take(value.data(), newest_);
   }
 
@@ -62,7 +83,7 @@ class Subscriber final : public RealReceptor {
   }
 
   Prepared prepared_;
-  std::optional<Endpoint> endpoint_;
+  std::optional<WatchedEndpoint> endpoint_;
   std::vector<std::byte> newest_;
   bool fresh_ = false;
   std::uint64_t dropped_ = 0;
@@ -75,12 +96,12 @@ class Publisher final : public RealEffector {
 
   [[nodiscard]] bool open() override {
     endpoint_.emplace(prepared_.endpoint, /*writes=*/true);
-    await_other_side(*endpoint_, prepared_, "subscriber");
+    await_other_side(**endpoint_, prepared_, "subscriber");
     return true;
   }
   void close() override {
     // A best-effort writer expects no receipts. Subscribers may be gone as well, which is no fault here.
-    static_cast<void>(endpoint_->await_receipt(longest_receipt));
+    static_cast<void>((*endpoint_)->await_receipt(longest_receipt));
     endpoint_.reset();
   }
 
@@ -88,7 +109,9 @@ class Publisher final : public RealEffector {
     sink_.clear();
     prepared_.encoding->put(value.data(), sink_);
     if (!prepared_.plan.encode(sink_.bytes(), stamp_now(), message_)) return false;
-    return is_guardian() ? write_until_received() : endpoint_->write(message_);
+    if (is_guardian()) return write_until_received();
+    endpoint_->watch();
+    return (*endpoint_)->write(message_);
   }
 
  private:
@@ -96,11 +119,11 @@ class Publisher final : public RealEffector {
   /// found it already. So the command is sent several times.
   [[nodiscard]] bool write_until_received() {
     constexpr int times = 4;
-    if (!endpoint_->await_other_side(guardian_finds_within)) return false;
+    if (!(*endpoint_)->await_other_side(guardian_finds_within)) return false;
     bool received = true;
     for (int time = 0; time < times; ++time) {
       if (time > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      received = endpoint_->write(message_) && endpoint_->await_receipt(longest_receipt);
+      received = (*endpoint_)->write(message_) && (*endpoint_)->await_receipt(longest_receipt);
     }
     return received;
   }
@@ -110,7 +133,7 @@ class Publisher final : public RealEffector {
   [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }
 
   Prepared prepared_;
-  std::optional<Endpoint> endpoint_;
+  std::optional<WatchedEndpoint> endpoint_;
   ValueSink sink_;
   std::vector<std::byte> message_;
   pid_t maker_;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "network/dds/middleware_log.hpp"
+
 namespace tessera::ros2 {
 namespace {
 
@@ -51,6 +53,11 @@ std::string user_data_in(const dds_builtintopic_endpoint_t& known) {
   std::string text(static_cast<const char*>(data), size);
   dds_free(data);
   return text;
+}
+
+void tell_of_middleware() {
+  if (const auto text = dds::tell_of_middleware_log(std::chrono::steady_clock::now()))
+    std::fprintf(stderr, "warning: %s\n", text->c_str());
 }
 
 }  // namespace
@@ -104,23 +111,27 @@ Endpoint::~Endpoint() {
   dds_delete(topic_.entity);
 }
 
+bool Endpoint::has_other_side() const {
+  dds_publication_matched_status_t readers{};
+  dds_subscription_matched_status_t writers{};
+  return writes_ ? dds_get_publication_matched_status(entity_, &readers) == DDS_RETCODE_OK &&
+                       readers.current_count > 0
+                 : dds_get_subscription_matched_status(entity_, &writers) == DDS_RETCODE_OK &&
+                       writers.current_count > 0;
+}
+
 bool Endpoint::await_other_side(Duration timeout) const {
   constexpr auto between_looks = std::chrono::milliseconds(5);
   const auto until = std::chrono::steady_clock::now() + timeout;
-  for (;;) {
-    dds_publication_matched_status_t readers{};
-    dds_subscription_matched_status_t writers{};
-    if (writes_ ? dds_get_publication_matched_status(entity_, &readers) == DDS_RETCODE_OK &&
-                      readers.current_count > 0
-                : dds_get_subscription_matched_status(entity_, &writers) == DDS_RETCODE_OK &&
-                      writers.current_count > 0)
-      return true;
+  while (!has_other_side()) {
     if (std::chrono::steady_clock::now() >= until) return false;
     std::this_thread::sleep_for(between_looks);
   }
+  return true;
 }
 
 bool Endpoint::write(std::span<const std::byte> message) {
+  tell_of_middleware();
   return write_blob(entity_, topic_, message) == DDS_RETCODE_OK;
 }
 
@@ -172,6 +183,7 @@ std::uint64_t Endpoint::identity() const {
 }
 
 void Endpoint::take(void (*use)(void*, const TakenBlob&), void* context) const {
+  tell_of_middleware();
   take_blobs(entity_, depth_, use, context);
 }
 

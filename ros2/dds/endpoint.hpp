@@ -38,6 +38,8 @@ class Endpoint {
   Endpoint(const Endpoint&) = delete;
   Endpoint& operator=(const Endpoint&) = delete;
 
+  /// Whether somebody at the other side is matched now.
+  [[nodiscard]] bool has_other_side() const;
   /// Whether the other side was found within this time.
   [[nodiscard]] bool await_other_side(Duration timeout) const;
   /// Of a writer: false: DDS refused.

@@ -12,6 +12,7 @@
 #include "../schema/judge.hpp"
 #include "cli/commands/joint_check.hpp"
 #include "command.hpp"
+#include "tessera/process_claim.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
@@ -120,11 +121,39 @@ TEST_F(Deploy, OneThatIsKilledIsToldOfAndStopsTheOthersOrStartsAgain) {
   const project::Exit again = run_and_kill(" --for 4s --restart on-failure");
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(again.text.find("start 2 in 1.0 s"), std::string::npos) << again.text;
+  EXPECT_NE(again.text.find("warning: survives_partition is violated"), std::string::npos) << again.text;
   EXPECT_TRUE(fs::exists(project_ / ".tessera/last/process-rover[0]@2.tsr")) << again.text;
   EXPECT_FALSE(any_is_left());
   const project::Exit both = tessera(checked);
   EXPECT_EQ(both.code, 3) << both.text;
   EXPECT_NE(both.text.find("in 4 recordings"), std::string::npos) << both.text;
+}
+
+TEST_F(Deploy, WhatCannotRunIsRefusedBeforeAnythingStarts) {
+  const auto refused = [&](const std::string& options, const std::string& why) {
+    const project::Exit run = tessera("run 11_crossing_apart --deploy --for 1s" + options);
+    EXPECT_EQ(run.code, 1) << options;
+    EXPECT_NE(run.text.find(why), std::string::npos) << options << "\n" << run.text;
+    EXPECT_EQ(run.text.find("recordings in"), std::string::npos) << run.text;
+  };
+  refused(" --domain 231", "--domain 231: expected a whole number from 0 to 230");
+  refused(" --only ''", "--only names no process");
+  refused(" --only 'rover[0] , gat'", "has no process 'gat'; did you mean 'gate'?");
+  const ProcessClaim claim(
+      {.system = "crossroads", .process = "gate", .domain = std::stoi(domain_.substr(10))});
+  refused(domain_, "process gate of crossroads runs on this machine already (number " +
+                       std::to_string(getpid()) + "), in domain " + domain_.substr(10) + " on interface lo");
+  const project::Exit alone = shell("'" + (project_ / ".tessera/build/release/controller").string() +
+                                    "' run --process gate --for 1s" + domain_);
+  EXPECT_EQ(alone.code, 2) << alone.text;
+  EXPECT_NE(alone.text.find("process gate of crossroads runs on this machine already"), std::string::npos)
+      << alone.text;
+  const project::Exit cut =
+      tessera("simulate 11_crossing_apart --for 1s --inject 'link:rover[0]-rover[1]:cut=1s@0s'");
+  EXPECT_NE(
+      cut.text.find("no channel joins rover[0]-rover[1]; there are the links gate-rover[0], gate-rover[1]"),
+      std::string::npos)
+      << cut.text;
 }
 
 /// What a robot gets, in a folder that has nothing else, without the environment of this machine.

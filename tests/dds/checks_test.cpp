@@ -162,7 +162,7 @@ TEST(Announcements, OnlyProcessesOfTheSameSystemThatDoNotFitAreToldOfAndOnce) {
   EXPECT_THAT(complaint([](auto& other) { other.processes_hash = "1"; }),
               testing::HasSubstr("another `deploy` than this one"));
   EXPECT_THAT(complaint([](auto& other) { other.process_name = "office"; }),
-              testing::HasSubstr("process office runs twice"));
+              testing::HasSubstr("process office was started a second time, on " + good.host));
 }
 
 TEST(Announcements, StrangersCannotFillTheMemory) {

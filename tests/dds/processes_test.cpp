@@ -1,11 +1,17 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <thread>
 
 #include "network/dds/carrier.hpp"
 #include "tests/dds/crossing.hpp"
@@ -76,7 +82,7 @@ TEST(Processes, AKilledOrStoppedProcessIsNotReachableAndItsNextIncarnationIs) {
   ASSERT_TRUE(receive_until([&] { return !office.heard.sees(Crossing::cart); }, office));
   EXPECT_TRUE(office.heard.complaints.empty());
   Child older(station("stay", crossing, 19));
-  EXPECT_TRUE(receive_until([&] { return office.heard.has_complaint("clock set back"); }, office));
+  EXPECT_TRUE(receive_until([&] { return office.heard.has_complaint("its clock was set back"); }, office));
   EXPECT_FALSE(office.heard.sees(Crossing::cart));
 }
 
@@ -126,6 +132,48 @@ TEST_F(Networks, BlockingTransfersSurviveLoss) {
   Child sender(in(a_, station("send", crossing_, 10, "10.77.0.1", {"10.77.0.2"})));
   EXPECT_EQ(sender.exit_code(), 0);
   EXPECT_EQ(reader.exit_code(), 0);
+}
+
+/// Runs it in a network namespace; its threads stay there.
+void in_namespace(const std::string& name, const std::function<void()>& what) {
+  std::thread([&] {
+    const int space = open(("/var/run/netns/" + name).c_str(), O_RDONLY | O_CLOEXEC);
+    if (space >= 0 && setns(space, CLONE_NEWNET) == 0) what();
+    close(space);
+  }).join();
+}
+
+TEST_F(Networks, APeerWithoutAnAddressIsFoundWhenItHasOne) {
+  const auto known = std::make_shared<std::atomic<bool>>(false);
+  const dds::AddressOf name_service = [known](const std::string& host, std::string& why) {
+    if (host != "late.local") return std::optional(host);
+    why = "not known yet";
+    return *known ? std::optional<std::string>("10.77.0.2") : std::nullopt;
+  };
+  Crossing there = crossing_;
+  crossing_.interface = there.interface = "cable";
+  crossing_.peers = {"late.local"};
+  there.peers = {"10.77.0.9"};  // it does not look for the first
+  std::unique_ptr<dds::DdsCarrier> one, other;
+  in_namespace(a_, [&] {
+    one = std::make_unique<dds::DdsCarrier>(crossing_.setup(Crossing::office, 10), name_service,
+                                            std::chrono::milliseconds(20));
+  });
+  in_namespace(b_, [&] { other = std::make_unique<dds::DdsCarrier>(there.setup(Crossing::cart, 20)); });
+  ASSERT_TRUE(one && other);
+  Station office(*one), cart(*other);
+  EXPECT_TRUE(receive_until(
+      [&] { return office.heard.has_complaint("peer late.local has no IPv4 address (not known yet)"); },
+      office, cart));
+  EXPECT_FALSE(office.heard.sees(Crossing::cart));
+  *known = true;
+  // The thread that makes the wider domain is to be in that network.
+  in_namespace(a_, [&] {
+    EXPECT_TRUE(
+        receive_until([&] { return office.heard.sees(Crossing::cart) && cart.heard.sees(Crossing::office); },
+                      office, cart));
+  });
+  EXPECT_TRUE(office.heard.has_complaint("peer late.local has an address now: 10.77.0.2"));
 }
 
 TEST_F(Networks, ACarrierOnLoopbackHearsNobodyElse) {

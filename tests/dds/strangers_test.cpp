@@ -4,12 +4,14 @@
 #include <linux/filter.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 
 #include "network/dds/carrier.hpp"
 #include "network/dds/closed_sockets.hpp"
+#include "network/dds/settings.hpp"
 #include "tests/dds/crossing.hpp"
 #include "tests/dds/heard.hpp"
 
@@ -94,6 +96,32 @@ TEST(Strangers, MalformedMessagesAreDroppedAndCounted) {
         return !cart.heard.messages.empty();
       },
       cart));
+}
+
+TEST(Strangers, PacketsThatMakeNoSenseAreCountedAndDoNotFillTheOutput) {
+  const Crossing crossing;
+  DdsCarrier carrier(crossing.setup(Crossing::cart, 20));
+  Station cart(carrier);
+  // A message of RTPS with a DATA that is too short.
+  std::string packet("RTPS\2\1\1\x10", 8);
+  packet += std::string(12, 'x') + std::string("\x15\5\4\0abcd", 8);
+  const int client = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  testing::internal::CaptureStderr();
+  EXPECT_TRUE(receive_until(
+      [&] {
+        for (int port = 0; port < 2 * 10; ++port) {
+          address.sin_port = htons(static_cast<std::uint16_t>(dds::first_port(crossing.domain) + port));
+          sendto(client, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+                 sizeof address);
+        }
+        return cart.heard.has_complaint(" times), the last time: malformed packet received");
+      },
+      cart));
+  close(client);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 /// Bound to loopback, or closed by a filter to all that does not come from there.

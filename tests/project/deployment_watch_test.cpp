@@ -157,6 +157,17 @@ TEST_F(Watching, ProcessesAreFoundByThemselvesInTheOrderOfTheirNumbers) {
   EXPECT_THAT(names(), ElementsAre("cart[2]", "cart[10]", "office"));
 }
 
+TEST_F(Watching, AProcessWhoseNameIsTooLongForASocketTellsItItself) {
+  const std::string number = std::to_string(getpid());
+  Speaker cart(folder_ / ("dep~0a1b2c3d." + number + ".sock"), "a_cart_with_a_long_name");
+  Speaker other(folder_ / ("barn_of_~0a1b2c3d." + number + ".sock"), "of_another");
+  call({&cart, &other});
+  cart.say_snapshot(1);
+  other.say_snapshot(1, json::array(), json::array(), "barn_of_depot");
+  EXPECT_TRUE(watch_until([&] { return names().size() == 1; }));
+  EXPECT_THAT(names(), ElementsAre("a_cart_with_a_long_name"));
+}
+
 TEST_F(Watching, OneThatDiesIsGoneOneThatEndsHasEndedAndItsNextStartTakesItsPlace) {
   Speaker cart(socket_of("cart"), "cart"), office(socket_of("office"), "office");
   call({&cart, &office});

@@ -12,7 +12,9 @@ namespace fast {
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-Peer::Peer(std::uint32_t domain) {
+namespace {
+
+dds::DomainParticipantQos on_loopback() {
   dds::DomainParticipantQos qos;
   qos.transport().use_builtin_transports = false;
   auto loopback = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -25,6 +27,13 @@ Peer::Peer(std::uint32_t domain) {
   builtin.initialPeersList.push_back(here);
   builtin.discovery_config.initial_announcements.count = 20;
   builtin.discovery_config.initial_announcements.period = {0, 100'000'000};
+  return qos;
+}
+
+}  // namespace
+
+Peer::Peer(std::uint32_t domain, Reach reach) {
+  const dds::DomainParticipantQos qos = reach == Reach::all ? dds::PARTICIPANT_QOS_DEFAULT : on_loopback();
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
   if (participant_ == nullptr) throw std::runtime_error("Fast DDS makes no participant");
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);

@@ -197,10 +197,15 @@ class Type final : public eprosima::fastdds::dds::TopicDataType {
   }
 };
 
-/// A participant on the loopback interface that uses no multicast.
+/// Which interfaces a participant uses.
+enum class Reach : std::uint8_t {
+  loopback,  ///< without multicast
+  all        ///< as Fast DDS does by itself: all interfaces, with multicast and shared memory
+};
+
 class Peer {
  public:
-  explicit Peer(std::uint32_t domain);
+  explicit Peer(std::uint32_t domain, Reach reach = Reach::loopback);
   ~Peer();
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;

@@ -72,8 +72,7 @@ void Controlled::start() {
 int Controlled::connect_another() const {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string file =
-      monitor_folder() + "/" + std::string(made_->name) + "." + std::to_string(getpid()) + ".sock";
+  const std::string file = monitor_file(made_->name, getpid());
   std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
   const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0);
   if (connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return client;

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,7 +13,9 @@
 
 #include "../eventually.hpp"
 #include "controlled_run.hpp"
+#include "tessera/monitor.hpp"
 #include "test_system.hpp"
+#include "watch/monitor_socket.hpp"
 
 using namespace std::chrono_literals;
 
@@ -20,6 +23,32 @@ namespace tessera::testing {
 namespace {
 
 using nlohmann::json;
+
+TEST(MonitorSocket, ListensWhateverTheLengthOfTheNameOrOfTheFolder) {
+  const std::string before = std::getenv("XDG_RUNTIME_DIR") == nullptr ? "" : std::getenv("XDG_RUNTIME_DIR");
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("m" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
+  const std::string robot = "warehouse_of_the_north.", cart = std::string(90, 'c') + "art";
+  EXPECT_EQ(monitor_file("robot", 47), folder / "tessera/robot.47.sock");
+  EXPECT_FALSE(has_shortened_name(monitor_file("robot", 47)));
+  EXPECT_TRUE(has_shortened_name(monitor_file(robot + cart, 47)));
+  EXPECT_NE(monitor_file(robot + cart, 47), monitor_file(robot + cart + "b", 47));
+  EXPECT_NE(monitor_file(robot + cart, 47).find("/warehouse_of_the_north."), std::string::npos);
+  for (const std::string& name : {std::string("robot"), robot + cart}) {
+    const MonitorSocket socket(name);
+    EXPECT_GE(socket.descriptor(), 0) << socket.failure();
+    EXPECT_TRUE(std::filesystem::exists(monitor_file(name, getpid())));
+  }
+  setenv("XDG_RUNTIME_DIR", (folder / std::string(100, 'f')).c_str(), 1);
+  EXPECT_EQ(monitor_folder(), "/tmp/tessera-" + std::to_string(geteuid()));
+  if (before.empty())
+    unsetenv("XDG_RUNTIME_DIR");
+  else
+    setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
+  std::filesystem::remove_all(folder);
+}
 
 TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {
   start();

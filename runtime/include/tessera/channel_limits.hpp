@@ -11,4 +11,8 @@ inline constexpr std::size_t most_shared_places = 10;
 inline constexpr std::size_t most_needs = 10;  ///< different sets of shared places that one side takes
 inline constexpr std::uint32_t most_slots = 16;
 
+/// Of DDS, for channels between processes: a later domain does not have the UDP ports for all processes that one host
+/// may have.
+inline constexpr std::uint32_t last_domain = 230;
+
 }  // namespace tessera

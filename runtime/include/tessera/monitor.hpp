@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 /// A controller can be watched while it runs. On the steady clock it listens on a Unix socket
-/// `<monitor_folder()>/<system>.<pid>.sock`. To every client it sends a line of JSON at once
+/// `<monitor_folder()>/<system>.<pid>.sock` (monitor_file). To every client it sends a line of JSON at once
 /// and then five times a second:
 ///
 ///     {"system", "pid", "net_hash", "time_s", "recording": file; absent: none,
@@ -73,7 +75,19 @@ namespace tessera {
 
 inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;
 
-/// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID. Only its owner may enter the folder.
+/// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID if there is none or its path leaves no room for sockets. Only
+/// its owner may enter the folder.
 [[nodiscard]] std::string monitor_folder();
+
+/// The socket of a process, NAME.PID.sock in that folder; name: SYSTEM or SYSTEM.PROCESS. The path of a socket has
+/// at most 107 bytes. So the end of a longer name is replaced by a hash: "warehouse_of_the_n~1a2b3c4d.4711.sock".
+[[nodiscard]] std::string monitor_file(std::string_view name, std::int64_t process);
+
+inline constexpr char cut_off_name = '~';  ///< before the hash; no name has it
+
+/// Whether the name in the name of such a file was cut off: then only the lines of the process tell it.
+[[nodiscard]] constexpr bool has_shortened_name(std::string_view file) {
+  return file.substr(file.rfind('/') + 1).find(cut_off_name) != std::string_view::npos;
+}
 
 }  // namespace tessera

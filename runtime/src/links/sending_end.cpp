@@ -91,8 +91,9 @@ void SendingEnd::hear(const network::State& state, Time now, LinkServices& servi
   if (effects.superseded && !superseded_) {
     superseded_ = true;
     services.complain(channel(),
-                      "the receiver follows a later start of this process, as if the clock of this machine "
-                      "had been set back: it will never listen; start with a greater --incarnation",
+                      "the receiver follows a later start of this process: it was started a second time, "
+                      "here or on another machine, or the clock was set back before this start; it will "
+                      "never listen",
                       true);
   }
   if (effects.taken) acknowledge(state.from);

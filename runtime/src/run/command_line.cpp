@@ -12,8 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "network/carrier.hpp"
 #include "run/driver_requests.hpp"
 #include "subsystem/parameters.hpp"
+#include "tessera/channel_limits.hpp"
 
 namespace tessera {
 namespace {
@@ -101,12 +103,12 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
 }
 
 void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& network, Words& words) {
-  constexpr int largest_domain = 232;
+  static_assert(last_domain == network::last_domain);
   run.add_option("--process", network.process, "The process of the deployment to run (docs/fleets.md)");
   run.add_option("--carrier-library", network.library,
                  "Library that carries messages to other processes (default: that of the installation)");
   run.add_option("--domain", words.domain, "DDS domain, in place of that of the specification")
-      ->check(CLI::Range(0, largest_domain));
+      ->check(CLI::Range(0, static_cast<int>(last_domain)));
   run.add_option("--interface", network.interface,
                  "Network interface, in place of that of the specification");
   run.add_option("--peers", network.peers,

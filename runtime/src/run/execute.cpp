@@ -21,6 +21,7 @@
 #include "system/console.hpp"
 #include "system/stop_signals.hpp"
 #include "tessera/controller.hpp"
+#include "tessera/process_claim.hpp"
 #include "watch/stuck.hpp"
 
 namespace tessera {
@@ -200,6 +201,15 @@ namespace {
   return options;
 }
 
+[[nodiscard]] ClaimedProcess claimed(const ProcessPart& part, const RunOptions& options) {
+  const RunOptions::Network& given = options.network;
+  const Process& process = part.whole->processes[*part.process];
+  return {.system = std::string(part.whole->name),
+          .process = std::string(process.name),
+          .domain = given.domain.value_or(static_cast<int>(part.whole->domain)),
+          .interface = given.interface.empty() ? std::string(process.interface) : given.interface};
+}
+
 [[nodiscard]] std::string names_of(std::span<const Process> processes) {
   std::string names;
   for (const Process& process : processes) names += (names.empty() ? "" : ", ") + std::string(process.name);
@@ -253,6 +263,14 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   // Must run before there are threads.
   Companions companions(part->system, options);
   if (!companions.start_guardian(error)) return std::nullopt;
+  // After the guardian, which would inherit it.
+  std::optional<ProcessClaim> claim;
+  if (part->process) claim.emplace(claimed(*part, options));
+  if (claim && claim->other()) {
+    if (companions.guardian() != nullptr) companions.guardian()->dismiss();
+    error = runs_already(claimed(*part, options), *claim->other());
+    return std::nullopt;
+  }
   // Nothing real waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);

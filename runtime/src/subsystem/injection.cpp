@@ -87,9 +87,28 @@ class InjectionReader {
       const auto one = process(pair.substr(0, at)), other = process(pair.substr(at + 1));
       if (!one || !other || one == other) continue;
       fault_.processes = {*one, *other};
-      return true;
+      return are_linked(*one, *other) || fail("no channel joins " + pair + known_links());
     }
     return fail("'" + pair + "' names no two processes" + known_processes());
+  }
+
+  [[nodiscard]] bool are_linked(std::uint32_t one, std::uint32_t other) const {
+    return std::ranges::any_of(system_.channels, [&](const Channel& channel) {
+      const std::uint32_t from = system_.process_of[channel.from.instance],
+                          to = system_.process_of[channel.to.instance];
+      return (from == one && to == other) || (from == other && to == one);
+    });
+  }
+
+  [[nodiscard]] std::string known_links() const {
+    std::string known;
+    for (std::uint32_t one = 0; one < system_.processes.size(); ++one)
+      for (std::uint32_t other = one + 1; other < system_.processes.size(); ++other)
+        if (are_linked(one, other))
+          known += (known.empty() ? "; there are the links " : ", ") +
+                   std::string(system_.processes[one].name) + "-" +
+                   std::string(system_.processes[other].name);
+    return known;
   }
 
   [[nodiscard]] std::string known_processes() const {

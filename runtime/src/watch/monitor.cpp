@@ -80,8 +80,9 @@ Monitor::~Monitor() {
 
 void Monitor::warn_of_failure(Time now) const {
   if (!failure_.empty())
-    console::print(LogLevel::warning, now, "tessera",
-                   fmt::format("`tessera top` cannot look at this run: {}", failure_));
+    console::print(
+        LogLevel::warning, now, "tessera",
+        fmt::format("`tessera top`, `set` and `emergency-stop` cannot reach this run: {}", failure_));
 }
 
 // -------------------------------------------------------------------------------------------- the thread

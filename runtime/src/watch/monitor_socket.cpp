@@ -10,6 +10,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -71,13 +72,38 @@ void remove_left_behind(const std::string& folder) {
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t longest_path = sizeof(sockaddr_un::sun_path) - 1;
+
+/// FNV-1a.
+std::string hash_of(std::string_view name) {
+  std::uint32_t hash = 0x811c9dc5U;
+  for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x01000193U;
+  return fmt::format("{:08x}", hash);
+}
+
+}  // namespace
+
 std::string monitor_folder() {
+  // The shortest file: four letters, the hash, the number of a process, ".sock".
+  constexpr std::size_t least_room = sizeof "/abcd~01234567.4194304.sock" - 1;
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  if (runtime != nullptr && *runtime != '\0') return std::string(runtime) + "/tessera";
+  if (runtime != nullptr && *runtime != '\0')
+    if (std::string folder = std::string(runtime) + "/tessera"; folder.size() + least_room <= longest_path)
+      return folder;
   return fmt::format("/tmp/tessera-{}", geteuid());
 }
 
-MonitorSocket::MonitorSocket(std::string_view name) { listen_in(monitor_folder(), name); }
+std::string monitor_file(std::string_view name, std::int64_t process) {
+  const std::string begin = monitor_folder() + "/", end = fmt::format(".{}.sock", process);
+  const std::size_t room = longest_path - begin.size() - end.size();
+  if (name.size() <= room) return begin + std::string(name) + end;
+  const std::string hash = cut_off_name + hash_of(name);
+  return begin + std::string(name.substr(0, room - hash.size())) + hash + end;
+}
+
+MonitorSocket::MonitorSocket(std::string_view name) { listen(name); }
 
 MonitorSocket::~MonitorSocket() {
   if (descriptor_ < 0) return;
@@ -85,21 +111,18 @@ MonitorSocket::~MonitorSocket() {
   unlink(file_.c_str());
 }
 
-void MonitorSocket::listen_in(const std::string& folder, std::string_view name) {
+void MonitorSocket::listen(std::string_view name) {
+  const std::string folder = monitor_folder();
   if (!own_folder(folder, failure_)) return;
   remove_left_behind(folder);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string file = fmt::format("{}/{}.{}.sock", folder, name, getpid());
-  if (file.size() >= sizeof address.sun_path) {
-    failure_ = fmt::format("the path '{}' is too long for a socket", file);
-    return;
-  }
+  const std::string file = monitor_file(name, getpid());
   std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
   unlink(file.c_str());  // of an earlier process with our number
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const auto* own = reinterpret_cast<const sockaddr*>(&address);
-  if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || listen(descriptor, 4) != 0) {
+  if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || ::listen(descriptor, 4) != 0) {
     failure_ = fmt::format("cannot listen at '{}': {}", file, std::strerror(errno));
     if (descriptor >= 0) close(descriptor);
     return;

@@ -9,7 +9,7 @@ namespace tessera {
 /// Making it removes the sockets of runs that were killed.
 class MonitorSocket {
  public:
-  /// The file is NAME.PID.sock.
+  /// The file is tessera::monitor_file(name, this process).
   explicit MonitorSocket(std::string_view name);
   ~MonitorSocket();
   MonitorSocket(const MonitorSocket&) = delete;
@@ -27,7 +27,7 @@ class MonitorSocket {
   [[nodiscard]] Accepted accept() const;
 
  private:
-  void listen_in(const std::string& folder, std::string_view name);
+  void listen(std::string_view name);
 
   std::string file_, failure_;
   int descriptor_ = -1;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <variant>
 
+#include "tessera/monitor.hpp"
+
 namespace tessera::project {
 
 namespace {
@@ -49,8 +51,13 @@ struct ProcessOfSocket {
   bool is_gone = false;  ///< no process has the number
 };
 
-ProcessOfSocket process_of_socket(std::string_view socket, std::string_view system) {
-  socket.remove_prefix(system.size() + 1);
+/// What the process says decides, if the name of the socket is too short for the system's or says another.
+bool may_be_of(std::string_view socket, const std::string& system) {
+  return has_shortened_name(socket) || socket.starts_with(system + ".");
+}
+
+ProcessOfSocket process_of_socket(std::string_view socket, const std::string& system) {
+  if (socket.starts_with(system + ".")) socket.remove_prefix(system.size() + 1);
   socket.remove_suffix(std::string_view(".sock").size());
   const std::size_t dot = socket.rfind('.');
   const std::string_view number = dot == std::string_view::npos ? socket : socket.substr(dot + 1);
@@ -103,7 +110,7 @@ void DeploymentWatch::look_for_sockets() {
   next_look_ = now + look_period;
   for (const std::filesystem::path& file : control_sockets(folder_)) {
     const std::string name = file.filename().string();
-    if (!name.starts_with(system_ + ".") || connected_.contains(name)) continue;
+    if (!may_be_of(name, system_) || connected_.contains(name)) continue;
     if (const auto refused = refused_.find(name);
         refused != refused_.end() && now < refused->second + pause_after_refusal)
       continue;
@@ -125,7 +132,7 @@ void DeploymentWatch::look_for_sockets() {
 void DeploymentWatch::note_found(const std::string& socket, Connected& one,
                                  WatchedProcess::State state) const {
   const ProcessOfSocket known = process_of_socket(socket, system_);
-  if (known.name.empty()) return;
+  if (known.name.empty() || !socket.starts_with(system_.substr(0, socket.find(cut_off_name)))) return;
   Snapshot snapshot;
   snapshot.system = system_;
   snapshot.name = known.name;

@@ -14,6 +14,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/channel_limits.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -77,8 +78,9 @@ class DeploymentReader {
   void read_domain(const Entry& domain) {
     const auto number = read_number(*domain.value, domain.span, "domain", out_);
     if (!number) return;
-    if (*number < 0 || *number > largest_domain || *number != std::floor(*number))
-      out_.error("E206", domain.value->span, "a DDS domain is a whole number from 0 to 232");
+    if (*number < 0 || *number > last_domain || *number != std::floor(*number))
+      out_.error("E206", domain.value->span,
+                 "a DDS domain is a whole number from 0 to " + std::to_string(last_domain));
     else
       deployment_.domain = static_cast<Index>(*number);
   }

@@ -26,7 +26,6 @@ struct Deployment {
   std::vector<Process> processes;
   diagnostics::Span span;
 };
-inline constexpr std::uint32_t largest_domain = 232;  ///< of DDS: the ports of a larger one do not exist
 /// A busy machine keeps a process from being heard for a while. The middleware forgets one after 20 s.
 inline constexpr std::chrono::milliseconds shortest_liveliness{100};
 inline constexpr std::chrono::seconds longest_liveliness{10};

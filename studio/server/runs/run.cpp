@@ -239,8 +239,7 @@ void Run::execute(project::Controller controller) {
         publish("log", {{"line", line}});
       },
       [this, &options](pid_t process) {
-        const std::filesystem::path socket = std::filesystem::path(monitor_folder()) /
-                                             fmt::format("{}.{}.sock", analysis_->model->system, process);
+        const std::filesystem::path socket = monitor_file(analysis_->model->system, process);
         follower_ = std::thread([this, socket, folder = options.folder] { follow(socket, folder); });
       });
   process_over_ = true;

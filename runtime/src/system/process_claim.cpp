@@ -1,0 +1,67 @@
+#include "tessera/process_claim.hpp"
+
+#include <fmt/core.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+
+namespace tessera {
+namespace {
+
+/// Names of abstract sockets are short, so that this is a hash (FNV-1a).
+std::string name_of(const ClaimedProcess& process) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto add = [&](const std::string& text) {
+    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    hash *= 0x100000001b3U;
+  };
+  add(process.system);
+  add(process.process);
+  add(std::to_string(process.domain));
+  add(process.interface.empty() ? "lo" : process.interface);
+  return fmt::format("tessera-process-{:016x}", hash);
+}
+
+std::int64_t owner_of(const sockaddr_un& address, socklen_t size) {
+  const int client = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  ucred owner{};
+  socklen_t length = sizeof owner;
+  const bool known = client >= 0 && connect(client, reinterpret_cast<const sockaddr*>(&address), size) == 0 &&
+                     getsockopt(client, SOL_SOCKET, SO_PEERCRED, &owner, &length) == 0;
+  if (client >= 0) close(client);
+  return known ? owner.pid : 0;
+}
+
+}  // namespace
+
+ProcessClaim::ProcessClaim(const ClaimedProcess& process)
+    : socket_(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = name_of(process);
+  std::memcpy(address.sun_path + 1, name.data(), name.size());  // a name that begins with 0 is abstract
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  if (socket_ < 0) return;
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), size) == 0)
+    static_cast<void>(listen(socket_, 4));
+  else if (errno == EADDRINUSE)
+    other_ = owner_of(address, size);
+}
+
+ProcessClaim::~ProcessClaim() {
+  if (socket_ >= 0) close(socket_);
+}
+
+std::string runs_already(const ClaimedProcess& process, std::int64_t other) {
+  return fmt::format(
+      "process {} of {} runs on this machine already{}, in domain {} on interface {}: stop it first, "
+      "or use another --domain",
+      process.process, process.system, other > 0 ? fmt::format(" (number {})", other) : "", process.domain,
+      process.interface.empty() ? "lo" : process.interface);
+}
+
+}  // namespace tessera

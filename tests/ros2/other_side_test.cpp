@@ -1,0 +1,90 @@
+// A participant of another implementation that uses all interfaces, as nodes of ROS 2 do unless told otherwise.
+#include "ros2/dds/other_side.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "bindings.hpp"
+#include "eventually.hpp"
+#include "fast_peer.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(OtherSideWatch, TellsOnceOfNobodyAndOfWhoComes) {
+  EndpointSetup setup;
+  setup.path = "robot.laser.scan";
+  setup.topic = "/scan";
+  setup.network = {.domain = 7, .interface = "eth0"};
+  OtherSideWatch::Clock::time_point now{};
+  OtherSideWatch watch(setup, /*writes=*/false, now);
+  EXPECT_FALSE(watch.look(false, now += milliseconds(2900)));
+  EXPECT_EQ(
+      watch.look(false, now += milliseconds(200)),
+      "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7: is ROS_DOMAIN_ID the same at "
+      "the other side, and does the network carry multicast (else name `peers`)?");
+  EXPECT_FALSE(watch.look(false, now += milliseconds(9000)));
+  EXPECT_EQ(watch.look(true, now),
+            "robot.laser.scan: somebody publishes /scan on interface eth0 in domain 7");
+  EXPECT_FALSE(watch.look(true, now));
+  EXPECT_FALSE(watch.look(false, now += milliseconds(9000))) << "it has gone just now";
+  EXPECT_TRUE(watch.look(false, now += milliseconds(3100)));
+}
+
+/// Runs it in a network of its own, with lo and one more interface (address 10.91.0.1). false: none can be made.
+bool in_own_network(const std::function<void()>& what) {
+  bool made = false;
+  std::thread([&] {
+    made =
+        unshare(CLONE_NEWNET) == 0 &&
+        std::system(
+            "{ ip link set lo up && ip link add v0 type veth peer name v1 && "
+            "ip addr add 10.91.0.1/24 dev v0 && ip link set v0 up && ip link set v1 up; } 2>/dev/null") == 0;
+    if (made) what();
+  }).join();
+  return made;
+}
+
+TEST(OtherSide, OfADefaultParticipantIsToldAsMissingOnLoopbackAndFoundOnItsInterface) {
+  const auto base = [](const std::string& interface, const std::string& peers = "") {
+    auto made = binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega");
+    made.interface = interface;
+    made.peers = peers;
+    return made;
+  };
+  const bool made = in_own_network([&] {
+    fast::Peer peer(test_domain(), fast::Reach::all);
+    auto* const reader = peer.reader<fast::Twist>("rt/cmd_vel");
+    for (const char* peers : {"", "10.91.0.1"}) {  // found by multicast, and without it
+      auto effector = opened_effector(base("v0", peers));
+      EXPECT_TRUE(eventually([&] {
+        EXPECT_TRUE(write(*effector, Motion{1, 0}));
+        return fast::Peer::take<fast::Twist>(*reader).has_value();
+      })) << "peers: "
+          << peers;
+    }
+    std::string told;
+    testing::internal::CaptureStderr();
+    auto effector = opened_effector(base("lo"));
+    EXPECT_TRUE(eventually([&] {
+      EXPECT_TRUE(write(*effector, Motion{1, 0}));
+      told += testing::internal::GetCapturedStderr();
+      testing::internal::CaptureStderr();
+      return told.find("nobody subscribes to /cmd_vel on interface lo") != std::string::npos;
+    }));
+    testing::internal::GetCapturedStderr();
+    EXPECT_NE(told.find("Write `interface: v0` into the driver"), std::string::npos) << told;
+  });
+  if (!made) GTEST_SKIP() << "no network namespace can be made here (root, package iproute2)";
+}
+
+}  // namespace
+}  // namespace tessera::ros2

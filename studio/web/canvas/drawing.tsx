@@ -18,6 +18,7 @@ import type { NetModel } from "../model/net";
 import type { Sheets } from "../model/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
+import { steps } from "./detail";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useFlight } from "./flight";
@@ -27,8 +28,6 @@ import { useSharedView } from "./shared_view";
 import { useSteadyView } from "./steady_view";
 
 const nodeTypes = { sheet: SheetNodeView };
-/** A zoom not above the real one, which changes seldom: letters are measured by it. */
-const steps = (zoom: number) => 2 ** (Math.floor(Math.log2(zoom) * 8) / 8);
 const noEdges: never[] = [];
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 

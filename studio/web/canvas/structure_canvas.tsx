@@ -12,7 +12,7 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
@@ -22,6 +22,7 @@ import { channelOf } from "../model/repair_edits";
 import { drawStructure, type StructureDrawing } from "../model/structure_graph";
 import { YamlText } from "../model/yaml_text";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
+import { detailAt, structureStep } from "./detail";
 import { elk } from "./elk";
 import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
@@ -56,6 +57,8 @@ interface Drawn {
   structure: Structure;
   drawing: StructureDrawing;
 }
+
+const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 const nothing: Drawn = {
   structure: { agents: [], channels: [], system: "", types: [], yaml: new YamlText("") },
@@ -174,11 +177,21 @@ function Drawing() {
     );
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
-  const boxOf = (path: string) => drawing.boxes.get(withoutIndex(path));
+  const flow = useReactFlow();
+  const zoom = useFlow(({ transform }) => structureStep(transform[2]));
+  const detail = detailAt(zoom);
+  // Where subsystems are not drawn, their agent stands for them.
+  const boxOf = (path: string) => drawing.boxes.get(detail === "agents" ? path.split(/[.[]/)[0]! : withoutIndex(path));
   const dragged = useRef(false);
   // The click that ends a drag is not meant for the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) => dragged.current || select(pathOf(event.target as Element));
+  /** Flies to an agent, or to a subsystem in which it is. */
+  const doubleClick = (event: MouseEvent) => {
+    const path = pathOf(event.target as Element);
+    const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));
+    if (box) void flow.fitBounds(box, { duration: still.matches ? 0 : 350, padding: 0.06 });
+  };
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
@@ -200,7 +213,9 @@ function Drawing() {
         <span className="crumb" aria-current="page">
           {structure.system || "system"}
         </span>
-        <span className="layer-name">drag from an output to an input to connect them</span>
+        <span className="layer-name">
+          {detail === "all" ? "drag from an output to an input to connect them" : "double-click an agent to see what is in it"}
+        </span>
         <span className="spring" />
         <button className="quiet" onClick={add}>
           Add agent
@@ -208,7 +223,13 @@ function Drawing() {
         <ExportButtons name={structure.system} />
       </div>
       <ChannelTip />
-      <div className="canvas-area" onClick={click} onKeyDown={key}>
+      <div
+        className={`canvas-area detail-${detail}`}
+        style={{ "--zoom": zoom } as CSSProperties}
+        onClick={click}
+        onDoubleClick={doubleClick}
+        onKeyDown={key}
+      >
         <ReactFlow
           nodes={nodes}
           edges={edges}

@@ -133,7 +133,15 @@ export const ChannelTip = () => (
         <path className="tip" d="M0 0L10 4L0 8L2.5 4Z" />
       </marker>
       {/* Of the lines between agents, seen from afar. */}
-      <marker id="trunk-tip" viewBox="0 0 10 8" refX="9.5" refY="4" markerWidth="6" markerHeight="4.8" orient="auto-start-reverse">
+      <marker
+        id="trunk-tip"
+        viewBox="0 0 10 8"
+        refX="9.5"
+        refY="4"
+        markerWidth="6"
+        markerHeight="4.8"
+        orient="auto-start-reverse"
+      >
         <path className="tip" d="M0 0L10 4L0 8Z" />
       </marker>
     </defs>

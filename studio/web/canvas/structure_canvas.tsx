@@ -22,7 +22,7 @@ import { channelOf } from "../model/repair_edits";
 import { drawStructure, type StructureDrawing } from "../model/structure_graph";
 import { YamlText } from "../model/yaml_text";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
-import { detailAt, structureStep } from "./detail";
+import { detailAt, structureStep, type Detail } from "./detail";
 import { elk } from "./elk";
 import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
@@ -111,6 +111,16 @@ function nodesOf({ structure, drawing }: Drawn, selected: string | null, complai
     }
   }
   return nodes;
+}
+
+const none: readonly Box[] = [];
+
+/** Where the names of agents stand. */
+function namesOf({ structure, drawing }: Drawn, detail: Detail): Box[] {
+  return structure.agents.flatMap(({ name }) => {
+    const box = drawing.boxes.get(name);
+    return box ? [detail === "agents" ? box : { ...box, height: 50 }] : [];
+  });
 }
 
 /** What is meant by a click: an element, or the line of a channel. */
@@ -248,7 +258,7 @@ function Drawing() {
           connectionRadius={28}
         >
           <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
-          <LensOverlay whole={whole} boxOf={boxOf} version={drawing} />
+          <LensOverlay whole={whole} boxOf={boxOf} names={lens ? namesOf(drawn, detail) : none} version={drawing} />
           <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
           <Panel position="bottom-left">
             <Legend of="structure" />

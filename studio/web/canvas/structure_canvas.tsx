@@ -115,12 +115,21 @@ function nodesOf({ structure, drawing }: Drawn, selected: string | null, complai
 
 const none: readonly Box[] = [];
 
-/** Where the names of agents stand. */
-function namesOf({ structure, drawing }: Drawn, detail: Detail): Box[] {
-  return structure.agents.flatMap(({ name }) => {
-    const box = drawing.boxes.get(name);
-    return box ? [detail === "agents" ? box : { ...box, height: 50 }] : [];
-  });
+/** Where the names of agents and subsystems stand: in the middle of their boxes if these have no other text. */
+function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): Box[] {
+  const middle = (box: Box): Box => {
+    const height = Math.min(box.height, 40 / zoom);
+    return { ...box, y: box.y + (box.height - height) / 2, height };
+  };
+  const head = (box: Box): Box => ({ ...box, height: 50 });
+  const named = (path: string, place: (box: Box) => Box) => {
+    const box = drawing.boxes.get(path);
+    return box ? [place(box)] : [];
+  };
+  return structure.agents.flatMap(({ name, subsystems }) => [
+    ...named(name, detail === "agents" ? middle : head),
+    ...(detail === "agents" ? [] : subsystems.flatMap(({ path }) => named(path, detail === "all" ? head : middle))),
+  ]);
 }
 
 /** What is meant by a click: an element, or the line of a channel. */
@@ -258,7 +267,7 @@ function Drawing() {
           connectionRadius={28}
         >
           <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
-          <LensOverlay whole={whole} boxOf={boxOf} names={lens ? namesOf(drawn, detail) : none} version={drawing} />
+          <LensOverlay whole={whole} boxOf={boxOf} names={lens ? namesOf(drawn, detail, zoom) : none} version={drawing} />
           <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
           <Panel position="bottom-left">
             <Legend of="structure" />

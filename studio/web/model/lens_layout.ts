@@ -22,13 +22,15 @@ interface Way {
 const letter = 7.4;
 const line = 15;
 /** Parts of an arrow at which its label may stand. */
-const parts = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
+const parts = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
+/** Parts of an arrow that labels are kept off. */
+const samples = Array.from({ length: 31 }, (_, at) => at / 30);
 /** Pixels at the rims of a window without labels; the legend and the buttons are below. */
 const rim = { side: 6, top: 6, below: 46 };
 
 /**
  * An arrow for each wait between boxes that are drawn. Its label stands beside it, within the window, and where it
- * covers no box, no name and no other label, or else as little of them as possible.
+ * covers no box, name, arrow or other label, or else as little of them as possible.
  *
  * boxes: of all who are concerned. unit: of the drawing, as large as a pixel.
  */
@@ -39,23 +41,25 @@ export function arrows(
   window: Box,
   unit: number,
 ): Arrow[] {
-  const covered = [...boxes.values(), ...names];
+  const ways = waits.flatMap((wait) => {
+    const [from, to] = [boxes.get(wait.who), boxes.get(wait.whom)];
+    return from && to ? [{ wait, way: from === to ? loop(from, unit) : bent(from, to, unit) }] : [];
+  });
+  const lines = ways.flatMap(({ way }) => samples.map((part) => grown({ ...way.at(part), width: 0, height: 0 }, 5 * unit)));
+  const covered = [...boxes.values(), ...names, ...lines];
   const inside = {
     x: window.x + rim.side * unit,
     y: window.y + rim.top * unit,
     width: window.width - 2 * rim.side * unit,
     height: window.height - (rim.top + rim.below) * unit,
   };
-  return waits.flatMap(({ who, whom, channel, awaited }) => {
-    const [from, to] = [boxes.get(who), boxes.get(whom)];
-    if (!from || !to) return [];
-    const way = from === to ? loop(from, unit) : bent(from, to, unit);
+  return ways.map(({ wait: { who, whom, channel, awaited }, way }) => {
     const text = `waits for ${awaited === "value" ? "a value" : awaited === "nothing" ? "it" : `the ${awaited}`}`;
     const size = { width: text.length * letter * unit, height: line * unit };
     const places = parts.flatMap((part) => [1, -1].map((side) => within(inside, beside(way, part, side, size, unit))));
     const label = places.reduce((best, one) => (cost(one, covered) < cost(best, covered) - 1e-9 ? one : best));
     covered.push(label);
-    return [{ key: `${who} ${whom} ${channel}`, path: way.path, text, label }];
+    return { key: `${who} ${whom} ${channel}`, path: way.path, text, label };
   });
 }
 

@@ -1,7 +1,7 @@
 import { ViewportPortal } from "@xyflow/react";
 import { useState } from "react";
 import { roundedPath } from "../model/geometry";
-import { channelLabel, channelPath, type Channel, type Structure } from "../model/structure";
+import { channelLabel, channelPath, withoutIndex, type Channel, type Structure } from "../model/structure";
 import { isNext, type StructureDrawing } from "../model/structure_graph";
 
 /** How a channel is shown besides its modes. */
@@ -42,6 +42,7 @@ export function ChannelLayer({
 }) {
   const [over, setOver] = useState<number | null>(null);
   const chosen = structure.channels.findIndex(({ index }) => channelPath(index) === look.selected);
+  const isAt = (path: string) => look.selected !== null && withoutIndex(path).startsWith(`${withoutIndex(look.selected)}.`);
   const wires = drawing.wires.map((wire, at) => ({
     wire,
     at,
@@ -58,6 +59,10 @@ export function ChannelLayer({
               "channel",
               channels.some(blocks) ? "blocking" : "",
               channels.length > 1 ? "trunk" : "",
+              wire.between ? "between" : "inside",
+              wire.between?.forth ? "forth" : "",
+              wire.between?.back ? "back" : "",
+              channels.some(({ from, to }) => isAt(from) || isAt(to)) ? "of-selected" : "",
               channels.some(({ index }) => index === chosen) ? "selected" : "",
               channels.some(({ index }) => index === over) ? "over" : "",
               channels.some(({ index }) => look.complaints.get(channelPath(index))?.severity === "error") ? "error" : "",
@@ -126,6 +131,18 @@ export const ChannelTip = () => (
         orient="auto"
       >
         <path className="tip" d="M0 0L10 4L0 8L2.5 4Z" />
+      </marker>
+      {/* Of the lines between agents, seen from afar. */}
+      <marker
+        id="trunk-tip"
+        viewBox="0 0 10 8"
+        refX="9.5"
+        refY="4"
+        markerWidth="6"
+        markerHeight="4.8"
+        orient="auto-start-reverse"
+      >
+        <path className="tip" d="M0 0L10 4L0 8Z" />
       </marker>
     </defs>
   </svg>

@@ -13,11 +13,13 @@ import { useStore, useStudio } from "../hooks/use";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";
+import { header, textWidth, type Box } from "../model/geometry";
 import { help } from "../model/help";
 import type { NetModel } from "../model/net";
 import type { Sheets } from "../model/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
+import { steps } from "./detail";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useFlight } from "./flight";
@@ -27,8 +29,6 @@ import { useSharedView } from "./shared_view";
 import { useSteadyView } from "./steady_view";
 
 const nodeTypes = { sheet: SheetNodeView };
-/** A zoom not above the real one, which changes seldom: letters are measured by it. */
-const steps = (zoom: number) => 2 ** (Math.floor(Math.log2(zoom) * 8) / 8);
 const noEdges: never[] = [];
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
@@ -136,12 +136,28 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
         proOptions={{ hideAttribution: true }}
       >
         <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
-        {root && <LensOverlay whole={{ x: 0, y: 0, width: root.width, height: root.height }} boxOf={boxOf} version={sheets} />}
+        {root && (
+          <LensOverlay
+            whole={{ x: 0, y: 0, width: root.width, height: root.height }}
+            boxOf={boxOf}
+            names={lens ? namesOf(net, sheets) : []}
+            version={sheets}
+          />
+        )}
         <Panel position="bottom-left">{legend ?? (lead && <Legend of="net" />)}</Panel>
         {lead && <Controls showInteractive={false} position="bottom-right" />}
       </ReactFlow>
     </div>
   );
+}
+
+/** Where the names of agents stand: above their nets, in up to 1.6 times their size. */
+function namesOf(net: NetModel, sheets: Sheets): Box[] {
+  return net.children(0).flatMap((page) => {
+    const { path, name } = net.page(page);
+    const box = sheets.boxOf(path);
+    return box ? [{ x: box.x, y: box.y, width: Math.min(box.width, 14 + textWidth(name, 20)), height: header }] : [];
+  });
 }
 
 /** The complaints about the text or of a verification, by path. */

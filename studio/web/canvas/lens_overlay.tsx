@@ -1,30 +1,35 @@
-import { useReactFlow, useStore as useFlow, ViewportPortal } from "@xyflow/react";
+import { useReactFlow, useStore as useFlow, ViewportPortal, type ReactFlowState } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Stuck } from "../live/lens";
-import type { Box, Point } from "../model/geometry";
+import type { Box } from "../model/geometry";
+import { around, arrows, grown, type Arrow } from "../model/lens_layout";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
+const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
 /**
  * Greys all but those who have to do with a standstill, and draws who waits for whom. Flies to them once when
  * it is asked for.
  *
- * boxOf: where a subsystem is drawn; undefined: not yet, or not at all.
+ * boxOf: where a subsystem is drawn; undefined: not yet, or not at all. names: where names of others stand, which are
+ * left readable.
  */
 export function LensOverlay({
   whole,
   boxOf,
+  names,
   version,
 }: {
   whole: Box;
   boxOf: (path: string) => Box | undefined;
+  names: readonly Box[];
   version: unknown;
 }) {
   const studio = useStudio();
   const { shown, request } = useStore(studio.lens.store, (all) => all);
   const flow = useReactFlow();
-  const zoom = useFlow((state) => state.transform[2]);
+  const [x, y, zoom, width, height] = useFlow(windowOf).split(",").map(Number) as [number, number, number, number, number];
   const ready = useFlow((state) => state.width > 0);
   const flown = useRef(0);
   const boxes = new Map(
@@ -40,10 +45,21 @@ export function LensOverlay({
     if (bounds) void flow.fitBounds(bounds, { duration: still.matches ? 0 : 450, padding: 0.25 });
   }, [shown, request, ready, boxes.size, version, flow]);
   if (!shown || boxes.size === 0) return null;
-  return <Drawn shown={shown} whole={whole} boxes={boxes} zoom={zoom} />;
+  const window = { x: -x / zoom, y: -y / zoom, width: width / zoom, height: height / zoom };
+  return (
+    <Drawn shown={shown} whole={whole} boxes={boxes} drawn={arrows(shown.waits, boxes, names, window, 1 / zoom)} zoom={zoom} />
+  );
 }
 
-function Drawn({ shown, whole, boxes, zoom }: { shown: Stuck; whole: Box; boxes: ReadonlyMap<string, Box>; zoom: number }) {
+interface DrawnProps {
+  shown: Stuck;
+  whole: Box;
+  boxes: ReadonlyMap<string, Box>;
+  drawn: readonly Arrow[];
+  zoom: number;
+}
+
+function Drawn({ shown, whole, boxes, drawn, zoom }: DrawnProps) {
   // Lines and letters have the same size on screen, however near the drawing is.
   const unit = 1 / zoom;
   const far = 4000;
@@ -85,87 +101,17 @@ function Drawn({ shown, whole, boxes, zoom }: { shown: Stuck; whole: Box; boxes:
             strokeWidth={3 * unit}
           />
         ))}
-        {shown.waits.map(({ who, whom, channel, awaited }) => {
-          const [from, to] = [boxes.get(who), boxes.get(whom)];
-          if (!from || !to) return null;
-          const way = who === whom ? loop(from, unit) : bent(from, to, unit);
-          return (
-            <g key={`${who} ${whom} ${channel}`} className="lens-wait">
-              <path d={way.path} strokeWidth={2.5 * unit} markerEnd="url(#lens-tip)" />
-              <text x={way.middle.x} y={way.middle.y} fontSize={12 * unit} strokeWidth={4 * unit} textAnchor={way.anchor}>
-                waits for {awaited === "value" ? "a value" : awaited === "nothing" ? "it" : `the ${awaited}`}
-              </text>
-            </g>
-          );
-        })}
+        {drawn.map(({ key, path, label, text }) => (
+          <g key={key} className="lens-wait">
+            <path d={path} strokeWidth={2.5 * unit} markerEnd="url(#lens-tip)" />
+            <text x={label.x} y={label.y + 11.5 * unit} fontSize={12 * unit} strokeWidth={4 * unit}>
+              {text}
+            </text>
+          </g>
+        ))}
       </svg>
     </ViewportPortal>
   );
 }
 
-const grown = ({ x, y, width, height }: Box, by: number): Box => ({
-  x: x - by,
-  y: y - by,
-  width: width + 2 * by,
-  height: height + 2 * by,
-});
-
 const rectangle = ({ x, y, width, height }: Box) => `M${x} ${y}h${width}v${height}h${-width}z`;
-
-const middle = ({ x, y, width, height }: Box): Point => ({ x: x + width / 2, y: y + height / 2 });
-
-export function around(boxes: readonly Box[]): Box | undefined {
-  if (boxes.length === 0) return undefined;
-  const x = Math.min(...boxes.map((box) => box.x));
-  const y = Math.min(...boxes.map((box) => box.y));
-  const right = Math.max(...boxes.map((box) => box.x + box.width));
-  const bottom = Math.max(...boxes.map((box) => box.y + box.height));
-  return { x, y, width: right - x, height: bottom - y };
-}
-
-interface Way {
-  path: string;
-  /** Beside the arrow, on its outer side. */
-  middle: Point;
-  anchor: "start" | "middle" | "end";
-}
-
-/** An arrow between the rims of two boxes, bent to one side, so that those of a circle stay apart. */
-function bent(from: Box, to: Box, unit: number): Way {
-  const [a, b] = [middle(from), middle(to)];
-  const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
-  const side = Math.min(60 * unit, length / 4);
-  const out = { x: -(b.y - a.y) / length, y: (b.x - a.x) / length };
-  const control = { x: (a.x + b.x) / 2 - ((b.y - a.y) / length) * side, y: (a.y + b.y) / 2 + ((b.x - a.x) / length) * side };
-  const [start, end] = [atRim(from, control), atRim(to, control)];
-  return {
-    path: `M${start.x} ${start.y}Q${control.x} ${control.y} ${end.x} ${end.y}`,
-    middle: {
-      x: (start.x + 2 * control.x + end.x) / 4 + out.x * 8 * unit,
-      y: (start.y + 2 * control.y + end.y) / 4 + (out.y * 12 + 3) * unit,
-    },
-    anchor: out.x > 0.4 ? "start" : out.x < -0.4 ? "end" : "middle",
-  };
-}
-
-/** Where the line from the middle of a box to a point leaves the box. */
-function atRim(box: Box, to: Point): Point {
-  const from = middle(box);
-  const [dx, dy] = [to.x - from.x, to.y - from.y];
-  const part = Math.min(
-    dx === 0 ? Infinity : box.width / 2 / Math.abs(dx),
-    dy === 0 ? Infinity : box.height / 2 / Math.abs(dy),
-    1,
-  );
-  return { x: from.x + dx * part, y: from.y + dy * part };
-}
-
-function loop(box: Box, unit: number): Way {
-  const [x, y] = [box.x + box.width / 2, box.y];
-  const size = 46 * unit;
-  return {
-    path: `M${x - size / 2} ${y}C${x - size} ${y - size} ${x + size} ${y - size} ${x + size / 2} ${y}`,
-    middle: { x, y: y - size },
-    anchor: "middle",
-  };
-}

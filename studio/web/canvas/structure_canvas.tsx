@@ -12,7 +12,7 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent } from "react";
+import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
@@ -22,6 +22,7 @@ import { channelOf } from "../model/repair_edits";
 import { drawStructure, type StructureDrawing } from "../model/structure_graph";
 import { YamlText } from "../model/yaml_text";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
+import { detailAt, structureStep, type Detail } from "./detail";
 import { elk } from "./elk";
 import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
@@ -56,6 +57,8 @@ interface Drawn {
   structure: Structure;
   drawing: StructureDrawing;
 }
+
+const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 const nothing: Drawn = {
   structure: { agents: [], channels: [], system: "", types: [], yaml: new YamlText("") },
@@ -108,6 +111,25 @@ function nodesOf({ structure, drawing }: Drawn, selected: string | null, complai
     }
   }
   return nodes;
+}
+
+const none: readonly Box[] = [];
+
+/** Where the names of agents and subsystems stand: in the middle of their boxes if these have no other text. */
+function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): Box[] {
+  const middle = (box: Box): Box => {
+    const height = Math.min(box.height, 40 / zoom);
+    return { ...box, y: box.y + (box.height - height) / 2, height };
+  };
+  const head = (box: Box): Box => ({ ...box, height: 50 });
+  const named = (path: string, place: (box: Box) => Box) => {
+    const box = drawing.boxes.get(path);
+    return box ? [place(box)] : [];
+  };
+  return structure.agents.flatMap(({ name, subsystems }) => [
+    ...named(name, detail === "agents" ? middle : head),
+    ...(detail === "agents" ? [] : subsystems.flatMap(({ path }) => named(path, detail === "all" ? head : middle))),
+  ]);
 }
 
 /** What is meant by a click: an element, or the line of a channel. */
@@ -174,11 +196,21 @@ function Drawing() {
     );
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
-  const boxOf = (path: string) => drawing.boxes.get(withoutIndex(path));
+  const flow = useReactFlow();
+  const zoom = useFlow(({ transform }) => structureStep(transform[2]));
+  const detail = detailAt(zoom);
+  // Where subsystems are not drawn, their agent stands for them.
+  const boxOf = (path: string) => drawing.boxes.get(detail === "agents" ? path.split(/[.[]/)[0]! : withoutIndex(path));
   const dragged = useRef(false);
   // The click that ends a drag is not meant for the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) => dragged.current || select(pathOf(event.target as Element));
+  /** Flies to an agent, or to a subsystem in which it is. */
+  const doubleClick = (event: MouseEvent) => {
+    const path = pathOf(event.target as Element);
+    const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));
+    if (box) void flow.fitBounds(box, { duration: still.matches ? 0 : 350, padding: 0.06 });
+  };
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
@@ -200,7 +232,9 @@ function Drawing() {
         <span className="crumb" aria-current="page">
           {structure.system || "system"}
         </span>
-        <span className="layer-name">drag from an output to an input to connect them</span>
+        <span className="layer-name">
+          {detail === "all" ? "drag from an output to an input to connect them" : "double-click an agent to see what is in it"}
+        </span>
         <span className="spring" />
         <button className="quiet" onClick={add}>
           Add agent
@@ -208,7 +242,13 @@ function Drawing() {
         <ExportButtons name={structure.system} />
       </div>
       <ChannelTip />
-      <div className="canvas-area" onClick={click} onKeyDown={key}>
+      <div
+        className={`canvas-area detail-${detail}`}
+        style={{ "--zoom": zoom } as CSSProperties}
+        onClick={click}
+        onDoubleClick={doubleClick}
+        onKeyDown={key}
+      >
         <ReactFlow
           nodes={nodes}
           edges={edges}
@@ -227,7 +267,7 @@ function Drawing() {
           connectionRadius={28}
         >
           <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
-          <LensOverlay whole={whole} boxOf={boxOf} version={drawing} />
+          <LensOverlay whole={whole} boxOf={boxOf} names={lens ? namesOf(drawn, detail, zoom) : none} version={drawing} />
           <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
           <Panel position="bottom-left">
             <Legend of="structure" />

@@ -1,8 +1,10 @@
-import { Handle, Position, type NodeProps } from "@xyflow/react";
+import { Handle, Position, useStore as useFlow, type NodeProps } from "@xyflow/react";
+import { Fragment, type CSSProperties } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useRunning } from "../hooks/use_stage";
 import type { Agent, Buffer, Subsystem } from "../model/structure";
-import { head, ports, row } from "../model/structure_layout";
+import { chipWidth, head, ports, row } from "../model/structure_layout";
+import { linesIn } from "./detail";
 
 interface Complaint {
   severity: "error" | "warning";
@@ -18,12 +20,27 @@ const Flag = ({ of }: { of: Complaint | undefined }) =>
     />
   ) : null;
 
-export function AgentNode({ data }: NodeProps) {
+/** A name that may break after its underscores. */
+const Name = ({ of }: { of: string }) =>
+  of.split(/(?<=_)/).map((part, at) => (
+    <Fragment key={at}>
+      {part}
+      <wbr />
+    </Fragment>
+  ));
+
+/** The number of lines of a name that fills its box; it changes seldom while one zooms. */
+const useLines = (height: number, letters: number) =>
+  ({ "--lines": useFlow(({ transform }) => linesIn(height, transform[2], letters)) }) as CSSProperties;
+
+export function AgentNode({ data, height = 0 }: NodeProps) {
   const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
   return (
-    <div className={`agent-box${selected ? " selected" : ""}`}>
+    <div className={`agent-box${selected ? " selected" : ""}`} style={useLines(height - 60, 13)}>
       <button className="agent-name" data-path={agent.name} aria-pressed={selected} title={agent.name}>
-        <span className="cut">{agent.name}</span>
+        <span className="cut">
+          <Name of={agent.name} />
+        </span>
         {agent.count && <span className="faint"> × {agent.count}</span>}
         {agent.template && <span className="faint"> uses {agent.template}</span>}
         <Flag of={complaint} />
@@ -34,7 +51,7 @@ export function AgentNode({ data }: NodeProps) {
 
 const kindTitle = { control: "control subsystem", receptor: "virtual receptor", effector: "virtual effector" };
 
-export function SubsystemNode({ data }: NodeProps) {
+export function SubsystemNode({ data, height = 0 }: NodeProps) {
   const { subsystem, selected, complaints } = data as {
     subsystem: Subsystem;
     selected: string | null;
@@ -46,7 +63,10 @@ export function SubsystemNode({ data }: NodeProps) {
   const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
   const isSelected = selected === subsystem.path;
   return (
-    <div className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}>
+    <div
+      className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}
+      style={useLines(height - (now ? 60 : 0), 10)}
+    >
       <button
         className="subsystem-head"
         data-path={subsystem.path}
@@ -54,7 +74,10 @@ export function SubsystemNode({ data }: NodeProps) {
         title={subsystem.path}
         style={{ height: head - 4 }}
       >
-        <span className="subsystem-name">{subsystem.name}</span>
+        <span className="subsystem-name">
+          <Name of={subsystem.name} />
+        </span>
+        {now && <span className="now">{now}</span>}
         <span className="kind">
           {kindTitle[subsystem.kind]}
           {subsystem.rate && ` · ${subsystem.rate}`}
@@ -78,6 +101,7 @@ export function SubsystemNode({ data }: NodeProps) {
         {subsystem.behaviours.map((behaviour) => (
           <button
             key={behaviour.name}
+            style={{ width: chipWidth(behaviour, subsystem) }}
             className={`chip${now === behaviour.name ? " running" : ""}`}
             data-path={behaviour.path}
             aria-pressed={selected === behaviour.path}

@@ -1,6 +1,6 @@
 import { memo, type CSSProperties } from "react";
 import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/geometry";
-import { conditionText, operationText, pageName, spoken } from "../model/labels";
+import { conditionText, nameLines, operationText, pageName, spoken } from "../model/labels";
 import type { NetModel, Page } from "../model/net";
 
 /** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
@@ -162,10 +162,6 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  */
 function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open: boolean; child: number; bare: boolean }) {
   if (bare) return <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
-  const long = Math.max(4, page.name.length * 0.62);
-  const size = Math.min(34, (box.width - 30) / long);
-  // A larger name still fits into the frame.
-  const more = Math.min(1.45, (box.width - 12) / (long * size));
   return (
     <>
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
@@ -176,37 +172,79 @@ function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open
       {open && (
         <text className="label running" data-running={child} x={box.x + box.width - 26} y={box.y + header - 6} textAnchor="end" />
       )}
-      {!open && (
-        <g className="closed-name">
-          <text
-            className="label large"
-            x={box.x + box.width / 2}
-            y={box.y + box.height / 2 + size / 3}
-            textAnchor="middle"
-            style={{ "--u": size, "--more": more } as CSSProperties}
-          >
-            {pageName(page)}
-          </text>
-          <text
-            className="label layer"
-            x={box.x + box.width / 2}
-            y={box.y + box.height / 2 + size / 3 + size * 0.75}
-            textAnchor="middle"
-            style={{ "--u": size * 0.52 } as CSSProperties}
-          >
-            {page.layer}
-          </text>
-          <text
-            className="label running"
-            data-running={child}
-            x={box.x + box.width / 2}
-            y={box.y + box.height / 2 + size / 3 + size * 1.75}
-            textAnchor="middle"
-            style={{ "--u": size * 0.75 } as CSSProperties}
-          />
-        </g>
-      )}
+      {!open && <ClosedName page={page} box={box} child={child} />}
     </>
+  );
+}
+
+/** Widths in pixels of boxes in which a cut name stands, and the room beside it. */
+const cutWidths = [40, 56, 76, 100, 130, 170, 220];
+const rim = 10;
+/** The width of a letter, as a part of its height. */
+const letter = 0.62;
+/** From line to line, as a part of their height. */
+const pitch = 1.15;
+
+/** The name in the middle of a page, in the lines that let it be largest; cut where the whole name is too small. */
+function ClosedName({ page, box, child }: { page: Page; box: Box; child: number }) {
+  const name = pageName(page);
+  const middle = { x: box.x + box.width / 2, textAnchor: "middle" as const };
+  const fitting = (lines: string[]) => {
+    const longest = Math.max(4, ...lines.map(({ length }) => length)) * letter;
+    const size = Math.min(34, (box.width - 30) / longest, (box.height - 12) / (lines.length * pitch + 1.6));
+    // Far away, letters grow to their ten pixels as long as they fit into the frame.
+    const largest = Math.min((box.width - 12) / longest, (box.height - 8) / (lines.length * pitch));
+    return { lines, size, more: largest / size };
+  };
+  const ways = [1, 2, 3].map((most) => fitting(nameLines(name, most)));
+  const { lines, size, more } = ways.reduce((best, one) => (one.size > best.size * 1.15 ? one : best));
+  const centre = box.y + box.height / 2;
+  const below = centre + size / 3 + ((lines.length - 1) * size * pitch) / 2;
+  const style = { "--u": size, "--more": more } as CSSProperties;
+  // Pixels that the box has on the screen when the whole name becomes readable.
+  const whole = (10 / (size * more)) * box.width;
+  return (
+    <g className="closed-name">
+      {lines.map((line, at) => (
+        <text
+          key={at}
+          className="label large"
+          {...middle}
+          y={centre}
+          dy={`${(at - (lines.length - 1) / 2) * pitch + 0.35}em`}
+          style={style}
+        >
+          {line}
+        </text>
+      ))}
+      {cutWidths.map((width, at) => {
+        const room = Math.floor((width - rim) / (10 * letter));
+        if (width >= whole) return null;
+        const to = Math.min(whole, cutWidths[at + 1] ?? Infinity);
+        return (
+          <text
+            key={width}
+            className="label cut"
+            {...middle}
+            y={centre}
+            dominantBaseline="central"
+            style={{ "--from": width / box.width, "--to": to / box.width } as CSSProperties}
+          >
+            {name.length > room ? `${name.slice(0, room - 1)}…` : name}
+          </text>
+        );
+      })}
+      <text className="label layer" {...middle} y={below + size * 0.75} style={{ "--u": size * 0.52 } as CSSProperties}>
+        {page.layer}
+      </text>
+      <text
+        className="label running"
+        data-running={child}
+        {...middle}
+        y={below + size * 1.75}
+        style={{ "--u": size * 0.75 } as CSSProperties}
+      />
+    </g>
   );
 }
 

@@ -104,7 +104,9 @@ export class Api {
   check = (text: string) => this.ask("POST /api/check", { body: { text } });
   /** What may stand at a place of a text, and what a word there means. */
   language = (question: LanguageQuestion) => this.ask("POST /api/language", { body: question });
-  verify = (text: string, timeout = "30s") => this.ask("POST /api/verify", { body: { text, timeout } });
+  /** properties: empty: all. */
+  verify = (text: string, timeout = "30s", properties: string[] = []) =>
+    this.ask("POST /api/verify", { body: { text, timeout, properties } });
   /** Who can fire nothing in a marking. */
   waits = (text: string, marking: { place: number }[]) => this.ask("POST /api/waits", { body: { text, marking } });
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });

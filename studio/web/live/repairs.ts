@@ -31,16 +31,28 @@ const mostTried = 30;
 const enough = 3;
 const mostEdits = 3;
 
-function further(before: Candidate & { edits: number }, verdicts: readonly Verdict[]) {
+/** An edit, or several of them; how many, and how many of them are timeouts. */
+type Attempt = Candidate & { edits: number; timeouts: number };
+
+const timeoutsIn = ({ title }: Candidate) => Number(title.startsWith("Give up"));
+
+/**
+ * The order of attempts: few edits first. One timeout changes least, but where one is not enough, two sides that gave up
+ * at different times seldom meet again, so those that let a side go on at once come first.
+ */
+const byHope = (a: Attempt, b: Attempt) => a.edits - b.edits || (a.edits > 1 ? a.timeouts - b.timeouts : 0);
+
+function further(before: Attempt, verdicts: readonly Verdict[]): Attempt[] {
   const structure = readStructure(before.text);
-  return causesOf(verdicts)
+  return causesOf(verdicts, structure.channels)
     .filter(({ warning, atEnd }) => !warning && atEnd.length > 0)
     .flatMap((cause) => candidatesFor(cause, structure))
-    .map(({ title, meaning, text }) => ({
-      title: `${before.title}; ${title.charAt(0).toLowerCase()}${title.slice(1)}`,
-      meaning: `${before.meaning} ${meaning}`,
-      text,
+    .map((next) => ({
+      title: `${before.title}; ${next.title.charAt(0).toLowerCase()}${next.title.slice(1)}`,
+      meaning: `${before.meaning} ${next.meaning}`,
+      text: next.text,
       edits: before.edits + 1,
+      timeouts: before.timeouts + timeoutsIn(next),
     }));
 }
 
@@ -62,7 +74,11 @@ export class Repairs {
   async find(cause: Cause, text: string, verdicts: readonly Verdict[]): Promise<void> {
     const search = ++this.search;
     // An edit that leaves another standstill leads to the edits that mend that one.
-    const queue = candidatesFor(cause, readStructure(text)).map((one) => ({ ...one, edits: 1 }));
+    const queue = candidatesFor(cause, readStructure(text)).map((one): Attempt => ({
+      ...one,
+      edits: 1,
+      timeouts: timeoutsIn(one),
+    }));
     const seen = new Set([text]);
     this.store.set({ ...nothing, state: "searching", text, cause: cause.title });
     try {
@@ -71,12 +87,15 @@ export class Repairs {
         if (tried >= mostTried || found.length >= enough) break;
         if (seen.has(next.text)) continue;
         seen.add(next.text);
-        const after = await this.verdictsOf(next.text, () => search !== this.search);
+        const after = await this.after(cause, next.text, verdicts, () => search !== this.search);
         if (search !== this.search) return;
         const mends = after ? mended(cause, verdicts, after) : [];
         this.store.set({ tried: tried + 1 });
         if (mends.length > 0) this.store.set({ found: [...found, { ...next, mends }] });
-        else if (after && next.edits < mostEdits) queue.push(...further(next, after));
+        else if (after && next.edits < mostEdits) {
+          queue.push(...further(next, after));
+          queue.sort(byHope);
+        }
       }
       this.store.set({ state: "done" });
     } catch (error) {
@@ -84,11 +103,30 @@ export class Repairs {
     }
   }
 
-  /** null: the text has no net, or the verification failed. */
-  private async verdictsOf(text: string, stopped: () => boolean): Promise<readonly Verdict[] | null> {
+  /**
+   * The verdicts after an edit. Most edits mend nothing, so the property with the shortest run is asked for first, and
+   * the others only if it holds. null: the text has no net, or the verification failed.
+   */
+  private async after(
+    cause: Cause,
+    text: string,
+    before: readonly Verdict[],
+    stopped: () => boolean,
+  ): Promise<readonly Verdict[] | null> {
     const { diagnostics } = await this.api.check(text);
     if (diagnostics.some(({ severity }) => severity === "error")) return null;
-    const { job } = await this.api.verify(text, "10s");
+    const first = wantedOf(cause)[0]!;
+    const telling = await this.verdictsOf(text, [first], stopped);
+    if (!telling || telling[0]?.verdict !== "holds") return telling;
+    const others = before.map(({ name }) => name).filter((name) => name !== first);
+    const rest = await this.verdictsOf(text, others, stopped);
+    return rest && [...telling, ...rest];
+  }
+
+  private async verdictsOf(text: string, properties: string[], stopped: () => boolean): Promise<readonly Verdict[] | null> {
+    // Nothing to ask for would mean all of them.
+    if (properties.length === 0) return [];
+    const { job } = await this.api.verify(text, "10s", properties);
     for (;;) {
       const answer = await this.api.verifyState(job);
       if (answer.state !== "running") return "error" in answer.result ? null : answer.result.properties;
@@ -101,10 +139,13 @@ export class Repairs {
   }
 }
 
+/** The properties that a repair has to mend, the one with the shortest run first. */
+const wantedOf = (cause: Cause) => cause.verdicts.filter(({ warning }) => !warning || cause.warning).map(({ name }) => name);
+
 /** The violations of the cause that are gone; none, if one of them is left or a property that held is lost. */
 export function mended(cause: Cause, before: readonly Verdict[], after: readonly Verdict[]): string[] {
   const now = new Map(after.map(({ name, verdict }) => [name, verdict]));
-  const wanted = cause.verdicts.filter(({ warning }) => !warning || cause.warning).map(({ name }) => name);
+  const wanted = wantedOf(cause);
   const kept = before.every(({ name, verdict }) => verdict !== "holds" || now.get(name) === "holds");
   return kept && wanted.every((name) => now.get(name) === "holds") ? wanted : [];
 }

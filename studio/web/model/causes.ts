@@ -1,3 +1,5 @@
+import { withoutIndex, type Channel } from "./structure";
+
 /** What a subsystem does where a run has stopped, as the server tells it (docs/studio.md). */
 export interface SubsystemAtEnd {
   path: string;
@@ -96,11 +98,51 @@ const listed = (names: readonly string[]) =>
 const isViolated = ({ verdict }: Judged) => verdict === "violated";
 const key = ({ path, channel, state }: SubsystemAtEnd) => `${state} ${path} ${channel}`;
 
+type Ends = Pick<Channel, "from" | "to" | "send" | "receive" | "timeout">;
+const subsystemOf = (path: string) => withoutIndex(path).split(".").slice(0, 2).join(".");
+
+/** Who is stuck, and who waits for them for ever, or for those who do. */
+function heldUp(stuck: readonly string[], channels: readonly Ends[]): ReadonlySet<string> {
+  const held = new Set(stuck.map(subsystemOf));
+  const waiting = channels.filter(({ timeout }) => !timeout);
+  for (let before = -1; before < held.size;) {
+    before = held.size;
+    for (const { from, to, send, receive } of waiting) {
+      const [sender, receiver] = [subsystemOf(from), subsystemOf(to)];
+      if (receive === "blocking" && held.has(sender)) held.add(receiver);
+      if (send === "blocking" && held.has(receiver)) held.add(sender);
+    }
+  }
+  return held;
+}
+
 /**
- * Groups violations by what is wrong: those in which the same subsystem waits at the same channel have one
- * cause. The causes that are no warnings come first.
+ * Gives the dead behaviours of those who are held up to the cause that holds them up. A verdict that has others, too,
+ * stays a cause of its own with these.
  */
-export function causesOf(verdicts: readonly Judged[]): Cause[] {
+function withDead(causes: Cause[], channels: readonly Ends[]): Cause[] {
+  return causes.reduce<Cause[]>((all, cause) => {
+    if (cause.warning || cause.atEnd.length > 0 || cause.dead.length === 0) return [...all, cause];
+    let left = cause.dead;
+    for (const other of all.filter(({ warning, atEnd }) => !warning && atEnd.length > 0)) {
+      const held = heldUp(stuckIn(other.atEnd), channels);
+      other.dead = [...other.dead, ...left.filter(({ path }) => held.has(subsystemOf(path)))];
+      const rest = left.filter(({ path }) => !held.has(subsystemOf(path)));
+      if (rest.length === 0) {
+        other.verdicts = [...other.verdicts, ...cause.verdicts];
+        return all;
+      }
+      left = rest;
+    }
+    return [...all, { ...cause, dead: left, title: deadTitle(left) }];
+  }, []);
+}
+
+/**
+ * Groups violations by what is wrong: those in which the same subsystem waits at the same channel have one cause, and
+ * behaviours that never run have the cause that holds up their subsystem. The causes that are no warnings come first.
+ */
+export function causesOf(verdicts: readonly Judged[], channels: readonly Ends[] = []): Cause[] {
   const causes: { verdicts: Judged[]; keys: Set<string>; warning: boolean }[] = [];
   // A violation that needs no failure explains more than one that does.
   const violated = verdicts.filter(isViolated).sort((a, b) => Number(a.warning) - Number(b.warning));
@@ -113,12 +155,14 @@ export function causesOf(verdicts: readonly Judged[]): Cause[] {
       keys.forEach((one) => same.keys.add(one));
     }
   }
-  return causes.map(({ verdicts: all, warning }) => {
+  const told = causes.map(({ verdicts: all, warning }) => {
     const telling = [...all].sort((a, b) => Number(b.at_end.length > 0) - Number(a.at_end.length > 0) || runOf(a) - runOf(b));
     const { at_end: atEnd } = telling[0]!;
     const dead = all.flatMap(({ behaviours }) => behaviours);
     return { title: titleOf(atEnd) || deadTitle(dead) || telling[0]!.why, verdicts: telling, atEnd, dead, warning };
   });
+  // Those who are stuck come before those who are held up by them.
+  return withDead([...told.filter(({ atEnd }) => atEnd.length > 0), ...told.filter(({ atEnd }) => atEnd.length === 0)], channels);
 }
 
 /** Shorter runs are easier to follow; none at all is the worst. */

@@ -34,6 +34,20 @@ export function conditionText(transition: PageTransition, limit = 26): string {
   return `[${text.length > limit ? `${text.slice(0, limit - 1)}…` : text}]`;
 }
 
+/** A name in so many lines of much the same length, broken after underscores; fewer if it has fewer parts. */
+export function nameLines(name: string, most: number): string[] {
+  const parts = name.split(/(?<=_)/);
+  const lines: string[] = [];
+  for (let left = Math.min(most, parts.length); left > 0; left -= 1) {
+    const share = parts.join("").length / left;
+    let line = parts.shift()!;
+    // As near to its share as possible, and a part is left for each further line.
+    while (parts.length >= left && (left === 1 || line.length + parts[0]!.length / 2 <= share)) line += parts.shift()!;
+    lines.push(line);
+  }
+  return lines;
+}
+
 /** The text of a screen reader for an element. */
 export function spoken(net: NetModel, path: string): string {
   const asPage = net.pageByPath.get(path);

@@ -22,7 +22,8 @@ export function candidatesFor(cause: Cause, structure: Structure): Candidate[] {
       const sends = one.awaited === "acknowledgement";
       return channel && one.awaited !== "memory" ? atChannel(structure, channel, sends) : [];
     }),
-    ...cause.dead.flatMap(({ path }) => withoutBehaviour(structure, path)),
+    // Behaviours of those who are held up run again when nobody is.
+    ...(cause.atEnd.length > 0 ? [] : cause.dead.flatMap(({ path }) => withoutBehaviour(structure, path))),
   ];
   const different = all.filter(
     ({ text }, at) => text !== structure.yaml.text && all.findIndex((other) => other.text === text) === at,

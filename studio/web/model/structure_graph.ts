@@ -16,6 +16,8 @@ export interface Wire {
   points: Point[];
   /** It leads into an input: it ends in a tip. */
   ends: boolean;
+  /** Of a line from agent to agent: whether values go to its beginning, and to its end. */
+  between?: { back: boolean; forth: boolean };
 }
 export interface StructureDrawing {
   width: number;
@@ -27,14 +29,18 @@ export interface StructureDrawing {
   labels: Map<number, Box>;
 }
 
-const letter = 6.9;
+/** Letters of labels and the spaces between them, at their largest. */
+const letter = 11.1;
+const space = 4.6;
 const labelHeight = 20;
 const labelPitch = 22;
 
 /** The size of a channel's label. */
 export const labelWidth = (channel: Channel) => {
   const { modes, timeout } = channelLabel(channel);
-  return ((isNext(channel) ? 2 : 0) + modes.length + (timeout ? timeout.length + 1 : 0)) * letter + 18;
+  const text = `${isNext(channel) ? "↻ " : ""}${modes}${timeout ? ` ${timeout}` : ""}`;
+  const spaces = text.split(" ").length - 1;
+  return (text.length - spaces) * letter + spaces * space + 10;
 };
 
 /** It leads from a member of a fleet to another one: `robot[i].a.x -> robot[i+1].b.y`. */
@@ -139,7 +145,7 @@ function insideGraph(
     id: name,
     layoutOptions: {
       ...options,
-      "elk.padding": "[top=46,left=26,bottom=26,right=26]",
+      "elk.padding": "[top=52,left=26,bottom=26,right=26]",
       "elk.nodeSize.constraints": "[PORTS, MINIMUM_SIZE]",
       "elk.nodeSize.minimum": `(${Math.min(name.length, 30) * 9 + 110},90)`,
       "elk.portConstraints": "FIXED_ORDER",
@@ -247,9 +253,11 @@ export async function drawStructure(structure: Structure, elk: Elk): Promise<Str
   const insides = new Map((root.children ?? []).map((agent) => [agent.id, readInside(agent)]));
   const outside = routed(grid, trunks, (agent) => insides.get(agent)!);
   const drawing: StructureDrawing = { ...outside.size, boxes: new Map(), wires: [], labels: new Map() };
-  for (const { id, points, label } of outside.trunks) {
+  for (const { id, first, points, label } of outside.trunks) {
     const carried = trunks.find((one) => one.id === id)!.channels;
-    drawing.wires.push({ channels: carried, points, ends: false });
+    const forth = (index: number) => agentOf(structure.channels[index]!.from) === first;
+    const between = { back: !carried.every(forth), forth: carried.some(forth) };
+    drawing.wires.push({ channels: carried, points, ends: false, between });
     carried.forEach((index, line) =>
       drawing.labels.set(index, { x: label.x, y: label.y + line * labelPitch, width: label.width, height: labelHeight }),
     );

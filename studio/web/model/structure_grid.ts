@@ -44,7 +44,7 @@ interface Sized {
 
 /** The shape of a window that the drawing should fill: width by height. */
 const shape = 1.25;
-const lanePitch = 14;
+const lanePitch = 18;
 const plainRoom = 12;
 
 export function placed(agents: readonly Sized[], trunks: readonly Trunk[]): Grid {
@@ -153,7 +153,8 @@ interface Placed {
 interface Routed {
   size: { width: number; height: number };
   agents: Map<string, Box>;
-  trunks: { id: string; points: Point[]; label: Box }[];
+  /** first: the agent at which the points begin. */
+  trunks: { id: string; first: string; points: Point[]; label: Box }[];
 }
 
 /** Lines that share the space between two columns or rows; those that do not meet share a lane. */
@@ -238,7 +239,8 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
             { x: other, y: levelAt(way) },
             { x: other, y: to.y },
           ];
-    return { id: way.id, points: [from, ...bends, to], label: { x: from.x + 14, y: from.y - label.height / 2 + 1, ...label } };
+    const points = [from, ...bends, to];
+    return { id: way.id, first: way.first, points, label: { x: from.x + 14, y: from.y - label.height / 2 + 1, ...label } };
   });
   return { size: { width: x, height: y }, agents, trunks: drawn };
 }

@@ -1,9 +1,12 @@
-import type { Subsystem } from "./structure";
+import type { Behaviour, Subsystem } from "./structure";
 
-/** Sizes of the boxes of the structure view. */
+/**
+ * Sizes of the boxes of the structure view. Far away, letters are drawn larger, up to 18.4 units, which have ten
+ * pixels when the drawing has little more than half its size (canvas/detail.ts).
+ */
 
 export const row = 22;
-export const head = 44;
+export const head = 50;
 export const width = { receptor: 200, control: 240, effector: 200 };
 export const gap = { device: 26 };
 
@@ -12,12 +15,15 @@ export const ports = (subsystem: Subsystem) => {
   return Math.max(count("input"), count("output"), 1);
 };
 
-/** Lines of the chips that name the behaviours. A name that is too long for a line is cut. */
+/** The width of the chip that names a behaviour. A name that is too long for a line is cut. */
+export const chipWidth = ({ name }: Behaviour, { kind }: Subsystem) => Math.min(width[kind] - 20, name.length * 9 + 20);
+
+/** Lines of the chips of a subsystem. */
 export function chipLines(subsystem: Subsystem): number {
   const room = width[subsystem.kind] - 20;
   let [lines, used] = [1, 0];
-  for (const { name } of subsystem.behaviours) {
-    const chip = Math.min(room, name.length * 7 + 26);
+  for (const behaviour of subsystem.behaviours) {
+    const chip = chipWidth(behaviour, subsystem);
     if (used > 0 && used + chip > room) [lines, used] = [lines + 1, 0];
     used += chip + 4;
   }
@@ -27,6 +33,6 @@ export function chipLines(subsystem: Subsystem): number {
 export const heightOf = (subsystem: Subsystem) => head + ports(subsystem) * row + 14 + chipLines(subsystem) * 26 + 8;
 
 const realOf = (subsystem: Subsystem) => subsystem.buffers.filter((buffer) => buffer.direction === "real").length;
-export const deviceHeight = (subsystem: Subsystem) => (realOf(subsystem) ? 26 + realOf(subsystem) * 18 : 0);
+export const deviceHeight = (subsystem: Subsystem) => (realOf(subsystem) ? 28 + realOf(subsystem) * 20 : 0);
 export const withDevice = (subsystem: Subsystem) =>
   heightOf(subsystem) + (realOf(subsystem) ? gap.device + deviceHeight(subsystem) : 0);

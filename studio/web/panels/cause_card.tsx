@@ -42,6 +42,7 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
       ) : (
         first!.why && cause.dead.length === 0 && <p>{sentence(first!.why)}</p>
       )}
+      {cause.dead.length > 0 && cause.atEnd.length > 0 && <p className="faint">Behaviours that never run because of it:</p>}
       {cause.dead.length > 0 && (
         <ul className="at-end" aria-label="Behaviours that never run">
           {cause.dead.map(({ path, line }) => (

@@ -59,7 +59,7 @@ function drawAxis(
   end: number,
   x: (time: number) => number,
 ): void {
-  const step = niceStep((end - start) / 1e9 / 6);
+  const step = stepFor((end - start) / 1e9, size.width - names - last, 6);
   context.strokeStyle = colours.line;
   context.fillStyle = colours.faint;
   for (let second = Math.ceil(start / 1e9 / step) * step; second <= end / 1e9; second += step) {
@@ -73,6 +73,10 @@ function drawAxis(
   }
   context.textAlign = "left";
 }
+
+/** Seconds from one number of a time axis to the next: at most so many, and none touches another. */
+export const stepFor = (seconds: number, pixels: number, most: number) =>
+  niceStep(seconds / Math.max(1, Math.min(most, pixels / 44)));
 
 export function niceStep(rough: number): number {
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -2,7 +2,7 @@ import { useRef } from "react";
 import type { Track } from "../live/track";
 import { shown, type Samples } from "../model/series";
 import { count } from "../model/sorted";
-import { niceStep } from "./draw_timeline";
+import { niceStep, stepFor } from "./draw_timeline";
 import { Painted, type Colours, type Size } from "./painted";
 
 /** The time under the mouse, for all plots; null: it is elsewhere. */
@@ -23,6 +23,8 @@ interface PlotProps {
 
 const left = 46;
 const below = 15;
+/** Room above the curves for the names of the behaviours. */
+const above = 13;
 
 /** A value over time, with axes, the behaviours of its subsystem as bands, and the same value of another run. */
 export function Plot({ path, unit, track, beside, seconds, cursor, onClose }: PlotProps) {
@@ -76,7 +78,7 @@ function draw(context: CanvasRenderingContext2D, size: Size, colours: Colours, a
   if (low > high) return;
   const [width, height] = [size.width - left, size.height - below];
   const x = (time: number) => left + ((time - start) / (end - start)) * width;
-  const y = (value: number) => height - 4 - ((value - low) / (high - low)) * (height - 10);
+  const y = (value: number) => height - 4 - ((value - low) / (high - low)) * (height - 8 - above);
   context.font = "10px system-ui, 'DejaVu Sans', sans-serif";
   bands(context, colours, all, x, height);
   axes(context, colours, { low, high, start, end, width, height }, x, y);
@@ -88,7 +90,11 @@ function draw(context: CanvasRenderingContext2D, size: Size, colours: Colours, a
   context.fillRect(x(cursor) - 0.5, 0, 1, height);
   if (value === undefined) return;
   context.textAlign = x(cursor) > size.width - 90 ? "right" : "left";
-  context.fillText(`${shown(value)} at ${(cursor / 1e9).toFixed(2)} s`, x(cursor) + (context.textAlign === "right" ? -4 : 4), 10);
+  context.fillText(
+    `${shown(value)} at ${(cursor / 1e9).toFixed(2)} s`,
+    x(cursor) + (context.textAlign === "right" ? -4 : 4),
+    above + 9,
+  );
   context.textAlign = "left";
 }
 
@@ -116,10 +122,10 @@ function axes(
   for (let value = Math.ceil(low / step) * step; value <= high + step / 1e6; value += step) {
     const at = Math.round(y(value)) + 0.5;
     stroke(context, [left, at], [left + width, at]);
-    context.fillText(shown(Number(value.toPrecision(6))), left - 4, Math.min(height - 2, Math.max(9, at + 3)));
+    context.fillText(shown(Number(value.toPrecision(6))), left - 4, Math.min(height - 2, at + 3));
   }
   context.textAlign = "center";
-  const seconds = niceStep((end - start) / 1e9 / 5);
+  const seconds = stepFor((end - start) / 1e9, width, 5);
   for (let second = Math.ceil(Math.max(0, start / 1e9) / seconds) * seconds; second <= end / 1e9; second += seconds) {
     const at = x(second * 1e9);
     if (at > left + 8 && at < left + width - 12) context.fillText(`${Number(second.toFixed(3))} s`, at, height + below - 4);
@@ -146,7 +152,7 @@ function bands(
     context.fillRect(begin, 0, x(to) - begin, height);
     context.globalAlpha = 1;
     context.fillStyle = colours.faint;
-    if (x(to) - begin > behaviour.length * 6 + 6) context.fillText(behaviour, begin + 3, height - 3);
+    if (x(to) - begin > behaviour.length * 6 + 6) context.fillText(behaviour, begin + 3, above - 3);
   });
 }
 

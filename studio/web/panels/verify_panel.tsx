@@ -3,6 +3,7 @@ import { useStore, useStudio } from "../hooks/use";
 import type { Verdict } from "../live/protocol";
 import { causesOf } from "../model/causes";
 import { sentence } from "../model/labels";
+import { readStructure } from "../model/structure";
 import { CauseCard } from "./cause_card";
 import { Icon } from "./icons";
 
@@ -24,7 +25,10 @@ export function VerifyPanel() {
   const verifier = useStore(studio.verifier.store, (all) => all);
   const text = useStore(studio.draft.store, (draft) => draft.text);
   const current = useStore(studio.draft.store, (draft) => draft.current);
-  const causes = useMemo(() => causesOf(verifier.verdicts), [verifier.verdicts]);
+  const causes = useMemo(() => {
+    const violated = verifier.verdicts.some(({ verdict }) => verdict === "violated");
+    return violated ? causesOf(verifier.verdicts, readStructure(verifier.text).channels) : [];
+  }, [verifier.verdicts, verifier.text]);
   const running = verifier.state === "running";
   const old = verifier.verdicts.length > 0 && verifier.text !== text;
   return (

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { drawn, example, middleOf, onPage, tab } from "./page.mjs";
+import { button, drawn, example, folder as project, middleOf, onPage, tab } from "./page.mjs";
 
 const folder = fileURLToPath(new URL("appearance/", import.meta.url));
 const widths = [640, 1024, 1440];
@@ -36,6 +36,23 @@ const difference = (page, one, other) =>
     [one, other].map((bytes) => bytes.toString("base64")),
   );
 
+/** Compares what is on the page, or on a part of it, with a picture, or makes the picture. Returns what is to be said against it. */
+async function judged(page, name, part = page) {
+  await page.mouse.move(0, 0);
+  await drawn(page);
+  const seen = await part.screenshot({ caret: "hide" });
+  if (process.env.UPDATE_PICTURES) {
+    mkdirSync(folder, { recursive: true });
+    writeFileSync(folder + name, seen);
+    return { seen, wrong: [] };
+  }
+  assert.ok(existsSync(folder + name), `${name} is missing: UPDATE_PICTURES=1 makes it`);
+  const share = await difference(page, readFileSync(folder + name), seen);
+  if (share <= 0.02) return { seen, wrong: [] };
+  if (process.env.PICTURES) writeFileSync(`${process.env.PICTURES}/${name}`, seen);
+  return { seen, wrong: [`${name}: ${(share * 100).toFixed(1)} % differ`] };
+}
+
 test("every tab looks as it did, at 640, 1024 and 1440 pixels", () =>
   onPage(example("05_crossing"), async (page) => {
     await page.locator(".sheet .page").first().waitFor();
@@ -49,26 +66,37 @@ test("every tab looks as it did, at 640, 1024 and 1440 pixels", () =>
           await tab(page, panel).click();
           if (view === "Net") await middleOf(page, page.locator(".sheet .page").first());
           else await middleOf(page, page.locator(".react-flow__node").first());
-          await page.mouse.move(0, 0);
-          await drawn(page);
-          const seen = await page.screenshot({ caret: "hide" });
-          const name = `${view}_${panel}_${width}.png`.toLowerCase();
-          if (process.env.UPDATE_PICTURES) {
-            mkdirSync(folder, { recursive: true });
-            writeFileSync(folder + name, seen);
-            continue;
-          }
-          assert.ok(existsSync(folder + name), `${name} is missing: UPDATE_PICTURES=1 makes it`);
-          const share = await difference(page, readFileSync(folder + name), seen);
-          if (share > 0.02) {
-            wrong.push(`${name}: ${(share * 100).toFixed(1)} % differ`);
-            if (process.env.PICTURES) writeFileSync(`${process.env.PICTURES}/${name}`, seen);
-          }
+          const { seen, wrong: more } = await judged(page, `${view}_${panel}_${width}.png`.toLowerCase());
+          wrong.push(...more);
           // Tabs differ from each other by far more than that, so a wrong tab would be noticed.
           if (before && panel === "Verify") assert.ok((await difference(page, before, seen)) > 0, "the tab has not changed");
           before = seen;
         }
       }
     }
+    assert.deepEqual(wrong, []);
+  }));
+
+test("six agents and their chain of waiting look as they did, at 640, 1024 and 1440 pixels", () =>
+  onPage(project("orchard"), async (page) => {
+    await page.locator(".sheet .page").first().waitFor();
+    await tab(page, "Structure").click();
+    const wrong = [];
+    const all = async (name) => {
+      for (const width of widths) {
+        await page.setViewportSize({ width, height: 800 });
+        if (name === "lens") {
+          await button(page, "Close the lens").click();
+          await button(page, "Show who is stuck").click();
+        }
+        await middleOf(page, page.locator(".react-flow__node").first());
+        wrong.push(...(await judged(page, `six_agents_${name}_${width}.png`, page.locator(".centre"))).wrong);
+      }
+    };
+    await all("structure");
+    await tab(page, "Verify").click();
+    await button(page, "Verify").click();
+    await button(page, "Close the lens").waitFor();
+    await all("lens");
     assert.deepEqual(wrong, []);
   }));

@@ -1,7 +1,31 @@
 // Letters are large enough on every tab, what is drawn says what it means, and little room is enough.
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { button, drawn, element, example, folder, onPage, tab } from "./page.mjs";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { button, drawn, element, example, folder, middleOf, onPage, tab } from "./page.mjs";
+
+/** The orchard with names as long as those of real systems. */
+const longNames = mkdtempSync(join(tmpdir(), "studio-long-names-"));
+after(() => rmSync(longNames, { recursive: true, force: true }));
+cpSync(folder("orchard"), longNames, { recursive: true });
+writeFileSync(
+  join(longNames, "spec.yaml"),
+  readFileSync(join(longNames, "spec.yaml"), "utf8")
+    .replaceAll("picker_north", "autonomous_fruit_picking_vehicle_north")
+    .replaceAll("picker_south", "autonomous_fruit_picking_vehicle_south")
+    .replaceAll(/\bcarrier\b/g, "transportationvehicleforharvestedfruit")
+    .replaceAll(/\bgripper\b/g, "three_fingered_gripper_with_force_control"),
+);
+const agents = [
+  "autonomous_fruit_picking_vehicle_north",
+  "autonomous_fruit_picking_vehicle_south",
+  "transportationvehicleforharvestedfruit",
+  "charging_station_controller",
+  "dispatcher",
+  "lookout",
+];
 
 /** Texts that are seen and have less than ten pixels: "9.0 px: follow". */
 const tooSmall = (page) =>
@@ -17,12 +41,30 @@ const tooSmall = (page) =>
       const seen = box.width > 0 && box.right > 0 && box.bottom > 0 && box.left < innerWidth && box.top < innerHeight;
       if (!seen) continue;
       const matrix = owner instanceof SVGGraphicsElement ? owner.getScreenCTM() : null;
-      const html = () => (owner.closest(".react-flow") && owner.offsetWidth ? box.width / owner.offsetWidth : 1);
+      const viewport = owner.closest(".react-flow__viewport");
+      const html = () => (viewport ? new DOMMatrix(getComputedStyle(viewport).transform).a : 1);
       const size = parseFloat(getComputedStyle(owner).fontSize) * (matrix ? Math.hypot(matrix.a, matrix.b) : html());
       if (size < 9.95) found.push(`${size.toFixed(1)} px: ${text.slice(0, 40)}`);
     }
     return found;
   });
+
+/** Texts of the structure that overlap each other, and lines that are drawn over texts. */
+const drawnOver = () => {
+  const found = [];
+  const seen = (one) => one.checkVisibility({ visibilityProperty: true });
+  const texts = [...document.querySelectorAll(".agent-name .cut, .subsystem-name, .port button, .chip, .channel-label")]
+    .filter(seen)
+    .map((element) => ({ box: element.getBoundingClientRect(), text: element.textContent }));
+  texts.forEach(({ box, text }, at) =>
+    texts.slice(at + 1).forEach((other) => {
+      const wide = Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left);
+      const high = Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top);
+      if (wide > 0.5 && high > 0.5) found.push(`${text} over ${other.text}`);
+    }),
+  );
+  return found;
+};
 
 for (const [name, project] of Object.entries({ line_follower: example("01_line_follower"), orchard: folder("orchard") }))
   test(`no letters under ten pixels: ${name}`, () =>
@@ -56,6 +98,93 @@ for (const [name, project] of Object.entries({ line_follower: example("01_line_f
       }
     }));
 
+for (const [name, project] of Object.entries({
+  line_follower: example("01_line_follower"),
+  orchard: folder("orchard"),
+  "long names": longNames,
+}))
+  test(`no letters under ten pixels in the structure, from the first sight to the nearest: ${name}`, () =>
+    onPage(project, async (page) => {
+      await tab(page, "Structure").click();
+      const first = page.locator(".react-flow__node").first();
+      const all = { size: () => tooSmall(page), faults: () => page.evaluate(drawnOver) };
+      for (const width of [640, 1024, 1440]) {
+        await page.setViewportSize({ width, height: 900 });
+        await middleOf(page, first);
+        for (const panel of ["Element", "Verify", "Play", "Run", "Recordings"]) {
+          await tab(page, panel).click();
+          await middleOf(page, first);
+          assert.deepEqual(await all.size(), [], `${panel} at ${width}`);
+        }
+        const names = await page.locator(".agent-name .cut").evaluateAll((them) => them.map((one) => one.checkVisibility()));
+        assert.ok(names.length > 0 && names.every(Boolean), `the names of all agents at ${width}`);
+        const area = await page.locator(".canvas-area").boundingBox();
+        assert.ok(area.height > 300, `at ${width} the drawing is ${area.height} px high`);
+      }
+      const area = await page.locator(".canvas-area").boundingBox();
+      await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+      for (let step = 0; step < 30; step += 1) {
+        await page.mouse.wheel(0, step < 10 ? 120 : -120);
+        await drawn(page);
+        assert.deepEqual(await all.size(), [], `step ${step} of the zoom`);
+        assert.deepEqual(await all.faults(), [], `step ${step} of the zoom`);
+      }
+      // Near enough, everything is there.
+      assert.ok(await page.locator(".canvas-area.detail-all").count());
+    }));
+
+test("an agent that is double-clicked comes near enough to read what is in it", () =>
+  onPage(folder("orchard"), async (page) => {
+    await page.setViewportSize({ width: 1024, height: 900 });
+    await tab(page, "Structure").click();
+    const name = page.locator('.agent-name[data-path="dispatcher"]');
+    await middleOf(page, name);
+    const chip = page.locator('.chip[data-path="dispatcher.control.plan_the_day"]');
+    assert.equal(await chip.isVisible(), false);
+    await name.dblclick();
+    await page.locator('.subsystem-head[data-path="dispatcher.control"]').dblclick();
+    await chip.waitFor();
+    assert.deepEqual(await tooSmall(page), []);
+  }));
+
+test("names of agents that are too long for their boxes are broken or cut in the net, and never dropped", () =>
+  onPage(longNames, async (page) => {
+    const names = () =>
+      page.evaluate(() =>
+        [...document.querySelectorAll('[data-of="0"] .element.page')].map((agent) => {
+          const frame = agent.querySelector(".shape").getBoundingClientRect();
+          const shown = [...agent.querySelectorAll(":is(.large, .cut, .frame-name)")]
+            .filter((one) => one.checkVisibility({ opacityProperty: true, visibilityProperty: true }))
+            .map((one) => ({ text: one.textContent, box: one.getBoundingClientRect() }));
+          const sticksOut = shown.some(({ box }) => box.left < frame.left || box.right > frame.right);
+          return { path: agent.dataset.path, width: frame.width, text: shown.map(({ text }) => text).join(""), sticksOut };
+        }),
+      );
+    for (const width of [640, 1024, 1440]) {
+      await page.setViewportSize({ width, height: 900 });
+      await middleOf(page, page.locator(".sheet .page").first());
+      const area = await page.locator(".canvas-area").boundingBox();
+      await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+      for (let step = 0; step < 8; step += 1) {
+        const seen = await names();
+        assert.deepEqual(seen.map(({ path }) => path).sort(), [...agents].sort());
+        for (const { path, text, width: wide, sticksOut } of seen) {
+          const where = `${path}, ${wide.toFixed(0)} px wide, at ${width}: "${text}"`;
+          const [begin, cut] = text.split("…");
+          if (wide > 42) assert.ok(cut === undefined ? text === path : begin && path.startsWith(begin), where);
+          assert.equal(sticksOut, false, where);
+        }
+        assert.deepEqual(await tooSmall(page), []);
+        await page.mouse.wheel(0, 120);
+        await drawn(page);
+      }
+      await button(page, "Fit View").click();
+    }
+    await page.locator('.element.page[data-path="transportationvehicleforharvestedfruit"] .shape').hover({ force: true });
+    const tip = await page.locator(".canvas-area").getAttribute("title");
+    assert.match(tip, /^transportationvehicleforharvestedfruit: agent/);
+  }));
+
 test("what is drawn says what it means when the pointer is over it", () =>
   onPage(example("01_line_follower"), async (page) => {
     const area = page.locator(".canvas-area");
@@ -81,9 +210,7 @@ test("what is drawn says what it means when the pointer is over it", () =>
 test("at 200 % of a usual window all parts are reached, and none covers another", () =>
   onPage(example("01_line_follower"), async (page) => {
     await page.setViewportSize({ width: 720, height: 450 });
-    await button(page, "Verify")
-      .waitFor({ state: "attached" })
-      .catch(() => {});
+    await tab(page, "Verify").waitFor({ state: "attached" });
     await drawn(page);
     const boxes = await page.evaluate(() =>
       [".toolbar", ".centre", ".side.left", ".side.right", ".problems, .status"].flatMap((one) => {

@@ -81,6 +81,21 @@ test("a recorded world is seen in three dimensions at every time of the timeline
     await element(page, "robot").and(page.locator(".selected")).waitFor();
   }));
 
+test("in a narrow window the head of the world shows all of its buttons, and names the body that is followed", () =>
+  onPage(example("01_line_follower"), async (page, server) => {
+    await withWorlds(page, server, [{ name: "three", robots: 3 }]);
+    await page.getByRole("button", { name: /^three\.tsr/ }).click();
+    await space(page).waitFor();
+    await page.setViewportSize({ width: 640, height: 900 });
+    const parts = page.locator(".watch-pane.world .watch-title :is(select, button)");
+    const pane = await page.locator(".watch-pane.world").boundingBox();
+    const boxes = await Promise.all((await parts.all()).map((one) => one.boundingBox()));
+    assert.ok(boxes.length >= 3);
+    for (const { x, width } of boxes)
+      assert.ok(x >= pane.x && x + width <= pane.x + pane.width && width > 20, JSON.stringify([pane, ...boxes]));
+    assert.ok(boxes[0].width > 80, `the select is ${boxes[0].width} px wide`);
+  }));
+
 test("what was never reached is shaded and counted as --coverage counts it", () =>
   onPage(example("01_line_follower"), async (page, server) => {
     await withWorlds(page, server, [{ name: "one", robots: 1 }]);

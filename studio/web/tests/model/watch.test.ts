@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
 import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
-import { niceStep } from "../../panels/draw_timeline";
+import { niceStep, stepFor } from "../../panels/draw_timeline";
 import { Series, shown } from "../../model/series";
 import { plainColour } from "../../canvas/picture";
 import { differences, Timeline } from "../../model/timeline";
@@ -181,5 +181,16 @@ describe("plainColour", () => {
     expect(plainColour("color(srgb 1 0.5 0)")).toBe("rgb(255, 128, 0)");
     expect(plainColour("color(srgb 1 0.5 0 / 0.25)")).toBe("rgba(255, 128, 0, 0.25)");
     expect(plainColour("rgb(1, 2, 3)")).toBe("rgb(1, 2, 3)");
+  });
+});
+
+describe("stepFor", () => {
+  it("leaves room for each number of a time axis, however narrow it is", () => {
+    for (const pixels of [60, 100, 108, 180, 240, 600])
+      for (const seconds of [0.5, 1, 3, 10, 60, 600]) {
+        const between = (stepFor(seconds, pixels, 6) / seconds) * pixels;
+        expect(between, `${seconds} s on ${pixels} px`).toBeGreaterThanOrEqual(44);
+      }
+    expect(stepFor(10, 600, 6)).toBe(2);
   });
 });

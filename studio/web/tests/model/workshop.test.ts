@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
-import { mended } from "../../live/repairs";
+import type { Api } from "../../live/api";
+import { mended, Repairs } from "../../live/repairs";
 import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";
 import { changedLines } from "../../model/changed_lines";
 import { buildMessages, functionAt } from "../../model/cpp_function";
@@ -47,7 +48,7 @@ describe("causesOf", () => {
       verdict("survives_exceptions", { warning: true, at_end: [atEnd({})] }),
       verdict("deadlock_free", { at_end: [atEnd({}), back] }),
       verdict("goes_on", { at_end: [atEnd({})], steps: [1, 2] }),
-      verdict("live_behaviours", { behaviours: [{ path: "a.control.rest", line: 3 }] }),
+      verdict("live_behaviours", { behaviours: [{ path: "z.control.rest", line: 3 }] }),
       verdict("safe", { verdict: "holds" }),
     ]);
     expect(causes.map(({ verdicts }) => verdicts.map(({ name }) => name))).toEqual([
@@ -55,7 +56,32 @@ describe("causesOf", () => {
       ["live_behaviours"],
     ]);
     expect(causes.map(({ warning }) => warning)).toEqual([false, false]);
-    expect(causes[1]!.title).toBe("a.control.rest never runs");
+    expect(causes[1]!.title).toBe("z.control.rest never runs");
+  });
+  it("gives the dead behaviours of those who are held up to the cause that holds them up, and no others", () => {
+    const channel = (from: string, to: string, blocks: "send" | "receive", timeout = "") => ({
+      from,
+      to,
+      send: blocks === "send" ? ("blocking" as const) : ("non_blocking" as const),
+      receive: blocks === "receive" ? ("blocking" as const) : ("non_blocking" as const),
+      timeout,
+    });
+    const channels = [
+      channel("b.control.y", "c.control.x", "receive"),
+      channel("d[i].control.y", "c.control.z", "send"),
+      channel("a.control.y", "e.control.x", "receive", "1 s"),
+    ];
+    const dead = (...paths: string[]) =>
+      verdict("live_behaviours", { behaviours: paths.map((path, at) => ({ path, line: at })) });
+    const stuck = verdict("goes_on", { at_end: [atEnd({}), back] });
+    const all = causesOf([dead("a.control.rest", "c.control.go", "d[2].control.go"), stuck], channels);
+    expect(all.map(({ title }) => title)).toEqual(["a.control and b.control wait for each other"]);
+    expect(all[0]!.verdicts.map(({ name }) => name)).toEqual(["goes_on", "live_behaviours"]);
+    expect(all[0]!.dead.map(({ path }) => path)).toEqual(["a.control.rest", "c.control.go", "d[2].control.go"]);
+    const [circle, other] = causesOf([stuck, dead("c.control.go", "e.control.go")], channels);
+    expect(circle!.verdicts.map(({ name }) => name)).toEqual(["goes_on"]);
+    expect(circle!.dead.map(({ path }) => path)).toEqual(["c.control.go"]);
+    expect(other!.title).toBe("e.control.go never runs");
   });
   it("says in one sentence who is stuck and why", () => {
     expect(circleIn(waitsIn([atEnd({}), back]))).toEqual(["a.control", "b.control"]);
@@ -98,6 +124,53 @@ it("a repair mends all of its cause and loses nothing", () => {
   expect(mended(cause, before, after(""))).toEqual(["goes_on", "deadlock_free"]);
   expect(mended(cause, before, after("goes_on"))).toEqual([]);
   expect(mended(cause, before, after("safe"))).toEqual([]);
+});
+
+it("an edit that mends nothing costs one property, and timeouts are put together last", async () => {
+  const channel = (from: string, to: string) => `  - { from: ${from}, to: ${to}, send: blocking, receive: blocking }\n`;
+  const agent = (name: string) =>
+    `  ${name}: { control: { inputs: { x: bool }, outputs: { y: bool }, behaviours: { run: {} } } }\n`;
+  const text = `agents:\n${agent("a")}${agent("b")}channels:\n${channel("a.control.y", "b.control.x")}${channel("b.control.y", "a.control.x")}`;
+  const waits = ["a", "b"].map((who, at) => {
+    const whom = at === 0 ? "b" : "a";
+    const named = { path: `${who}.control`, from: [`${whom}.control`], channel: `${who}.control.y->${whom}.control.x` };
+    return atEnd({ ...named, awaited: "acknowledgement" });
+  });
+  const before = [
+    verdict("goes_on", { at_end: waits, steps: [1] }),
+    verdict("deadlock_free", { at_end: waits, steps: [1, 2] }),
+    verdict("safe", { verdict: "holds" }),
+  ];
+  const asked: string[][] = [];
+  // Only if both senders go on at once.
+  const goesOn = (edited: string) => !edited.includes("timeout") && !edited.includes("send: blocking");
+  let last = "";
+  const api = {
+    check: async () => ({ diagnostics: [] }),
+    verify: async (edited: string, _: string, properties: string[]) => {
+      asked.push(properties);
+      last = edited;
+      return { job: "1" };
+    },
+    verifyState: async () => ({
+      state: "done",
+      result: {
+        properties: before
+          .filter(({ name }) => asked.at(-1)!.includes(name))
+          .map((one) => (goesOn(last) ? verdict(one.name, { verdict: "holds" }) : one)),
+      },
+    }),
+  } as unknown as Api;
+  const repairs = new Repairs(api);
+  await repairs.find(causesOf(before)[0]!, text, before);
+  const { found } = repairs.store.get();
+  expect(found[0]!.title).toBe("Let a.control.y go on at once; let b.control.y go on at once");
+  expect(found[0]!.mends).toEqual(["goes_on", "deadlock_free"]);
+  // Four edits by themselves and the first two of them together, before all else is asked for.
+  const firstRest = asked.findIndex((names) => names.length > 1);
+  expect(asked.slice(0, firstRest).every((names) => names.join() === "goes_on")).toBe(true);
+  expect(asked[firstRest]).toEqual(["deadlock_free", "safe"]);
+  expect(firstRest).toBeLessThanOrEqual(7);
 });
 
 describe("functionAt", () => {

@@ -155,9 +155,32 @@ TEST(Structure, FilesAndFoldersAreSmall) {
       const std::string text = read(root / file);
       const bool is_generated = text.starts_with("// Made by ");
       EXPECT_LE(std::ranges::count(text, '\n'), is_generated ? 1000 : 400) << file;
-      if (cpp.contains(file.extension().string())) ++in_folder[file.parent_path()];
+      if (file.extension() != ".css") ++in_folder[file.parent_path()];
     }
   for (const auto& [folder, files] : in_folder) EXPECT_LE(files, 30U) << folder;
+}
+
+/// "Where would I change X?" names at most three files for each X, and files that are there.
+TEST(Structure, AnswersToWhereWouldIChangeNameFewFilesThatExist) {
+  std::istringstream page(read(root / "docs/architecture.md"));
+  const std::regex row("^\\| ([^|]*) \\| ([^|]+) \\| [^|]+ \\|$");
+  const std::regex quoted("`([^`]+)`");
+  std::map<std::string, std::size_t> answers;
+  std::string question;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("| X | file |")) inside = true;
+    if (inside && !line.starts_with("|")) break;
+    std::smatch cells;
+    if (!inside || line.starts_with("| X |") || line.starts_with("|---")) continue;
+    ASSERT_TRUE(std::regex_match(line, cells, row)) << line;
+    if (cells[1].length() != 0) question = cells[1];
+    ++answers[question];
+    for (const std::string& file : all_matches(cells[2], quoted))
+      EXPECT_TRUE(fs::exists(root / file)) << question << ": " << file;
+  }
+  EXPECT_GE(answers.size(), 10U);
+  for (const auto& [asked, files] : answers) EXPECT_LE(files, 3U) << asked;
 }
 
 }  // namespace

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
+#include "spec/document/text_checks.hpp"
+
 namespace tessera::spec {
-namespace {
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-}  // namespace
 
 Positions::Positions(const Node& text, const Diagnostics& source) : text_(text) {
   if (!text.verbatim && !align(source)) bytes_.clear();
@@ -19,7 +16,7 @@ bool Positions::align(const Diagnostics& source) {
   std::string_view in_file = source.line(line);
   const auto lines = static_cast<std::uint32_t>(text_.text.size()) + 2;  // more cannot belong to it
   for (const char c : text_.text) {
-    if (is_space(c)) {
+    if (is_blank(c)) {
       bytes_.push_back({line, static_cast<std::uint32_t>(column) + 1, 1});
       continue;
     }
@@ -34,7 +31,7 @@ bool Positions::align(const Diagnostics& source) {
       const bool escapes = there != c && (there == '\\' || there == '\'') && column + 1 < in_file.size();
       const bool doubled =
           there == '\'' && c == '\'' && in_file.substr(column).starts_with("''") && text_.quoted;
-      skips = is_space(there) || escapes || doubled;
+      skips = is_blank(there) || escapes || doubled;
       if (skips) ++column;
       if (doubled) break;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "spec/document/text_checks.hpp"
 #include "spec/values/quantities.hpp"
 
 namespace tessera::spec {
@@ -16,7 +17,6 @@ constexpr std::array long_marks = std::to_array<std::string_view>(
     {"<=>", "->*", "<<=", ">>=", "...", "::", "->", ".*", "<=", ">=", "==", "!=", "&&", "||",
      "<<",  ">>",  "++",  "--",  "+=",  "-=", "*=", "/=", "%=", "&=", "|=", "^=", "=>", "=<"});
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) > 127;

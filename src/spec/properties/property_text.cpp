@@ -5,6 +5,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
+#include "spec/document/text_checks.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -15,8 +16,6 @@ constexpr const char* formula_hint = "combine paths by and, or, not, (...): robo
 constexpr const char* element_hint =
     "for example robot.control.follow, or robot[i].control.follow in a fleet";
 constexpr std::uint32_t deepest_formula = 64;
-
-bool is_blank(char letter) { return letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r'; }
 
 bool is_word(char letter) {
   return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||

@@ -1,4 +1,4 @@
-import type { PanelName, View, ViewState } from "./studio";
+import { panelNames, type View, type ViewState } from "./studio";
 
 /** The moment of a recording, in nanoseconds of the run's clock. */
 export interface Moment {
@@ -12,13 +12,12 @@ export interface Linked extends Partial<Pick<ViewState, "view" | "panel" | "sele
 }
 
 const views: readonly View[] = ["net", "structure", "fleet"];
-const panels: readonly PanelName[] = ["inspect", "verify", "play", "run", "recordings"];
 
 /** The part of an address after the #, with what is not known left out. */
 export function readLink(hash: string): Linked {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   const view = views.find((one) => one === given.get("view"));
-  const panel = panels.find((one) => one === given.get("panel"));
+  const panel = panelNames.find((one) => one === given.get("panel"));
   const selected = given.get("at");
   const recording = given.get("recording");
   const seconds = Number(given.get("t") ?? "0");

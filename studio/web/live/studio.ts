@@ -22,7 +22,8 @@ import { Store } from "./store";
 import { Verifier } from "./verifier";
 
 export type View = "net" | "structure" | "fleet";
-export type PanelName = "inspect" | "verify" | "play" | "run" | "recordings";
+export const panelNames = ["inspect", "verify", "play", "run", "recordings"] as const;
+export type PanelName = (typeof panelNames)[number];
 
 export interface ViewState {
   view: View;

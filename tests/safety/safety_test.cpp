@@ -40,6 +40,12 @@ std::int64_t chatter_into_closed_pipe(RobotProcess& robot) {
   return command_log::now_ns();
 }
 
+/// When it goes on, its other threads wake before the one that learns that the guardian has acted.
+std::int64_t stand_still(RobotProcess& robot) {
+  robot.delay_supervisor(true);
+  return sends(SIGSTOP)(robot);
+}
+
 TEST(Safety, SignalsGiveTheSafeCommand) {
   try_all({
       {"SIGINT", sends(SIGINT)},
@@ -149,7 +155,7 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
       {.name = "_exit in a driver", .strike = does(Harm::underscore_exit, Place::driver), .says = has_died},
       {.name = "SIGSEGV with a guardian", .strike = does(Harm::segv, Place::motor), .says = has_died},
       {.name = "SIGSTOP",
-       .strike = sends(SIGSTOP),
+       .strike = stand_still,
        .after = After::halts,
        .bar = stands_still,
        .says = "the controller stands still, since it is stopped"},

@@ -62,7 +62,10 @@ struct Times {
   if (stands && !robot.await_safe(still, patience)) return "the devices did not become safe";
   if (stands) times.safe_ns = robot.safe_since_ns();
   if (one.after == After::hangs) return "";
-  if (one.after == After::halts) robot.send(SIGCONT);
+  if (one.after == After::halts) {
+    robot.send(SIGCONT);
+    if (!robot.await_end(still)) robot.delay_supervisor(false);
+  }
   if (one.after == After::pauses) {
     robot.send(SIGCONT);
     if (!robot.await_driving(3)) return "it does not drive on";
@@ -70,6 +73,8 @@ struct Times {
   }
   if (!robot.await_end(patience)) return "the controller did not end";
   if (!robot.await_nobody_left(patience)) return "somebody is left";
+  if (one.after == After::halts && robot.drove_after_guardian())
+    return "a device was commanded after the guardian had made it safe";
   return robot.is_safe() ? "" : "the last command is not the safe one";
 }
 

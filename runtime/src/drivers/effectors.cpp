@@ -68,6 +68,7 @@ Effectors::Answer Effectors::command(Time now) {
     device.owes = control_.withholds_commands();
     if (device.standing.kind != SafeReason::Kind::none) device.since = now;
     device.standing = {};
+    if (device.owes) return Answer::withheld;
   }
   return Answer::taken;
 }

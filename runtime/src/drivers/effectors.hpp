@@ -60,7 +60,8 @@ class Effectors {
 
   [[nodiscard]] bool none() const { return drivers_.empty(); }
   enum class Answer : std::uint8_t { taken, refused, withheld };
-  /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops.
+  /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops, or
+  /// began to stop while a driver was called: the safe command must follow.
   /// Passes on what a driver throws.
   [[nodiscard]] Answer command(Time now);
 

@@ -259,6 +259,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   companions.watch();
   Assembly assembly(std::move(*part), options);
   assembly.guardian = companions.guardian();
+  if (assembly.guardian != nullptr) assembly.control.withhold_after(assembly.guardian->has_acted());
   assembly.incarnation = incarnation_of(options);
   assembly.tally = tally;
   if (simulated) {

@@ -132,6 +132,7 @@ void try_all(const std::vector<Case>& cases) {
   std::atomic<std::size_t> next{0};
   const std::size_t all = cases.size() * runs();
   std::mutex writing;
+  std::size_t done = 0;
   const auto work = [&](unsigned seed) {
     std::mt19937 random(seed);
     for (std::size_t trial = next++; trial < all; trial = next++) {
@@ -143,6 +144,7 @@ void try_all(const std::vector<Case>& cases) {
         result.failure = problem.what();
       }
       const std::lock_guard lock(writing);
+      if (++done % 100 == 0) fmt::print("{} of {} trials\n", done, all), std::fflush(stdout);
       if (result.failure.empty())
         figures[index].latencies_ms.push_back(result.latency_ms);
       else

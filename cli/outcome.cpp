@@ -12,6 +12,7 @@
 #include "cli/path_plot.hpp"
 #include "cli/terminal.hpp"
 #include "tessera/judgement.hpp"
+#include "tessera/printable.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera::cli {
@@ -178,9 +179,9 @@ void print(const RunOutcome& outcome) {
   fmt::print("{:.1f} s in {:.2f} s ({:.0f} x real time), {} firings, ended by: {}\n",
              summary.value("simulated_s", 0.0), summary.value("wall_s", 0.0),
              summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
-             summary.value("ended", ""));
+             printable(summary.value("ended", "")));
   print_subsystems(summary.value("subsystems", json::array()));
-  fmt::print("{}", judgement_lines(summary.dump()));
+  fmt::print("{}", printable(judgement_lines(summary.dump())));
   if (outcome.drive && !outcome.drive->line.points.empty()) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/outputs.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
@@ -56,7 +57,7 @@ project::Listener& terminal() { return standard_error(); }
 int exit_code_without_net() { return standard_error().unreadable ? usage : failed; }
 
 int complain(const std::string& text) {
-  fmt::print(stderr, "tessera: error: {}\n", text);
+  fmt::print(stderr, "tessera: error: {}\n", printable(text));
   return failed;
 }
 

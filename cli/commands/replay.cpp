@@ -23,6 +23,7 @@
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
 #include "tessera/nearest.hpp"
+#include "tessera/printable.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::cli {
@@ -99,7 +100,7 @@ std::string bars(const Distribution& distribution) {
 
 void print_distribution(const std::string& name, const Distribution& distribution) {
   if (distribution.count == 0) return;
-  fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}{}\n", name, shown(distribution.least),
+  fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}{}\n", printable(name), shown(distribution.least),
              shown(distribution.median), shown(distribution.p99), shown(distribution.most),
              bars(distribution));
 }
@@ -111,19 +112,20 @@ std::string count_of(std::uint64_t count, const char* what) {
 void print_summary(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
   const double end_s =
       recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
-  fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", recording.system, recording.clock,
-             recording.seed, end_s, recording.entries.size(), recording.truncated ? ", cut off" : "");
+  fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", printable(recording.system),
+             printable(recording.clock), recording.seed, end_s, recording.entries.size(),
+             recording.truncated ? ", cut off" : "");
   if (recording.segment.value_or(0) > 0)
     fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
   if (recording.truncated)
     fmt::print(
         "its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
   if (recording.lost > 0) fmt::print("{} events of the run are missing in it\n", recording.lost);
-  fmt::print("net {}\n", recording.net_hash);
+  fmt::print("net {}\n", printable(recording.net_hash));
   for (const replay::SubsystemStatistics& one : all) {
     constexpr std::size_t shown_waits = 4;
-    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", one.path, one.iterations, one.firings,
-               count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
+    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", printable(one.path), one.iterations,
+               one.firings, count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
                count_of(one.faults, "faults"), count_of(one.timeouts, "timeouts"),
                count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
     if (one.iterations > 0)
@@ -136,7 +138,7 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
         print_distribution("wait for " + one.waits[wait].channel, one.waits[wait].time);
   }
   for (const Recording::Entry& entry : recording.entries)
-    if (entry.event.kind() == Event::Kind::stop) fmt::print("\nended: {}\n", entry.text);
+    if (entry.event.kind() == Event::Kind::stop) fmt::print("\nended: {}\n", printable(entry.text));
 }
 
 json to_json(const Distribution& distribution) {
@@ -258,8 +260,8 @@ int film_command(const ReplayOptions& options) {
 /// "legal: 120 firings of the net 1b2c in 3 recordings"
 void print_verdict(const replay::Legality& legality, const std::string& net_hash, std::size_t recordings) {
   const std::string in = recordings > 1 ? fmt::format(" in {} recordings", recordings) : "";
-  fmt::print("{}: {} firings of the net {}{}{}{}\n", name_of(legality.verdict), legality.firings, net_hash,
-             in, legality.why.empty() ? "" : "; then ", legality.why);
+  fmt::print("{}: {} firings of the net {}{}{}{}\n", name_of(legality.verdict), legality.firings,
+             printable(net_hash), in, legality.why.empty() ? "" : "; then ", printable(legality.why));
 }
 
 json to_json(const replay::Legality& legality) {
@@ -272,7 +274,7 @@ int joint_command(const ReplayOptions& options) {
   for (const std::string& file : options.recordings) {
     std::string error;
     std::optional<Recording> one = read_recording(file, error);
-    if (!one) return complain(error);
+    if (!one) return complain(error), usage;
     recordings.push_back(std::move(*one));
   }
   const std::optional<replay::Legality> legality = check_against(specification_of(options), recordings);
@@ -299,7 +301,8 @@ int replay_command(ReplayOptions options) {
   for (std::string& given : options.recordings)
     if (fs::exists(fs::path(given) / "spec.yaml")) given = last_recording(given);
   options.recordings = all_recordings(options.recordings);
-  if (options.recordings.empty()) return complain("there is no recording in this folder"), failed;
+  if (options.recordings.empty())
+    return complain("there is no recording in this folder"), options.check ? usage : failed;
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
   if (options.recordings.size() > 1 && options.film.file.empty() && only_checks(options))
@@ -309,7 +312,7 @@ int replay_command(ReplayOptions options) {
   if (!options.film.file.empty()) return film_command(options);
   std::string error;
   const std::optional<Recording> recording = read_recording(options.recording, error);
-  if (!recording) return complain(error);
+  if (!recording) return complain(error), options.check ? usage : failed;
   if (!known_subsystem(*recording, options.subsystem)) return usage;
   json result;
   int exit_code = ok;
@@ -382,9 +385,8 @@ void add_replay(CommandLine& app, int& exit_code) {
                             "--coverage", "--last", "--subsystem", "--containing"})
     film.excludes(command.declared(other));
   command.footer(
-      "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 3 if "
-      "events\n"
-      "are missing.\n"
+      "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 2 if no\n"
+      "recording can be read, 3 if events are missing.\n"
       "Example: tessera replay --check\n"
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"

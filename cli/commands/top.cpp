@@ -21,6 +21,7 @@
 #include "project/process/control_messages.hpp"
 #include "project/process/deployment_watch.hpp"
 #include "tessera/monitor.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
@@ -120,7 +121,7 @@ int watch_one(SeenController& watched, const TopOptions& options) {
       if (options.once) return ok;
     } else if (before) {
       const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.once;
-      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", table(*now, *before));
+      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", printable(table(*now, *before)));
       if (options.once) return ok;
     }
     std::fflush(stdout);
@@ -186,7 +187,8 @@ int watch_deployment(const std::string& system, std::size_t found, const TopOpti
       last_seen = now;
     if (now - std::chrono::milliseconds(terminal ? 300 : 1000) >= shown) {
       const ScreenSize screen = options.once ? ScreenSize{} : screen_size();
-      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", deployment_table(system, deployment, screen));
+      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "",
+                 printable(deployment_table(system, deployment, screen)));
       if (!terminal && !options.once) fmt::print("\n");
       std::fflush(stdout);
       shown = now;

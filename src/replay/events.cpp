@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "replay/values.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -209,7 +210,7 @@ void print_events(const Recording& recording, const Selection& selection, std::o
                            ? fmt::format("  (version {})", event.version)
                            : "");
   };
-  for (const Row& row : rows_of(recording, selection, line)) to << row.text;
+  for (const Row& row : rows_of(recording, selection, line)) to << printable(row.text);
 }
 
 void write_csv(const Recording& recording, const Selection& selection, std::ostream& to) {

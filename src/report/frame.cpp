@@ -75,7 +75,7 @@ class CaptionPen {
 
  private:
   [[nodiscard]] std::string fitting(const std::string& text) const {
-    std::string shown = printable(shortened(text, 300, 1));
+    std::string shown = drawable(shortened(text, 300, 1));
     for (std::size_t most = shown.size(); most > 8; most -= 4) {
       cairo_text_extents_t extents;
       cairo_text_extents(canvas_, shown.c_str(), &extents);

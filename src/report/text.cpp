@@ -1,40 +1,13 @@
 #include "report/text.hpp"
 
 #include <algorithm>
-#include <optional>
+
+#include "tessera/printable.hpp"
 
 namespace tessera::report {
 namespace {
 
 constexpr std::string_view replacement = "\xef\xbf\xbd";
-
-struct Character {
-  char32_t code = 0;
-  std::size_t bytes = 1;
-};
-
-/// The first character of the text; nullopt: its first byte does not begin a character.
-std::optional<Character> first_of(std::string_view text) {
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return Character{lead, 1};
-  const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < bytes) return std::nullopt;
-  char32_t code = lead & (0x7fU >> bytes);
-  for (std::size_t at = 1; at < bytes; ++at) {
-    if ((byte(at) & 0xc0U) != 0x80) return std::nullopt;
-    code = code << 6U | (byte(at) & 0x3fU);
-  }
-  if (code < least[bytes] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return std::nullopt;
-  return Character{code, bytes};
-}
-
-bool is_shown(char32_t code) {
-  const bool control = (code < 0x20 && code != '\n' && code != '\t') || (code >= 0x7f && code < 0xa0);
-  const bool turns_direction = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
-  return !control && !turns_direction && code != 0xfeff && (code & 0xfffeU) != 0xfffe;
-}
 
 std::string_view entity_of(char32_t code) {
   switch (code) {
@@ -58,28 +31,24 @@ std::string_view entity_of(char32_t code) {
 std::string escaped(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::optional<Character> character = first_of(text);
-    const std::size_t bytes = character ? character->bytes : 1;
-    const std::string_view entity = character ? entity_of(character->code) : std::string_view();
-    if (!character || !is_shown(character->code))
+    const Character character = first_character(text);
+    if (!character.shown)
       result += replacement;
+    else if (const std::string_view entity = entity_of(character.code); !entity.empty())
+      result += entity;
     else
-      result += entity.empty() ? text.substr(0, bytes) : entity;
-    text.remove_prefix(bytes);
+      result += text.substr(0, character.bytes);
+    text.remove_prefix(character.bytes);
   }
   return result;
 }
 
-std::string printable(std::string_view text) {
+std::string drawable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::optional<Character> character = first_of(text);
-    const std::size_t bytes = character ? character->bytes : 1;
-    if (character && is_shown(character->code))
-      result += text.substr(0, bytes);
-    else
-      result += replacement;
-    text.remove_prefix(bytes);
+    const Character character = first_character(text);
+    result += character.shown ? text.substr(0, character.bytes) : replacement;
+    text.remove_prefix(character.bytes);
   }
   return result;
 }

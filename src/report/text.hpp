@@ -21,7 +21,7 @@ void put(std::string& to, fmt::format_string<Args...> format, Args&&... args) {
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// The text without what `escaped` replaces, for pictures.
-[[nodiscard]] std::string printable(std::string_view text);
+[[nodiscard]] std::string drawable(std::string_view text);
 
 /// Cuts the text to that many bytes and lines of whole characters, with "…" for the rest.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most_bytes, std::size_t most_lines);

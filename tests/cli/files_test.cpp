@@ -51,6 +51,21 @@ TEST_F(Files, GenerateElsewhereKeepsWhatIsThere) {
   EXPECT_TRUE(fs::exists(folder_ / "out/ca/control.hpp"));
 }
 
+/// The build would compile them a second time.
+TEST_F(Files, GenerateIntoTheSourcesOfAProjectWritesNothing) {
+  write(folder_ / "p/spec.yaml", small);
+  write(folder_ / "p/src/mine.cpp", "// mine\n");
+  fs::create_directory_symlink("p/src", folder_ / "linked");
+  for (const char* folder : {"p/src", "p/src/", "p/src/deep/er", "p/test", "p/../p/src/x", "linked/x"}) {
+    const project::Exit done = tessera(std::string("generate p --output ") + folder);
+    EXPECT_EQ(done.code, 1) << done.text;
+    EXPECT_NE(done.text.find("whose sources are yours"), std::string::npos) << done.text;
+  }
+  EXPECT_EQ(files_in(folder_ / "p/src").size(), 1U);
+  EXPECT_FALSE(fs::exists(folder_ / "p/test"));
+  EXPECT_EQ(tessera("generate p --output p/srcs --stubs").code, 0);
+}
+
 TEST_F(Files, GenerateIntoAFolderWithOtherFilesOfItsNamesWritesNothing) {
   write(folder_ / "p/spec.yaml", small);
   write(folder_ / "mine/CMakeLists.txt", "project(mine)\n");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <thread>
@@ -148,6 +149,10 @@ TEST_F(Recordings, OnABusyMachineAreLegalAndThoseOfKilledControllersAndFullDisks
   ASSERT_FALSE(controller_.empty());
   for (unsigned number = 0; number < recordings() && !HasFailure(); ++number) {
     SCOPED_TRACE(number);
+    if (number > 0 && number % 100 == 0) {
+      fmt::print("{} of {}\n", number, recordings());
+      std::fflush(stdout);
+    }
     be_busy();
     be_killed(below(2) == 0 ? "" : "--record-limit 16kBx2000");
     run_out_of_space(below(2) == 0 ? "" : "--record-limit 16kBx2000");

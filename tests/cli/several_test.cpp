@@ -1,12 +1,14 @@
 // Several commands on one project at a time: each has a run of its own, made by the code that it built.
 // TESSERA_SEVERAL=10 is the long form.
 
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -67,6 +69,7 @@ TEST_F(Several, CommandsAtOnceAreAllRight) {
   const char* wanted = std::getenv("TESSERA_SEVERAL");
   const int rounds = wanted == nullptr ? 1 : std::atoi(wanted);
   for (int round = 0; round < rounds; ++round) {
+    if (rounds > 1) fmt::print("round {} of {}\n", round + 1, rounds), std::fflush(stdout);
     fs::remove_all(folder_ / "rover");
     ASSERT_EQ(tessera("new rover").code, 0);
     // The first build of all is made by one of them, and the others wait for it.

@@ -10,12 +10,34 @@
 
 #include "constructed.hpp"
 #include "replay/perfetto.hpp"
+#include "tessera/printable.hpp"
 
 using tessera::Recording;
 using tessera::ValueFlags;
 using tessera::replay::Selection;
 
 namespace {
+
+TEST(Printable, TextKeepsItsLettersAndLosesWhatMovesTheTerminal) {
+  using tessera::printable;
+  EXPECT_EQ(printable("\x1b[31mred\x07 a\rb\x7f\n\tnext"), "\\x1b[31mred\\x07 a\\x0db\\x7f\n\tnext");
+  EXPECT_EQ(printable("Fähre 艦 🚗 °"), "Fähre 艦 🚗 °");
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "2J"),
+            "\\xc2\\x9b"
+            "2J")
+      << "a control character of 8 bits, in UTF-8";
+  EXPECT_EQ(printable("\xe2\x80\xae"
+                      "txt.exe"),
+            "\\xe2\\x80\\xae"
+            "txt.exe")
+      << "right to left";
+  EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
+  std::array<char, 6> room{};
+  EXPECT_EQ(printable("abc\x1b", room), "abc") << "no part of an escape";
+  EXPECT_EQ(printable("ab\x1b", room), "ab\\x1b");
+}
 
 template <class T>
 std::string bytes_of(T value) {

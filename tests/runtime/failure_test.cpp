@@ -25,6 +25,22 @@ constexpr int to_other = 0, to_end = 1;  // entries of `next` of nets::two_behav
   return script;
 }
 
+TEST(Failure, TextOfUserCodeDoesNotReachTheTerminalRaw) {
+  TestSystem system;
+  Script script;
+  script.call = [](ScriptState& state) {
+    state.context.log("a\x1b[2Jb");
+    throw std::runtime_error("with \x1b[31m and \x07, \xff: für");
+  };
+  system.add("robot.a", nets::alone, script, 1ms);
+  ::testing::internal::CaptureStderr();
+  EXPECT_TRUE(run(system, simulated(10ms)).failed);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("with \\x1b[31m and \\x07, \\xff: für"), std::string::npos) << said;
+  EXPECT_NE(said.find("a\\x1b[2Jb"), std::string::npos) << said;
+  EXPECT_EQ(said.find_first_of("\x1b\x07\xff"), std::string::npos) << said;
+}
+
 TEST(Failure, AnExceptionDiscardsTheOutputsAndSendsThePreviousOnesMarkedInvalid) {
   TestSystem system;
   struct Seen {

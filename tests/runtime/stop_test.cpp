@@ -11,7 +11,9 @@
 #include <string>
 #include <thread>
 
+#include "child_run.hpp"
 #include "nets.hpp"
+#include "run/execute.hpp"
 #include "system/console.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
@@ -87,6 +89,84 @@ TEST(Stop, GivesTheSafeCommandWhileUserCodeHasNotReturned) {
   EXPECT_EQ(run(system, steady(60s)).ended, "stopped: enough");
   EXPECT_EQ(system.devices.commands, (std::vector<double>{5, -1, -1, -1}))
       << "5 was not given after the stop";
+}
+
+/// Runs it in a process of its own, which gives up after so long: exit code 1, and why the run ended.
+[[nodiscard]] std::pair<int, std::string> give_up(TestSystem& system, const RunOptions& options,
+                                                  Duration unsafe, Duration safe) {
+  const std::string file = scratch_file("ended");
+  ChildRun child([&](CommandLog&) {
+    const auto end_process = [&](const RunSummary& summary) {
+      std::ofstream(file) << summary.ended << std::flush;
+      _exit(summary.failed ? 1 : 2);
+    };
+    std::string error;
+    const GiveUp give_up{.end_process = end_process, .unsafe = unsafe, .safe = safe};
+    return execute(system.system(), options, nullptr, give_up, error) ? 3 : 4;
+  });
+  const int code = child.wait();
+  return {code, bytes_of(file)};
+}
+
+/// The devices of the others are safe and closed, and the recording has its end.
+TEST(Stop, GivesUpAFunctionThatNeverReturns) {
+  TestSystem system;
+  Script hangs, stops;
+  hangs.call = [](ScriptState& state) {
+    while (state.context.iteration > 1) std::this_thread::sleep_for(1s);
+  };
+  stops.acts = true;
+  stops.call = [](ScriptState& state) {
+    if (state.context.iteration == 20) state.context.stop("enough");
+  };
+  system.add("robot.hangs", nets::alone, hangs, 1ms);
+  system.add("robot.b", nets::alone, stops, 1ms, 0ms, Kind::effector);
+  RunOptions options = steady(60s);
+  options.recording = scratch_file("run");
+  const auto [code, ended] = give_up(system, options, 1h, 100ms);
+  EXPECT_EQ(code, 1);
+  EXPECT_TRUE(ended.starts_with("stopped: enough; robot.hangs has not returned from run 0.")) << ended;
+  std::string error;
+  const auto recording = read_recording(options.recording, error);
+  ASSERT_TRUE(recording) << error;
+  EXPECT_FALSE(recording->truncated);
+}
+
+TEST(Stop, GivesUpADriverThatNeverReturnsAndNamesItsDevice) {
+  TestSystem system;
+  Script motor;
+  motor.acts = true;
+  motor.call = [](ScriptState& state) { state.command = 5; };
+  system.devices.accept = [](double value) {
+    while (value == -1) std::this_thread::sleep_for(1s);
+    return true;
+  };
+  system.add("robot.motor", nets::alone, motor, 1ms, 0ms, Kind::effector);
+  const auto [code, ended] = give_up(system, steady(20ms), 100ms, 1h);
+  EXPECT_EQ(code, 1);
+  EXPECT_TRUE(ended.starts_with("duration; robot.motor has not returned from run 0.")) << ended;
+  EXPECT_TRUE(ended.ends_with("s after the stop; robot.motor.command has not taken its safe command"))
+      << ended;
+}
+
+/// Its own thread is in the driver, and cannot say so.
+TEST(Stop, ComesIfADeviceDoesNotObeyAnEmergencyStop) {
+  TestSystem system;
+  Script motor, stops;
+  motor.acts = true;
+  motor.call = [](ScriptState& state) { state.command = 5; };
+  stops.call = [](ScriptState& state) {
+    if (state.context.iteration == 20) state.context.emergency_stop("smoke");
+  };
+  system.devices.accept = [](double value) {
+    while (value == -1) std::this_thread::sleep_for(1s);
+    return true;
+  };
+  system.add("robot.motor", nets::alone, motor, 1ms, 0ms, Kind::effector);
+  system.add("robot.b", nets::alone, stops, 1ms);
+  const auto [code, ended] = give_up(system, steady(10min), 100ms, 1h);
+  EXPECT_EQ(code, 1);
+  EXPECT_TRUE(ended.starts_with("stopped: robot.motor.command has not taken its safe command; ")) << ended;
 }
 
 TEST(Watchdog, GivesTheSafeCommandWhileUserCodeHasNotReturned) {

@@ -1,6 +1,7 @@
 #include "robot_process.hpp"
 
 #include <poll.h>
+#include <sched.h>
 #include <spawn.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -226,6 +227,19 @@ void RobotProcess::do_harm(Harm harm, Place place) {
   log_->harm = harm;
 }
 
+void RobotProcess::delay_supervisor(bool delayed) const {
+  const sched_param none{};
+  sched_setscheduler(child_, delayed ? SCHED_IDLE : SCHED_OTHER, &none);
+  cpu_set_t all, one;
+  sched_getaffinity(0, sizeof all, &all);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  std::error_code has_ended;
+  for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(child_) + "/task", has_ended))
+    sched_setaffinity(std::stoi(thread.path().filename()), sizeof one, delayed ? &one : &all);
+}
+
 void RobotProcess::type(char key) const {
   if (write(descriptor_, &key, 1) != 1) throw std::runtime_error("cannot type");
 }
@@ -297,6 +311,18 @@ std::int64_t RobotProcess::safe_since_ns() const {
   for (const Last& device : last_commands(*log_))
     if (device.drove) since_ns = std::max(since_ns, device.safe_since_ns);
   return since_ns;
+}
+
+bool RobotProcess::drove_after_guardian() const {
+  std::array<bool, command_log::devices> guarded{};
+  const std::uint64_t count = std::min<std::uint64_t>(log_->count, log_->commands.size());
+  for (std::uint64_t index = 0; index < count; ++index) {
+    const command_log::Command& command = log_->commands[index];
+    if (command.at_ns.load(std::memory_order_acquire) == 0) continue;
+    if (command.process != child_) guarded[command.device] = true;
+    if (guarded[command.device] && command.value != 0) return true;
+  }
+  return false;
 }
 
 std::vector<pid_t> RobotProcess::commanders() const {

@@ -43,6 +43,9 @@ class RobotProcess {
   [[nodiscard]] bool await_driving(unsigned commands = 3);
   void do_harm(Harm harm, Place place);
   void send(int signal) const { kill_process(child_, signal); }
+  /// Its first thread, which supervises the run, gets a processor only when no other thread wants it. All
+  /// threads share one. false: as before, for every thread that it has then.
+  void delay_supervisor(bool delayed) const;
   void type(char key) const;
   /// Closes the terminal, or the reading end of the pipe.
   void hang_up();
@@ -66,6 +69,8 @@ class RobotProcess {
   /// When the last device got the safe command for good; 0: none got another command.
   /// Precondition: is_safe().
   [[nodiscard]] std::int64_t safe_since_ns() const;
+  /// A device got another command after the safe one that another process than the child gave it.
+  [[nodiscard]] bool drove_after_guardian() const;
   /// Processes that have commanded a device.
   [[nodiscard]] std::vector<pid_t> commanders() const;
   [[nodiscard]] pid_t child() const { return child_; }

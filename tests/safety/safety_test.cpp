@@ -40,6 +40,19 @@ std::int64_t chatter_into_closed_pipe(RobotProcess& robot) {
   return command_log::now_ns();
 }
 
+/// When it goes on, its other threads wake before the one that learns that the guardian has acted.
+std::int64_t stand_still(RobotProcess& robot) {
+  robot.delay_supervisor(true);
+  return sends(SIGSTOP)(robot);
+}
+
+/// The driver never returns from a command, so the controller cannot make its device safe.
+std::int64_t stop_while_a_driver_hangs(RobotProcess& robot) {
+  robot.do_harm(Harm::loop, Place::driver);
+  while (robot.struck_ns() == 0 && !robot.await_end(milliseconds(1))) continue;
+  return sends(SIGTERM)(robot);
+}
+
 TEST(Safety, SignalsGiveTheSafeCommand) {
   try_all({
       {"SIGINT", sends(SIGINT)},
@@ -138,6 +151,15 @@ TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
   try_all({loops});
 }
 
+/// Nothing hangs: control only sends nothing any more.
+TEST(Safety, ValuesThatStopComingLeaveTheDevicesSafe) {
+  try_all({{.name = "values stop coming",
+            .strike = does(Harm::mute, Place::control),
+            .after = After::hangs,
+            .bar = milliseconds(150),  // stale + 100 ms
+            .says = "has had no valid value for 0.05 s"}});
+}
+
 /// On a pipe, since a terminal hangs up when the controller, which has it, dies.
 TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
   const milliseconds stands_still(2600);
@@ -149,7 +171,7 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
       {.name = "_exit in a driver", .strike = does(Harm::underscore_exit, Place::driver), .says = has_died},
       {.name = "SIGSEGV with a guardian", .strike = does(Harm::segv, Place::motor), .says = has_died},
       {.name = "SIGSTOP",
-       .strike = sends(SIGSTOP),
+       .strike = stand_still,
        .after = After::halts,
        .bar = stands_still,
        .says = "the controller stands still, since it is stopped"},
@@ -158,6 +180,10 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
        .bar = stands_still,
        .says = "the controller stands still, and is killed"},
       {.name = "SIGTERM with a guardian", .strike = sends(SIGTERM)},
+      {.name = "SIGTERM while a driver hangs",
+       .strike = stop_while_a_driver_hangs,
+       .bar = milliseconds(4100),
+       .says = "after the stop; robot.motor.left has not taken its safe command"},
   };
   const std::vector<std::string> in_the_loop{
       project().controller.string(), "simulate", "--hardware", "robot.motor", "--hardware", "robot.arm"};

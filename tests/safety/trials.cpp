@@ -62,7 +62,10 @@ struct Times {
   if (stands && !robot.await_safe(still, patience)) return "the devices did not become safe";
   if (stands) times.safe_ns = robot.safe_since_ns();
   if (one.after == After::hangs) return "";
-  if (one.after == After::halts) robot.send(SIGCONT);
+  if (one.after == After::halts) {
+    robot.send(SIGCONT);
+    if (!robot.await_end(still)) robot.delay_supervisor(false);
+  }
   if (one.after == After::pauses) {
     robot.send(SIGCONT);
     if (!robot.await_driving(3)) return "it does not drive on";
@@ -70,6 +73,8 @@ struct Times {
   }
   if (!robot.await_end(patience)) return "the controller did not end";
   if (!robot.await_nobody_left(patience)) return "somebody is left";
+  if (one.after == After::halts && robot.drove_after_guardian())
+    return "a device was commanded after the guardian had made it safe";
   return robot.is_safe() ? "" : "the last command is not the safe one";
 }
 
@@ -127,6 +132,7 @@ void try_all(const std::vector<Case>& cases) {
   std::atomic<std::size_t> next{0};
   const std::size_t all = cases.size() * runs();
   std::mutex writing;
+  std::size_t done = 0;
   const auto work = [&](unsigned seed) {
     std::mt19937 random(seed);
     for (std::size_t trial = next++; trial < all; trial = next++) {
@@ -138,6 +144,7 @@ void try_all(const std::vector<Case>& cases) {
         result.failure = problem.what();
       }
       const std::lock_guard lock(writing);
+      if (++done % 100 == 0) fmt::print("{} of {} trials\n", done, all), std::fflush(stdout);
       if (result.failure.empty())
         figures[index].latencies_ms.push_back(result.latency_ms);
       else

@@ -95,7 +95,8 @@ struct RunSummary {
   double wall_s = 0;
   std::uint64_t firings = 0;
   /// "duration", "net ended", "stopped: WHY", or the name of a signal ("SIGINT"). "; stuck for good: ..."
-  /// follows if some subsystems can never fire again while others can. That is a failure.
+  /// follows if some subsystems can never fire again while others can, and "; robot.motor.left has not taken
+  /// its safe command" if a device has not. These are failures.
   std::string ended;
   bool failed = false;  ///< a fault ended the run, or a device has not taken its safe command
   /// Why a run failed, if no fault of a subsystem says so.

@@ -52,6 +52,11 @@ struct Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
+  /// nullptr: nothing is recorded.
+  [[nodiscard]] RecordingLane* system_lane() const {
+    return recorder == nullptr ? nullptr : recorder->system_lane();
+  }
+
   const ProcessPart part;
   const System& system;  ///< of the part
   const RunOptions& options;

@@ -60,14 +60,15 @@ Effectors::Answer Effectors::command(Time now) {
     const Lock lock(device, Busy::waits);
     // Checked under the lock: the safe command of another thread is then the later one.
     if (control_.withholds_commands()) return Answer::withheld;
+    device.safe = false;  // even if the driver does not return
     if (!write(device, now)) return Answer::refused;
-    device.safe = false;
     // A thread that withholds commands and then finds the device in use relies on
     // this thread to notice that.
     device.owes = false;
     device.owes = control_.withholds_commands();
     if (device.standing.kind != SafeReason::Kind::none) device.since = now;
     device.standing = {};
+    if (device.owes) return Answer::withheld;
   }
   return Answer::taken;
 }
@@ -147,8 +148,13 @@ bool Effectors::owing() const {
 std::vector<std::string> Effectors::unsafe() const {
   std::vector<std::string> names;
   for (const Device& device : devices())
-    if (!device.safe) names.push_back(device.its.name);
+    if (!device.safe || device.owes) names.push_back(device.its.name);
   return names;
+}
+
+std::string not_safe(const std::vector<std::string>& names) {
+  return names.size() == 1 ? fmt::format("{} has not taken its safe command", names.front())
+                           : fmt::format("{} have not taken their safe commands", fmt::join(names, ", "));
 }
 
 // -------------------------------------------------------------------------------------------- recording

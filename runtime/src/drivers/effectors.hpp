@@ -60,7 +60,8 @@ class Effectors {
 
   [[nodiscard]] bool none() const { return drivers_.empty(); }
   enum class Answer : std::uint8_t { taken, refused, withheld };
-  /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops.
+  /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops, or
+  /// began to stop while a driver was called: the safe command must follow.
   /// Passes on what a driver throws.
   [[nodiscard]] Answer command(Time now);
 
@@ -85,7 +86,7 @@ class Effectors {
 
   /// Whether the last request was the safe command and some device has not taken it.
   [[nodiscard]] bool owing() const;
-  /// The devices that took another command last than the safe one, as "robot.motor.left".
+  /// The devices that took another command last than the safe one, or may have, as "robot.motor.left".
   [[nodiscard]] std::vector<std::string> unsafe() const;
 
   /// Records the changes since the last call: which devices got the safe command and why, which got other
@@ -118,6 +119,9 @@ class Effectors {
   std::size_t count_;
   std::unique_ptr<Device[]> devices_;
 };
+
+/// "robot.motor.left has not taken its safe command". Precondition: there are names.
+[[nodiscard]] std::string not_safe(const std::vector<std::string>& names);
 
 /// "no valid value has come to input 'velocity' yet"
 [[nodiscard]] std::string_view describe(const SafeReason& why, std::span<char> room);

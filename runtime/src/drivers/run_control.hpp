@@ -63,8 +63,15 @@ class RunControl {
   /// An eventfd that is written to when an emergency stop begins or ends; -1: none.
   void tell_of_emergencies(int descriptor) { news_.store(descriptor, std::memory_order_release); }
 
+  /// Another process sets `acted` when it has given the devices their safe command for this one, which stood
+  /// still: from then on, no other command goes to a device, whichever thread wakes first. Call it before the
+  /// run has threads; `acted` must outlive them.
+  void withhold_after(const std::atomic<bool>& acted) { acted_outside_ = &acted; }
+
   /// Whether only safe commands may go to devices.
-  [[nodiscard]] bool withholds_commands() const { return stopping() || suspended() || emergency(); }
+  [[nodiscard]] bool withholds_commands() const {
+    return stopping() || suspended() || emergency() || (acted_outside_ != nullptr && acted_outside_->load());
+  }
 
   /// The transition function has run longer than its watchdog allows, and has not returned.
   void mark_stalled(std::uint32_t instance, bool stalled) {
@@ -79,6 +86,7 @@ class RunControl {
 
   std::atomic<std::uint32_t> state_{0}, emergencies_{0};
   std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
+  const std::atomic<bool>* acted_outside_ = nullptr;  // in memory that is shared with another process
   std::atomic<int> news_{-1};
   mutable std::mutex emergency_mutex_;  // guards the members below; it is held no longer than a copy takes
   std::array<char, 512> emergency_reason_{};

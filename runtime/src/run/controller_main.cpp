@@ -1,5 +1,6 @@
 #include <cxxabi.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <exception>
@@ -8,17 +9,21 @@
 
 #include "rerun/rerun.hpp"
 #include "run/command_line.hpp"
+#include "run/execute.hpp"
 #include "run/schedules.hpp"
 #include "run/summary_text.hpp"
 #include "system/console.hpp"
 #include "system/stop_signals.hpp"
 #include "tessera/controller.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera {
 namespace {
 
 // The exit code after a signal is exit_signal plus the number of the signal.
 constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
+
+void complain(std::string_view what) { fmt::print(stderr, "error: {}\n", printable(what)); }
 
 [[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
   if (file == "-") return static_cast<bool>(std::cout << json << std::flush);
@@ -31,7 +36,7 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
   // Does not delay the end if the terminal takes nothing.
   const console::Session session;
   // A user who asks for a summary file shows its content.
-  if (summary.failed && line.summary.empty()) console::say(summary_lines(summary));
+  if (summary.failed && line.summary.empty()) console::say(printable(summary_lines(summary)));
   if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
@@ -40,16 +45,23 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
   return summary.signal == 0 ? exit_ok : exit_signal + summary.signal;
 }
 
+/// Without the ends of objects, which threads still use.
+[[noreturn]] void end_process(const RunSummary& summary, const CommandLine& line) {
+  const int code = report(summary, line);
+  static_cast<void>(console::Session().settle());
+  _exit(code);
+}
+
 [[nodiscard]] int run_schedules(const System& system, const CommandLine& line) {
   std::string error;
   const std::optional<ScheduleReport> report =
       try_schedules(system, line.options, {*line.schedules, line.jobs, line.coverage}, error);
   if (!report) {
-    fmt::print(stderr, "error: {}\n", error);
+    complain(error);
     return exit_failed;
   }
   // A user who asks for a summary file shows its content.
-  if (line.summary.empty()) fmt::print(stderr, "{}", schedules_text(*report));
+  if (line.summary.empty()) fmt::print(stderr, "{}", printable(schedules_text(*report)));
   if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
@@ -62,10 +74,10 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
   std::string error;
   const std::optional<RerunReport> report = rerun(system, line.options, line.from, error);
   if (!report) {
-    fmt::print(stderr, "error: {}\n", error);
+    complain(error);
     return exit_failed;
   }
-  if (line.summary != "-") fmt::print("{}", rerun_text(*report));
+  if (line.summary != "-") fmt::print("{}", printable(rerun_text(*report)));
   if (!line.summary.empty() && !write_summary(line.summary, rerun_json(*report))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
@@ -82,15 +94,16 @@ int controller_main(const System& system, int argc, char** argv) try {
   if (line.schedules) return run_schedules(system, line);
   if (!line.from.empty()) return run_again(system, line);
   std::string error;
-  const std::optional<RunSummary> summary = execute(system, line.options, error);
+  const GiveUp give_up{.end_process = [&](const RunSummary& summary) { end_process(summary, line); }};
+  const std::optional<RunSummary> summary = execute(system, line.options, nullptr, give_up, error);
   if (!summary) {
-    fmt::print(stderr, "error: {}\n", error);
+    complain(error);
     const int signal = StopSignals::pending();  // one may have come while devices were opened
     return signal == 0 ? exit_failed : exit_signal + signal;
   }
   return report(*summary, line);
 } catch (const std::exception& exception) {
-  fmt::print(stderr, "error: {}\n", exception.what());
+  complain(exception.what());
   return exit_failed;
 } catch (const abi::__forced_unwind&) {
   throw;

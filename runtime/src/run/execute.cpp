@@ -3,9 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -26,6 +30,8 @@
 
 namespace tessera {
 namespace {
+
+constexpr std::chrono::seconds closing_patience{1};
 
 void warn(RunSummary& summary, std::string text) {
   console::print(LogLevel::warning, Time(summary.simulated), "tessera", text);
@@ -55,6 +61,18 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   for (const auto& executor : assembly.executors)
     std::ranges::move(executor->effectors().unsafe(), std::back_inserter(names));
   return names;
+}
+
+/// Returns what went wrong. left_behind: per instance, whether its devices stay open; empty: none.
+std::vector<std::string> close_devices(Assembly& assembly, const std::vector<bool>& left_behind) {
+  std::vector<std::string> wrong;
+  for (const bool effectors : {false, true})
+    for (std::size_t index = assembly.executors.size(); index-- > 0;) {
+      SubsystemExecutor& executor = *assembly.executors[index];
+      if (executor.effectors().none() == effectors || (!left_behind.empty() && left_behind[index])) continue;
+      std::ranges::move(executor.operations().devices().close(), std::back_inserter(wrong));
+    }
+  return wrong;
 }
 
 /// Keeps the devices of all subsystems open while it exists.
@@ -91,14 +109,18 @@ class OpenDevices {
   /// Returns what went wrong.
   std::vector<std::string> close() {
     open_ = false;
-    std::vector<std::string> wrong;
-    for (const bool effectors : {false, true})
-      for (auto executor = assembly_.executors.rbegin(); executor != assembly_.executors.rend(); ++executor) {
-        if ((*executor)->effectors().none() == effectors) continue;
-        const std::vector<std::string> more = (*executor)->operations().devices().close();
-        wrong.insert(wrong.end(), more.begin(), more.end());
-      }
-    return wrong;
+    return close_devices(assembly_, {});
+  }
+  /// The same, for no longer than `closing_patience`: a driver that does not return may hold what others need.
+  /// left_behind: per instance, whether its devices stay open.
+  void close_what_can_be_closed(const std::vector<bool>& left_behind) {
+    open_ = false;
+    const auto closed = std::make_shared<std::promise<void>>();
+    std::thread([&assembly = assembly_, left_behind, closed] {
+      static_cast<void>(close_devices(assembly, left_behind));
+      closed->set_value();
+    }).detach();
+    closed->get_future().wait_for(closing_patience);
   }
 
  private:
@@ -111,7 +133,7 @@ template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
                                               std::string& error) {
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
-  RecordingLane* lane = assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
+  RecordingLane* const lane = assembly.system_lane();
   UpperLayers upper(agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
   OpenDevices devices(assembly);
   if (!devices.open(error)) return std::nullopt;
@@ -122,8 +144,16 @@ template <class Run>
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
   last_chance.reset();
   if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
-  if (!unsafe.empty() && !std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::unsafe;
-  const std::vector<std::string> unclosed = devices.close();
+  if (!unsafe.empty()) {
+    if (!std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::unsafe;
+    if (const std::string text = not_safe(unsafe); ending.text.find(text) == std::string::npos)
+      ending.text += "; " + text;
+  }
+  std::vector<std::string> unclosed;
+  if (ending.left_behind.empty())
+    unclosed = devices.close();
+  else
+    devices.close_what_can_be_closed(ending.left_behind);
 
   if (const std::string failed_checks = finish_checks(assembly, ending.at); !failed_checks.empty()) {
     ending.text += failed_checks;
@@ -152,12 +182,10 @@ template <class Run>
     summary.subsystems.push_back(
         {executor->path(), operations.iterations(), executor->overruns(), operations.errors()});
   }
-  for (const std::string& device : unsafe) {
-    warn(summary, fmt::format("{} has not taken its safe command", device));
+  for (const std::string& device : unsafe)
     if (lane != nullptr)
       lane->text(Event::Kind::safe, ending.at, static_cast<std::uint32_t>(SafeEvent::refused),
                  fmt::format("{}: has not taken its safe command", device));
-  }
   if (ending.world_time)
     warn(summary, fmt::format("the simulated world ran at {:.2f} of real time: {:.3f} s of {:.3f} s",
                               seconds(*ending.world_time) / seconds(summary.simulated),
@@ -244,11 +272,11 @@ namespace {
 }  // namespace
 
 std::optional<RunSummary> execute(const System& system, const RunOptions& options, std::string& error) {
-  return execute(system, options, nullptr, error);
+  return execute(system, options, nullptr, {}, error);
 }
 
 std::optional<RunSummary> execute(const System& system, const RunOptions& given, RunTally* tally,
-                                  std::string& error) {
+                                  const GiveUp& give_up, std::string& error) {
   std::optional<ProcessPart> part = part_to_run(system, given, error);
   if (!part) return std::nullopt;
   const RunOptions options = options_of(*part, given);
@@ -277,6 +305,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   companions.watch();
   Assembly assembly(std::move(*part), options);
   assembly.guardian = companions.guardian();
+  if (assembly.guardian != nullptr) assembly.control.withhold_after(assembly.guardian->has_acted());
   assembly.incarnation = incarnation_of(options);
   assembly.tally = tally;
   if (simulated) {
@@ -292,8 +321,11 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   if (assembly.part.process && options.world)
     console::print(LogLevel::warning, Time{}, "tessera",
                    "this process simulates a world of its own, which no other process sees");
-  SteadyRun run(instances);
-  return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+  SteadyRun run(instances, give_up);
+  std::optional<RunSummary> summary =
+      with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+  if (run.has_given_up()) give_up.end_process(*summary);
+  return summary;
 }
 
 }  // namespace tessera

@@ -107,7 +107,7 @@ void keep_memory() {
     if (options.world) options.world->seed = *seed;
     RunTally tally(task.firings);
     std::string error;
-    const std::optional<RunSummary> summary = execute(task.system, options, &tally, error);
+    const std::optional<RunSummary> summary = execute(task.system, options, &tally, {}, error);
     if (!summary) {
       std::ranges::replace(error, '\n', ' ');
       if (!put_line(output, fmt::format("{}{} {}", error_mark, *seed, error))) return exit_unheard;

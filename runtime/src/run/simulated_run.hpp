@@ -29,6 +29,8 @@ struct Ending {
   int signal = 0;                        ///< the signal that ended the run; 0: none
   std::optional<Duration> world_time{};  ///< if a world was slower than real time: how far it came
   RunSummary::Failure failure = RunSummary::Failure::none;
+  /// Per instance: a thread that runs its user code goes on, since the run has given up. Empty: none does.
+  std::vector<bool> left_behind{};
 };
 
 /// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that have

@@ -32,19 +32,12 @@ constexpr Duration longest_world_step = std::chrono::milliseconds(10);
 // A slow world makes up for at most this delay.
 constexpr Duration most_behind = std::chrono::milliseconds(200);
 constexpr Duration progress_step = std::chrono::milliseconds(200);
-// After this delay, the devices of threads that have not ended get their safe command.
-constexpr Duration security_delay = std::chrono::milliseconds(20);
-// After this time, a message says which threads the end waits for.
-constexpr Duration first_patience = std::chrono::seconds(1);
-
-[[nodiscard]] RecordingLane* lane_of_system(const Assembly& assembly) {
-  return assembly.recorder == nullptr ? nullptr : assembly.recorder->system_lane();
-}
 
 }  // namespace
 
-SteadyRun::SteadyRun(std::uint32_t instances)
-    : wake_words_(std::make_unique<WakeWord[]>(instances)),
+SteadyRun::SteadyRun(std::uint32_t instances, const GiveUp& give_up)
+    : give_up_(give_up),
+      wake_words_(std::make_unique<WakeWord[]>(instances)),
       gone_(std::make_unique<std::atomic<bool>[]>(instances)),
       collected_(instances),
       stuck_(instances),
@@ -168,46 +161,26 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   {
     const RealTimePriority priority(supervisor_priority(assembly.system.instances));
     if (!priority.denied().empty()) deny(priority.denied());
-    Securing securing(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
-    std::vector<std::thread> threads;
-    survives_in_thread(assembly.control, "no thread for every subsystem",
-                       [&] { start_threads(assembly, threads); });
+    Securing& securing =
+        securing_.emplace(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
+    survives_in_thread(assembly.control, "no thread for every subsystem", [&] { start_threads(assembly); });
     survives_in_thread(assembly.control, "the supervisor", [&] { supervise(assembly, upper, securing); });
     wake_all(assembly);
     while (
         !survives_in_thread(assembly.control, "the supervisor", [&] { await_threads(assembly, securing); }))
       continue;
-    for (std::thread& thread : threads) thread.join();
-    for (std::uint32_t instance = started_; instance < assembly.executors.size(); ++instance) {
-      assembly.executors[instance]->leave();  // no thread could be made for it
-      assembly.executors[instance]->insist();
-    }
-    securing.collect(lane_of_system(assembly));
+    end_threads(assembly, securing);
   }
   collect_ended(assembly, upper);
   return ending(assembly, upper);
 }
 
-Ending SteadyRun::ending(const Assembly& assembly, const UpperLayers& upper) const {
-  const Time now = clock_.now();
-  Ending ending{fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(), now};
-  if (const int signal = StopSignals::pending(); signal != 0) {
-    ending.text = StopSignals::name(signal);
-    ending.signal = signal;
-  }
-  if (duration_over_) ending.text = "duration";
-  if (upper.ended()) ending.text = "net ended";
-  if (duration_over_ || upper.ended()) ending.signal = 0;
-  if (world_is_slow_) ending.world_time = world_time_.time_since_epoch();
-  return ending;
-}
-
-void SteadyRun::start_threads(Assembly& assembly, std::vector<std::thread>& threads) {
-  threads.reserve(assembly.executors.size() + 2);
-  if (assembly.links != nullptr) threads.emplace_back([&] { run_links(assembly); });
-  if (assembly.world != nullptr) threads.emplace_back([&] { run_world(assembly); });
+void SteadyRun::start_threads(Assembly& assembly) {
+  threads_.reserve(assembly.executors.size());
+  if (assembly.links != nullptr) beside_.emplace_back([this, &assembly] { run_links(assembly); });
+  if (assembly.world != nullptr) beside_.emplace_back([this, &assembly] { run_world(assembly); });
   for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) {
-    threads.emplace_back([this, &assembly, instance] {
+    threads_.emplace_back([this, &assembly, instance] {
       run_subsystem(*assembly.executors[instance], instance, assembly.control);
     });
     ++started_;
@@ -221,7 +194,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
   const Time end = assembly.options.duration ? Time(*assembly.options.duration) : Time::max();
   ProgressLine progress(assembly.options.progress, assembly.options.duration);
   RunControl& control = assembly.control;
-  RecordingLane* const lane = lane_of_system(assembly);
+  RecordingLane* const lane = assembly.system_lane();
   Watchdogs watchdogs(
       assembly.executors,
       [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
@@ -231,7 +204,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
   const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
     collect_ended(assembly, upper);
-    securing.collect(lane);
+    collect_secured(control, securing, lane);
     follow_emergency(emergencies, control, securing, lane);
     const Time now = clock_.now();
     if (upper.ended()) {
@@ -254,8 +227,8 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       assembly.signals.raise_due(now);
       // Watchdogs come first, so that their findings are reported.
       const Time watched = watchdogs.check(now);
-      const Time next =
-          std::min({end, stillness.next(), watched, assembly.signals.next(), liveness.show(now)});
+      const Time next = std::min({end, stillness.next(), watched, assembly.signals.next(),
+                                  securing.overdue_from(now), liveness.show(now)});
       await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
     }
   }
@@ -273,16 +246,24 @@ void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& 
   }
 }
 
+/// A device that does not take its safe command ends the run, if its own subsystem does not get to say so.
+void SteadyRun::collect_secured(RunControl& control, Securing& securing, RecordingLane* lane) {
+  if (const std::vector<std::string> devices = securing.refusing(); !devices.empty())
+    control.request_stop(not_safe(devices), /*fault=*/true);
+  securing.collect(lane);
+}
+
 /// Gives the safe commands. Then the process is suspended until another process continues it, and the
 /// clock of the run stops with it.
 void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
   RunControl& control = assembly.control;
-  RecordingLane* const lane = lane_of_system(assembly);
+  RecordingLane* const lane = assembly.system_lane();
   control.suspend();
   const Time since = clock_.now();
   for (std::uint32_t instance = 0; instance < started_; ++instance)
     securing.secure(instance, {SafeReason::Kind::suspended});
-  while (!securing.done() && StopSignals::pending() == 0) await_news(clock_.now() + progress_step);
+  while (!securing.done() && securing.refusing().empty() && StopSignals::pending() == 0)
+    await_news(clock_.now() + progress_step);
   securing.collect(lane);
   // A subsystem that has just seen the suspension may be in the middle of giving its own safe command.
   for (const Time until = clock_.now() + progress_step; any_owing(assembly) && clock_.now() < until;)
@@ -328,53 +309,6 @@ void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
     if (collected_[instance] || !assembly.control.has_ended(instance)) continue;
     collected_[instance] = true;
     upper.subsystem_ended(instance, clock_.now());
-  }
-}
-
-void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
-  const Time since = clock_.now();
-  Duration patience = first_patience;
-  bool secured = false;
-  const auto all_gone = [&] {
-    for (std::uint32_t instance = 0; instance < started_; ++instance)
-      if (!gone_[instance].load(std::memory_order_acquire)) return false;
-    return securing.done();
-  };
-  while (!all_gone()) {
-    await_news(since + (secured ? patience : security_delay));
-    securing.collect(lane_of_system(assembly));
-    const Duration waited = clock_.now() - since;
-    if (!secured && waited >= security_delay) {
-      secure_devices(securing);
-      secured = true;
-    }
-    if (waited < patience) continue;
-    say_waiting(assembly, securing, waited);
-    patience = 2 * waited;
-  }
-}
-
-void SteadyRun::secure_devices(Securing& securing) const {
-  for (std::uint32_t instance = 0; instance < started_; ++instance)
-    if (!gone_[instance].load(std::memory_order_acquire))
-      securing.secure(instance, {SafeReason::Kind::leaves});
-}
-
-void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const {
-  for (std::uint32_t instance = 0; instance < started_; ++instance) {
-    if (gone_[instance].load(std::memory_order_acquire)) {
-      if (securing.is_under_way(instance))
-        console::print(LogLevel::warning, clock_.now(), "tessera",
-                       fmt::format("waits for the devices of {} ({:.1f} s)",
-                                   assembly.executors[instance]->path(), seconds(since)));
-      continue;
-    }
-    const SubsystemExecutor& executor = *assembly.executors[instance];
-    const std::uint16_t behaviour = executor.gauges().behaviour.load(std::memory_order_relaxed);
-    const SubsystemNet& net = *executor.operations().parts().instance->net;
-    console::print(LogLevel::warning, clock_.now(), "tessera",
-                   fmt::format("waits for {} in {} ({:.1f} s)", executor.path(),
-                               net.behaviours[behaviour].name, seconds(since)));
   }
 }
 

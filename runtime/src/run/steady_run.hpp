@@ -9,6 +9,7 @@
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "run/give_up.hpp"
 #include "run/simulated_run.hpp"
 #include "safety/securing.hpp"
 #include "system/stop_signals.hpp"
@@ -24,13 +25,16 @@ namespace tessera {
 /// signals, and wakes all threads when the run is to end.
 class SteadyRun final : public Waker {
  public:
-  explicit SteadyRun(std::uint32_t instances);
+  /// give_up: must outlive it.
+  SteadyRun(std::uint32_t instances, const GiveUp& give_up);
   SteadyRun(const SteadyRun&) = delete;
   SteadyRun& operator=(const SteadyRun&) = delete;
   ~SteadyRun() override;
   [[nodiscard]] const SteadyClock& clock() const { return clock_; }
   void wake(std::uint32_t instance) override { wake_words_[instance].wake(); }
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
+  /// Threads that run user code go on and use all of this: the process must end (GiveUp::end_process).
+  [[nodiscard]] bool has_given_up() const { return given_up_after_.has_value(); }
 
  private:
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
@@ -40,12 +44,13 @@ class SteadyRun final : public Waker {
   void run_world(Assembly& assembly);
   void run_links(Assembly& assembly);
   void say_world_is_slow();
-  void start_threads(Assembly& assembly, std::vector<std::thread>& threads);
+  void start_threads(Assembly& assembly);
   void tell_supervisor() const;
   void deny(const std::string& what);
   void supervise(Assembly& assembly, UpperLayers& upper, Securing& securing);
   void follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
                         RecordingLane* lane) const;
+  static void collect_secured(RunControl& control, Securing& securing, RecordingLane* lane);
   void suspend(Assembly& assembly, Securing& securing);
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);
@@ -53,13 +58,18 @@ class SteadyRun final : public Waker {
   void look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
   void await_news(Time until) const;
-  /// Waits until the threads of all subsystems have ended. Reports which it waits for,
-  /// and secures their devices.
+  // The end of the run: steady_end.cpp.
+  /// Waits until the threads of all subsystems have ended, or gives up. Reports which it waits for, and secures
+  /// their devices.
   void await_threads(const Assembly& assembly, Securing& securing);
   void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
+  [[nodiscard]] bool gives_up(const Assembly& assembly, Duration waited) const;
+  [[nodiscard]] bool has_ended(std::uint32_t instance) const;
   void secure_devices(Securing& securing) const;
+  void end_threads(Assembly& assembly, Securing& securing);
   void wake_all(const Assembly& assembly);
 
+  const GiveUp& give_up_;
   SteadyClock clock_;
   std::unique_ptr<WakeWord[]> wake_words_;
   std::unique_ptr<std::atomic<bool>[]> gone_;  // per instance: its thread has ended
@@ -70,10 +80,16 @@ class SteadyRun final : public Waker {
   std::uint32_t started_ = 0;  // number of instances whose threads have been started
   bool duration_over_ = false;
   std::atomic<bool> net_ended_{false};
-  Time world_time_{};                // used by the world's thread while it runs
-  bool world_is_slow_ = false;       // used by the world's thread while it runs
-  std::atomic<bool> denied_{false};  // it has been reported that real time was not permitted
-  std::optional<Monitor> monitor_;   // the last member: it looks at the others
+  Time world_time_{};                       // used by the world's thread while it runs
+  bool world_is_slow_ = false;              // used by the world's thread while it runs
+  std::atomic<bool> denied_{false};         // it has been reported that real time was not permitted
+  std::optional<Duration> given_up_after_;  // since the stop
+  std::string given_up_;                    // "; " and what it has waited for in vain
+  std::vector<bool> left_behind_;           // as Ending::left_behind
+  std::vector<std::thread> threads_;        // per instance
+  std::vector<std::thread> beside_;         // of the world and of the links
+  std::optional<Securing> securing_;
+  std::optional<Monitor> monitor_;  // the last member: it looks at the others
 };
 
 }  // namespace tessera

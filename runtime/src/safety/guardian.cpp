@@ -106,7 +106,7 @@ void Guardian::announce_death() {
   tell();
 }
 
-bool Guardian::has_acted() const { return shared_->has_acted.load(); }
+const std::atomic<bool>& Guardian::has_acted() const { return shared_->has_acted; }
 
 bool Guardian::is_dismissed() const { return shared_->stage.load() == Stage::dismissed; }
 

@@ -54,7 +54,7 @@ class Guardian {
   /// This process is about to die.
   void announce_death();
   /// Whether the guardian has given the safe commands although this process lives.
-  [[nodiscard]] bool has_acted() const;
+  [[nodiscard]] const std::atomic<bool>& has_acted() const;
   [[nodiscard]] bool is_dismissed() const;
   [[nodiscard]] pid_t process() const { return process_; }
 

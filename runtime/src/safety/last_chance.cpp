@@ -17,6 +17,7 @@
 
 #include "system/realtime.hpp"
 #include "system/service.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera {
 namespace {
@@ -88,7 +89,11 @@ extern "C" void on_quick_exit_called() {
 /// Keeps the reason for the message of the SIGABRT that follows.
 [[noreturn]] void on_terminate() {
   const auto say = [](auto format, const auto&... values) {
-    *fmt::format_to_n(terminate_text.data(), terminate_text.size() - 1, format, values...).out = '\0';
+    std::array<char, 256> text;
+    const auto end = fmt::format_to_n(text.data(), text.size(), format, values...);
+    const std::string_view shown = printable({text.data(), std::min(end.size, text.size())},
+                                             std::span(terminate_text.data(), terminate_text.size() - 1));
+    terminate_text[shown.size()] = '\0';
   };
   if (const std::type_info* const type = abi::__cxa_current_exception_type(); type == nullptr) {
     say(FMT_STRING("std::terminate"));

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "system/waker.hpp"
 
@@ -11,7 +12,7 @@ namespace tessera {
 namespace {
 
 /// The work of one thread.
-void insist_on_safe_commands(Effectors& effectors, SafeReason why) {
+[[nodiscard]] bool insist_on_safe_commands(Effectors& effectors, SafeReason why) {
   const std::int64_t until_ns = monotonic_ns() + Effectors::patience.count();
   bool taken = effectors.make_safe(why, Effectors::Busy::leaves_out);
   while (!taken && monotonic_ns() < until_ns) {
@@ -19,6 +20,7 @@ void insist_on_safe_commands(Effectors& effectors, SafeReason why) {
     nanosleep(&pause, nullptr);
     taken = effectors.insist(why, Effectors::Busy::leaves_out);
   }
+  return taken;
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ void Securing::join(Job& job) {
 
 void* Securing::run(void* argument) {
   Job& job = *static_cast<Job*>(argument);
-  insist_on_safe_commands(*job.effectors, job.why);
+  job.taken.store(insist_on_safe_commands(*job.effectors, job.why), std::memory_order_relaxed);
   job.done.store(true, std::memory_order_release);
   job.owner->news_();
   return nullptr;
@@ -72,6 +74,7 @@ void Securing::secure(std::uint32_t instance, SafeReason why) {
   Job& job = *jobs_[instance];
   join(job);
   job.why = why;
+  job.since_ns = monotonic_ns();
   job.done.store(false, std::memory_order_relaxed);
   job.started = (priority_ > 0 && start(job, /*realtime=*/true)) || start(job, /*realtime=*/false);
   if (job.started) return;
@@ -89,6 +92,37 @@ bool Securing::done() const {
   for (std::uint32_t instance = 0; instance < jobs_.size(); ++instance)
     if (is_under_way(instance)) return false;
   return true;
+}
+
+std::vector<std::string> Securing::refusing() const {
+  std::vector<std::string> names;
+  for (const auto& job : jobs_) {
+    if (job == nullptr || !job->started) continue;
+    const bool done = job->done.load(std::memory_order_acquire);
+    if (done ? job->taken.load(std::memory_order_relaxed)
+             : monotonic_ns() - job->since_ns < Effectors::patience.count())
+      continue;
+    std::ranges::move(job->effectors->unsafe(), std::back_inserter(names));
+  }
+  return names;
+}
+
+Time Securing::overdue_from(Time now) const {
+  Time next = Time::max();
+  for (std::uint32_t instance = 0; instance < jobs_.size(); ++instance)
+    if (is_under_way(instance)) {
+      const Duration lasts(monotonic_ns() - jobs_[instance]->since_ns);
+      next = std::min(next, now + std::max(Effectors::patience - lasts, Effectors::between_attempts));
+    }
+  return next;
+}
+
+void Securing::leave_behind() {
+  for (const auto& job : jobs_)
+    if (job != nullptr && job->started && !job->done.load(std::memory_order_acquire)) {
+      pthread_detach(job->thread);
+      job->started = false;
+    }
 }
 
 void Securing::collect(RecordingLane* lane) {

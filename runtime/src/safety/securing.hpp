@@ -3,8 +3,10 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "subsystem/subsystem_executor.hpp"
@@ -33,6 +35,13 @@ class Securing {
   /// Whether no thread is at work.
   [[nodiscard]] bool done() const;
   [[nodiscard]] bool is_under_way(std::uint32_t instance) const;
+  /// The devices that have not taken the safe command for Effectors::patience, since they refuse it or their
+  /// driver does not return: "robot.motor.left". Call it before `collect`.
+  [[nodiscard]] std::vector<std::string> refusing() const;
+  /// When `refusing` may name another device; Time::max(): no thread is at work.
+  [[nodiscard]] Time overdue_from(Time now) const;
+  /// Threads that do not return are left behind: neither this object nor what they use may be destroyed.
+  void leave_behind();
 
  private:
   struct Job {
@@ -41,7 +50,8 @@ class Securing {
     const Securing* owner = nullptr;
     pthread_t thread{};
     bool started = false;  // and not joined
-    std::atomic<bool> done{false};
+    std::int64_t since_ns = 0;
+    std::atomic<bool> done{false}, taken{false};
   };
   static void* run(void* job);
   [[nodiscard]] bool start(Job& job, bool realtime) const;

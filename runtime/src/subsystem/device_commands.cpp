@@ -75,9 +75,11 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
   const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
   switch (effectors_.command(now)) {
     case Effectors::Answer::withheld:
+      // What is left: the run stops, or will stop because the guardian has acted.
       give_safe_command({control_.stopping()    ? SafeReason::Kind::leaves
                          : control_.emergency() ? SafeReason::Kind::emergency
-                                                : SafeReason::Kind::suspended});
+                         : control_.suspended() ? SafeReason::Kind::suspended
+                                                : SafeReason::Kind::leaves});
       break;
     case Effectors::Answer::refused:
       return Failure{Fault::device, "a real effector refused its command"};

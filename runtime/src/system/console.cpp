@@ -16,6 +16,7 @@
 #include "system/service.hpp"
 #include "system/stop_signals.hpp"
 #include "system/waker.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::console {
 namespace {
@@ -201,11 +202,11 @@ std::uint64_t Session::settle() { return writer().settle(); }
 
 void print(LogLevel level, Time time, std::string_view path, std::string_view text) {
   if (silent.load(std::memory_order_relaxed)) return;
-  std::array<char, longest_line> line;
+  std::array<char, longest_line> line, room;  // text of user code, too
   const char* mark = level == LogLevel::info ? "" : level == LogLevel::warning ? "warning: " : "error: ";
   const auto end =
       fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}\n", journal_level(level),
-                       erase_progress(), seconds(time.time_since_epoch()), path, mark, text);
+                       erase_progress(), seconds(time.time_since_epoch()), path, mark, printable(text, room));
   writer().put(cut(line, end.size));
 }
 

@@ -55,11 +55,23 @@ std::vector<codegen::File> files_of(const Verified& verified) {
   return codegen::generate(verified.net, specification.model, specification.file.string());
 }
 
+/// The build compiles all sources of these folders: generated ones would be there twice.
+void check_output(const fs::path& output, const fs::path& project) {
+  for (const char* const folder : {"src", "test"})
+    if (contains(project / folder, output))
+      throw std::runtime_error(
+          fmt::format("{} is in the project's folder {}/, whose sources are yours, so nothing is generated "
+                      "there: choose a "
+                      "folder elsewhere, such as --output generated",
+                      output.string(), folder));
+}
+
 }  // namespace
 
 Generated generate(const Verified& verified, const GenerateOptions& options) {
   const Specification& specification = verified.specification;
   const bool is_elsewhere = !options.output.empty();
+  if (is_elsewhere) check_output(options.output, specification.project);
   Generated result;
   result.folder = is_elsewhere ? fs::absolute(options.output).lexically_normal()
                                : state_folder(specification.project) / "generated";

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -79,6 +80,11 @@ bool is_inside(const fs::path& folder, const fs::path& relative) {
     if (fs::symlink_status(at, ignored).type() == fs::file_type::symlink) return false;
   }
   return true;
+}
+
+bool contains(const fs::path& folder, const fs::path& path) {
+  const fs::path inner = fs::weakly_canonical(fs::absolute(path)), outer = fs::weakly_canonical(folder);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 }  // namespace tessera::project

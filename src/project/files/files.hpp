@@ -27,4 +27,7 @@ void write_file(const std::filesystem::path& file, std::string_view text);
 /// one, down to folder/relative.
 [[nodiscard]] bool is_inside(const std::filesystem::path& folder, const std::filesystem::path& relative);
 
+/// Whether `path` is that folder or in it, once symbolic links are followed. Neither has to exist.
+[[nodiscard]] bool contains(const std::filesystem::path& folder, const std::filesystem::path& path);
+
 }  // namespace tessera::project

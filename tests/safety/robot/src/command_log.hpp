@@ -38,7 +38,8 @@ enum class Harm : std::uint32_t {
   stop,
   exec,
   close_all,
-  chatter
+  chatter,
+  mute  ///< goes on and sends nothing any more
 };
 /// In which code.
 enum class Place : std::uint32_t { control, motor, driver };

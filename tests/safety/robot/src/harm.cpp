@@ -50,6 +50,7 @@ void do_harm(Harm harm) {
   switch (harm) {
     case Harm::none:
     case Harm::chatter:
+    case Harm::mute:
       return;
     case Harm::abort:
       std::abort();
@@ -114,7 +115,7 @@ void suffer(command_log::Place place) {
   command_log::Log* const log = command_log::own();
   if (log == nullptr || log->place.load() != place) return;
   const Harm harm = log->harm.load();
-  if (harm == Harm::none || harm == Harm::chatter) return;
+  if (harm == Harm::none || harm == Harm::chatter || harm == Harm::mute) return;
   log->harm = Harm::none;
   log->struck_ns = command_log::now_ns();
   do_harm(harm);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "segment_field.hpp"
+#include "tessera/old_names.hpp"
 
 namespace tessera {
 namespace {
@@ -30,6 +31,26 @@ namespace {
     if (!direction || instance >= recording.instances.size()) return false;
     recording.buffers.push_back(
         {buffer.at(0).get<std::string>(), instance, *direction, buffer.at(3).get<std::string>()});
+  }
+  return true;
+}
+
+/// false: a transition has a channel or a subsystem that is not there.
+[[nodiscard]] bool read_transitions(const nlohmann::json& header, Recording& recording) {
+  if (header.contains("channels")) header.at("channels").get_to(recording.channels);
+  for (const nlohmann::json& written : header.at("transitions")) {
+    Recording::Transition& read = recording.transitions.emplace_back(
+        Recording::Transition{written.at(0).get<std::string>(), written.at(1).get<std::uint32_t>()});
+    const bool is_above = read.instance == system_instance;
+    if (!is_above && read.instance >= recording.instances.size()) return false;
+    if (written.size() < 3) {
+      read.role = role_of_old_name(read.name, is_above ? "" : recording.instances[read.instance]);
+      continue;
+    }
+    read.role.step = step_named(written.at(2).get_ref<const std::string&>());
+    if (written.size() > 3) written.at(3).get_to(read.role.behaviour);
+    if (written.size() > 4) read.role.channel = written.at(4).get<std::uint32_t>();
+    if (read.role.channel && *read.role.channel >= recording.channels.size()) return false;
   }
   return true;
 }
@@ -85,9 +106,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
     header.at("clock").get_to(recording.clock);
     header.at("seed").get_to(recording.seed);
     header.at("instances").get_to(recording.instances);
-    for (const nlohmann::json& transition : header.at("transitions"))
-      recording.transitions.push_back(
-          {transition.at(0).get<std::string>(), transition.at(1).get<std::uint32_t>()});
+    if (!read_transitions(header, recording)) return false;
     read_run(header, recording);
     if (!read_deployment(header, recording)) return false;
     if (header.contains("scene") && !read_scene(header.at("scene"), recording)) return false;

@@ -7,7 +7,7 @@
 
 #include "subsystems.hpp"
 
-static_assert(tessera::tables_version == 3, "made for another version of Tessera: generate it again");
+static_assert(tessera::tables_version == 4, "made for another version of Tessera: generate it again");
 
 namespace tessera_generated {
 namespace {
@@ -31,7 +31,7 @@ constexpr tessera::VerifiedProperty verdicts[] = {
 };
 
 constexpr tessera::System whole{
-    .tables_version = 3, .name = "line_follower",
+    .tables_version = 4, .name = "line_follower",
     .net_hash = "fd7bf71fc437ad0bc7efd8073da47335", .verification_hash = "40c369e9218984d63a6e0a0e2df06673",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .real_drivers = {}, .simulated_drivers = {}};

@@ -38,7 +38,7 @@ int generate_command(const GenerateCommandOptions& options) {
   check_replaceable(options.json, "{");
   const std::optional<Verified> verified = run_pipeline(options.spec, options.gate, terminal());
   if (!verified) return exit_code_without_net();
-  const Step step(terminal(), "generating");
+  const project::Step step(terminal(), "generating");
   const Generated generated = generate_alone(*verified, options);
   if (!options.json.empty()) {
     nlohmann::json verdicts = nlohmann::json::object();

@@ -92,7 +92,7 @@ std::string shown(const explore::Progress& progress) {
                      progress.markings_per_second / 1e6, progress.bytes >> 20U);
 }
 
-verify::Report judge(const Judged& judged, const VerifyOptions& options, Step& step) {
+verify::Report judge(const Judged& judged, const VerifyOptions& options, project::Step& step) {
   verify::ProveOptions how;
   how.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
   if (options.method != "any") how.method = options.method;
@@ -137,7 +137,7 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Ver
   return ok;
 }
 
-json count_states(const Judged& judged, const VerifyOptions& options, Step& step) {
+json count_states(const Judged& judged, const VerifyOptions& options, project::Step& step) {
   explore::Limits limits;
   limits.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
   limits.stop = &searches_stopped;
@@ -179,7 +179,7 @@ int verify_command(const VerifyOptions& options) {
   json result;
   verify::Report report;
   {
-    Step step(terminal(), "verifying");
+    project::Step step(terminal(), "verifying");
     report = judge(*judged, options, step);
     result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
     if (options.states) result["state_space"] = count_states(*judged, options, step);

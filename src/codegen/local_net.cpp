@@ -8,6 +8,7 @@
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/project.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -29,6 +30,42 @@ struct Parts {
   std::vector<std::vector<TransitionId>> transitions;
 };
 
+/// Of a transition that a subsystem executes.
+Step step_of(const net::Transition& transition) {
+  using Role = net::TransitionRole;
+  switch (transition.condition.kind) {
+    case net::Condition::Kind::go_on:
+      return Step::go_on;
+    case net::Condition::Kind::terminal:
+      return Step::terminal;
+    case net::Condition::Kind::error:
+      return Step::error;
+    case net::Condition::Kind::elapsed:
+      return Step::timeout;
+    case net::Condition::Kind::none:
+    case net::Condition::Kind::next:
+      break;
+  }
+  switch (transition.role) {
+    case Role::start:
+      return Step::start;
+    case Role::leave:
+      return Step::leave;
+    case Role::begin_sending:
+      return Step::begin_sending;
+    case Role::end_sending:
+      return Step::end_sending;
+    case Role::begin_receiving:
+      return Step::begin_receiving;
+    case Role::overwrite:
+      return Step::overwrite;
+    case Role::skip:
+      return Step::skip;
+    default:
+      return transition.block.valid() ? Step::transfer : Step::page;
+  }
+}
+
 /// Extracts the net of one instance.
 class Extraction {
  public:
@@ -42,8 +79,12 @@ class Extraction {
 
   LocalNet result() {
     find_ports();
-    for (const PlaceId id : places_)
-      local_.places.push_back({std::string(local(net_[id].name)), net_[id].behaviour, operation(id)});
+    for (const PlaceId id : places_) {
+      const std::string name(local(net_[id].name));
+      if (net_[id].is(net::Layer::subsystem, net::PlaceRole::input)) local_.in = name;
+      if (net_[id].is(net::Layer::subsystem, net::PlaceRole::output)) local_.out = name;
+      local_.places.push_back({name, net_[id].behaviour, operation(id)});
+    }
     for (const TransitionId id : transitions_) add_transition(id);
     return std::move(local_);
   }
@@ -112,6 +153,7 @@ class Extraction {
     LocalNet::Transition row{std::string(local(transition.name)), transition.behaviour};
     const bool sends = transition.block.valid() && net_.parts()[transition.block].sends;
     row.guard = guard(id, sends);
+    row.role = role(id, sends);
     for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
     for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
     latch(id, transition.condition);
@@ -145,6 +187,17 @@ class Extraction {
     return {};
   }
 
+  [[nodiscard]] std::string role(TransitionId id, bool sends) const {
+    const net::Transition& transition = net_[id];
+    const Step step = step_of(transition);
+    const net::BehaviourId behaviour =
+        step == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
+    std::string text = fmt::format("tessera::Step::{}", name_of(step));
+    if (behaviour.valid()) text += ", " + quoted(subsystem_.behaviours[behaviour.value].name);
+    if (transition.block.valid()) text += ", " + quoted(port(net_.parts()[transition.block].channel, sends));
+    return '{' + text + '}';
+  }
+
   /// The place before a conditional transition latches which way its token may go.
   void latch(TransitionId id, const net::Condition& condition) {
     using Kind = net::Condition::Kind;
@@ -176,7 +229,7 @@ std::string identity(const LocalNet& net) {
   for (const LocalNet::Port& port : net.ports) ((text += port.name) += port.sends ? '>' : '<') += '\n';
   for (const LocalNet::Place& place : net.places) (((text += place.name) += ' ') += place.does) += '\n';
   for (const LocalNet::Transition& transition : net.transitions) {
-    ((text += transition.name) += ' ') += transition.guard;
+    (((text += transition.name) += ' ') += transition.guard) += transition.role;
     for (const std::string& place : transition.inputs) (text += ' ') += place;
     text += " ->";
     for (const std::string& place : transition.outputs) (text += ' ') += place;

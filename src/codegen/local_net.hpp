@@ -28,10 +28,12 @@ struct LocalNet {
     net::BehaviourId behaviour{};
     std::vector<std::string> inputs{}, outputs{};
     std::string guard{};  ///< C++: "tessera::if_next(1)"; empty: none
+    std::string role{};   ///< C++: "{tessera::Step::go_on, \"follow\"}"
   };
   std::vector<Port> ports;
   std::vector<Place> places;
   std::vector<Transition> transitions;
+  std::string in, out;  ///< places
 };
 
 /// The nets that the instances of one unit execute. Most instances share one; those at the end of a fleet may

@@ -27,7 +27,8 @@ Row row(const LocalNet::Place& place) { return {place.behaviour, {quoted(place.n
 
 Row row(const LocalNet::Transition& transition) {
   return {transition.behaviour,
-          {quoted(transition.name), list(transition.inputs), list(transition.outputs), transition.guard}};
+          {quoted(transition.name), list(transition.inputs), list(transition.outputs),
+           transition.guard.empty() ? "{}" : transition.guard, transition.role}};
 }
 
 Row row(const LocalNet::Port& port) {
@@ -49,7 +50,7 @@ std::vector<Row> grouped(const std::vector<Element>& elements, const spec::Subsy
   return rows;
 }
 
-using Widths = std::array<std::size_t, 4>;
+using Widths = std::array<std::size_t, 5>;
 using Rows = std::span<const Row>;
 
 /// The column widths of one group of rows, so that one long name does not widen all rows.
@@ -172,8 +173,9 @@ std::string net_definitions(const NetVariants& variants) {
   for (std::size_t variant = 0; variant < variants.nets.size(); ++variant) {
     const std::string suffix = variant_suffix(variant);
     const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
-    out += fmt::format("const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}}};\n",
-                       suffix, ports);
+    out += fmt::format(
+        "const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}, {2}, {3}}};\n",
+        suffix, ports, quoted(variants.nets[variant].in), quoted(variants.nets[variant].out));
   }
   return out;
 }

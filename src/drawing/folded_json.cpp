@@ -179,7 +179,7 @@ class Folding {
     };
     const auto same_transition = [&](const net::PageTransition& x, const net::PageTransition& y) {
       return x.name == y.name && x.inputs == y.inputs && x.outputs == y.outputs &&
-             same_condition(x.condition, y.condition) && same_span(x.span, y.span);
+             same_condition(x.condition, y.condition) && x.role == y.role && same_span(x.span, y.span);
     };
     return (top || (a.name == b.name && relative(a.parent.value, one.pages.first) ==
                                             relative(b.parent.value, other.pages.first))) &&

@@ -146,8 +146,14 @@ class NetWriter : public JsonWriter {
       member("inputs", [&] { numbers(transition.inputs); });
       member("outputs", [&] { numbers(transition.outputs); });
       member("condition", [&] { condition(transition.condition); });
+      member("role", [&] { role(transition.role); });
       member("span", [&] { span(transition.span); });
     });
+  }
+
+  void role(net::TransitionRole role) {
+    const char* const name = net::name_of(role);
+    name == nullptr ? null() : value(std::string_view(name));
   }
 
   void arcs(std::span<const net::Arc> arcs) {

@@ -87,9 +87,9 @@ net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId su
   const auto where = [&](const spec::Condition& given) {
     return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
   };
-  sheet.transition(words::begin_sending, {in}, {snd});
-  sheet.transition(words::end_sending, {snd}, {step});
-  sheet.transition(words::begin_receiving, {step}, {rcv});
+  sheet.transition(words::begin_sending, {in}, {snd}).role = net::TransitionRole::begin_sending;
+  sheet.transition(words::end_sending, {snd}, {step}).role = net::TransitionRole::end_sending;
+  sheet.transition(words::begin_receiving, {step}, {rcv}).role = net::TransitionRole::begin_receiving;
   sheet.transition(words::go_on, {rcv}, {in}, std::move(go_on));
   sheet.transition(words::terminal, {rcv}, {out}, std::move(terminal)).span = where(behaviour.terminal);
   sheet.transition(words::error, {rcv}, {out}, std::move(error)).span = where(behaviour.error);

@@ -99,15 +99,15 @@ net::PlaceRole role_of(const spec::SharedPlace& place) {
     std::uint32_t tokens;
     net::PlaceRole role;
   };
-  constexpr std::array<Known, 9> known{{{words::lock, 1, net::PlaceRole::lock},
-                                        {words::empty, 1, net::PlaceRole::empty},
-                                        {words::full, 0, net::PlaceRole::full},
-                                        {words::acknowledged, 0, net::PlaceRole::acknowledged},
-                                        {words::idle, 1, net::PlaceRole::idle},
-                                        {words::sent, 0, net::PlaceRole::sent},
-                                        {words::more, 0, net::PlaceRole::more},
-                                        {words::sent_memory, 1, net::PlaceRole::sent_memory},
-                                        {words::received_memory, 1, net::PlaceRole::received_memory}}};
+  static const std::array<Known, 9> known{{{words::lock, 1, net::PlaceRole::lock},
+                                           {words::empty, 1, net::PlaceRole::empty},
+                                           {words::full, 0, net::PlaceRole::full},
+                                           {words::acknowledged, 0, net::PlaceRole::acknowledged},
+                                           {words::idle, 1, net::PlaceRole::idle},
+                                           {words::sent, 0, net::PlaceRole::sent},
+                                           {words::more, 0, net::PlaceRole::more},
+                                           {words::sent_memory, 1, net::PlaceRole::sent_memory},
+                                           {words::received_memory, 1, net::PlaceRole::received_memory}}};
   const auto found = std::ranges::find(known, place.name, &Known::name);
   return found != known.end() && found->tokens == place.tokens ? found->role : net::PlaceRole::none;
 }

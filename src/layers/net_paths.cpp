@@ -15,7 +15,7 @@ using net::PageId;
 using net::PlaceId;
 using Found = std::optional<net::Statement>;
 
-constexpr std::array<std::string_view, 4> states{words::full, words::empty, words::acknowledged, words::lock};
+const std::array<std::string_view, 4> states{words::full, words::empty, words::acknowledged, words::lock};
 
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 

@@ -95,7 +95,9 @@ net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id
       const spec::Next& next = behaviour.next[entry];
       const std::string name = std::string(words::leave) + behaviour.name + "_" + std::to_string(entry + 1);
       const std::uint32_t to = next.behaviour == spec::none ? out : behaviours[next.behaviour];
-      sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]).span = next.span;
+      net::PageTransition& drawn = sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]);
+      drawn.span = next.span;
+      drawn.role = net::TransitionRole::leave;
     }
   }
   return sheet.finish(in, out);

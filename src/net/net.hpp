@@ -96,7 +96,8 @@ enum class PlaceRole : std::uint8_t {
   more,             ///< the newest value and older ones are on the way
   sent_memory,      ///< both sides are non-blocking: the sender does not use its memory now
   received_memory,  ///< the same of the receiver
-  link              ///< it still works: see verify::abstract_net
+  link,             ///< it still works: see verify::abstract_net
+  link_back         ///< the same of the link that carries acknowledgements
 };
 
 /// Has only a channel between processes a place of this role?
@@ -107,18 +108,26 @@ enum class PlaceRole : std::uint8_t {
 /// The role of a transition in the five layers, besides its condition.
 enum class TransitionRole : std::uint8_t {
   none,
-  start,         ///< enters the page: starts its agents, its subsystems, or its first behaviour
-  end,           ///< leaves the page
-  overwrite,     ///< of a block: replaces a value that has not been read
-  skip,          ///< of a block: there is nothing to read
-  no_successor,  ///< a behaviour is left and no initial condition holds
+  start,            ///< enters the page: starts its agents, its subsystems, or its first behaviour
+  end,              ///< leaves the page
+  leave,            ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
+  begin_sending,    ///< of a behaviour, t1: the transition function has been calculated
+  end_sending,      ///< t2
+  begin_receiving,  ///< t3; its other transitions have conditions of their own kinds
+  overwrite,        ///< of a block: replaces a value that has not been read
+  skip,             ///< of a block: there is nothing to read
+  no_successor,     ///< a behaviour is left and no initial condition holds
   // Of the medium of a channel between processes; they belong to no subsystem:
   deliver,        ///< the newest value arrives
   replace,        ///< it arrives and overwrites one that has not been read
   deliver_older,  ///< an older value arrives
   lose_older,     ///< the older values never arrive
-  cut             ///< the link fails for ever: see verify::abstract_net
+  cut,            ///< the link fails for ever: see verify::abstract_net
+  cut_back        ///< the same of the link that carries acknowledgements
 };
+
+/// The name of the enumerator; nullptr: none.
+[[nodiscard]] const char* name_of(TransitionRole role);
 
 [[nodiscard]] constexpr bool is_of_medium(TransitionRole role) { return role >= TransitionRole::deliver; }
 

@@ -25,7 +25,7 @@ FiringCounts::FiringCounts(const Net& net)
 
 std::string FiringCounts::add(const Recording& recording) {
   std::vector<std::uint32_t> numbers;
-  for (const Recording::TransitionName& transition : recording.transitions) {
+  for (const Recording::Transition& transition : recording.transitions) {
     const auto found = transitions_.find(transition.name);
     if (found == transitions_.end()) return fmt::format("the net has no transition '{}'", transition.name);
     numbers.push_back(found->second);

@@ -14,7 +14,7 @@
 namespace tessera::replay {
 
 std::string JointSource::match(const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
-  for (const Recording::TransitionName& named : recording_.transitions) {
+  for (const Recording::Transition& named : recording_.transitions) {
     const auto found = transitions.find(named.name);
     if (found == transitions.end()) return fmt::format("the net has no transition '{}'", named.name);
     transitions_.push_back({found->second});

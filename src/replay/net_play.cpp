@@ -24,7 +24,7 @@ bool NetPlay::match_transitions() {
   for (std::uint32_t index = 0; index < net_.transitions().size(); ++index)
     by_name.emplace(net_.transitions()[index].name, index);
   std::uint32_t count = 0;
-  for (const Recording::TransitionName& recorded : recording_.transitions) {
+  for (const Recording::Transition& recorded : recording_.transitions) {
     const auto found = by_name.find(recorded.name);
     if (found == by_name.end()) {
       mismatch_ = fmt::format("the net has no transition '{}'", recorded.name);

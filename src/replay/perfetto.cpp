@@ -8,7 +8,7 @@
 
 #include "replay/timeline.hpp"
 #include "replay/values.hpp"
-#include "tessera/named_transition.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -88,11 +88,11 @@ class Writing {
     for (const auto& [event, text] : recording_.entries) {
       if (event.kind() != Event::Kind::firing || event.instance() >= begun.size()) continue;
       const std::string& path = recording_.instances[event.instance()];
-      const NamedTransition transition = named_transition(recording_.transitions[event.subject].name, path);
+      const TransitionRole& role = recording_.transitions[event.subject].role;
       const double at_us = static_cast<double>(event.time_ns) * 1e-3;
-      if (transition.kind == NamedTransition::Kind::begin_iteration) begun[event.instance()] = at_us;
-      if (!transition.ends_iteration()) continue;
-      const bool failed = transition.kind == NamedTransition::Kind::error;
+      if (role.step == Step::begin_sending) begun[event.instance()] = at_us;
+      if (!role.ends_iteration()) continue;
+      const bool failed = role.step == Step::error;
       slice(failed ? "iteration (error)" : "iteration", "iteration", rows_.at(path), begun[event.instance()],
             at_us);
     }

@@ -18,7 +18,7 @@ class Splitter {
     for (std::uint32_t index = 0; index < net.net().transitions().size(); ++index)
       by_name.emplace(net.net().transitions()[index].name, index);
     process_of_instance_.resize(run.instances.size(), DeployedNet::none);
-    for (const Recording::TransitionName& transition : run.transitions) {
+    for (const Recording::Transition& transition : run.transitions) {
       const auto found = by_name.find(transition.name);
       const std::uint32_t process =
           found == by_name.end() ? DeployedNet::none : net[net::TransitionId{found->second}].process;

@@ -6,10 +6,9 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string_view>
 #include <utility>
 
-#include "tessera/named_transition.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -50,15 +49,15 @@ class Counting {
  public:
   explicit Counting(std::string path) { statistics_.path = std::move(path); }
 
-  void fire(std::string_view name, std::int64_t at_ns) {
+  void fire(const Recording::Transition& transition, std::int64_t at_ns) {
     ++statistics_.firings;
-    const NamedTransition transition = named_transition(name, statistics_.path);
-    of_iteration(transition, at_ns);
-    if (transition.kind == NamedTransition::Kind::communication) {
-      if (last_) waits_[std::string(local_name(name, statistics_.path))].push_back(seconds(at_ns - *last_));
-      statistics_.timeouts += static_cast<std::uint64_t>(transition.timeout);
-      statistics_.skips += static_cast<std::uint64_t>(transition.skip);
-      statistics_.overwrites += static_cast<std::uint64_t>(transition.overwrite);
+    const TransitionRole& role = transition.role;
+    of_iteration(role, at_ns);
+    if (role.communicates()) {
+      if (last_) waits_[local(transition.name)].push_back(seconds(at_ns - *last_));
+      statistics_.timeouts += static_cast<std::uint64_t>(role.step == Step::timeout);
+      statistics_.skips += static_cast<std::uint64_t>(role.step == Step::skip);
+      statistics_.overwrites += static_cast<std::uint64_t>(role.step == Step::overwrite);
     }
     last_ = at_ns;
   }
@@ -78,19 +77,24 @@ class Counting {
   }
 
  private:
-  void of_iteration(const NamedTransition& transition, std::int64_t at_ns) {
-    if (transition.kind == NamedTransition::Kind::begin_iteration) {
+  /// As it is shown: without the path of the subsystem.
+  [[nodiscard]] std::string local(const std::string& name) const {
+    return name.starts_with(statistics_.path + '.') ? name.substr(statistics_.path.size() + 1) : name;
+  }
+
+  void of_iteration(const TransitionRole& role, std::int64_t at_ns) {
+    if (role.step == Step::begin_sending) {
       ++statistics_.iterations;
       if (called_) calls_.push_back(seconds(at_ns - *std::exchange(called_, std::nullopt)));
       if (begun_) periods_.push_back(seconds(at_ns - *begun_));
       begun_ = at_ns;
       open_ = true;
     }
-    if (open_ && transition.ends_iteration()) {
+    if (open_ && role.ends_iteration()) {
       iterations_.push_back(seconds(at_ns - *begun_));
       open_ = false;
     }
-    statistics_.errors += static_cast<std::uint64_t>(transition.kind == NamedTransition::Kind::error);
+    statistics_.errors += static_cast<std::uint64_t>(role.step == Step::error);
   }
 
   SubsystemStatistics statistics_;
@@ -111,7 +115,7 @@ std::vector<SubsystemStatistics> statistics_of(const Recording& recording) {
     if (event.kind() == Event::Kind::call) counting[event.instance()].call(event.time_ns);
     if (event.kind() == Event::Kind::fault) counting[event.instance()].fault();
     if (event.kind() != Event::Kind::firing) continue;
-    counting[event.instance()].fire(recording.transitions[event.subject].name, event.time_ns);
+    counting[event.instance()].fire(recording.transitions[event.subject], event.time_ns);
   }
   std::vector<SubsystemStatistics> all;
   all.reserve(counting.size());

@@ -29,9 +29,9 @@ struct SubsystemStatistics {
     Distribution time;    ///< since the subsystem's previous firing
   };
   std::vector<Wait> waits;       ///< those of communication transitions, the longest mean first
-  std::uint64_t timeouts = 0;    ///< firings of `timeout`
-  std::uint64_t skips = 0;       ///< firings of `skip`
-  std::uint64_t overwrites = 0;  ///< firings of `t1o`
+  std::uint64_t timeouts = 0;    ///< firings of Step::timeout
+  std::uint64_t skips = 0;       ///< firings of Step::skip
+  std::uint64_t overwrites = 0;  ///< firings of Step::overwrite
 };
 
 /// The statistics of each subsystem. Linear in the recording (quantiles: linear on average).

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tessera/named_transition.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -14,23 +14,22 @@ class LaneBuilder {
  public:
   explicit LaneBuilder(std::string path) { lane_.path = std::move(path); }
 
-  void fire(std::string_view name, double at_s) {
-    const NamedTransition transition = named_transition(name, lane_.path);
-    switch (transition.kind) {
-      case NamedTransition::Kind::start:
+  void fire(const TransitionRole& role, double at_s) {
+    switch (role.step) {
+      case Step::start:
         begin(at_s);
         break;
-      case NamedTransition::Kind::leave:
-        running_ = behaviour(transition.behaviour);
+      case Step::leave:
+        running_ = behaviour(role.behaviour);
         end(at_s);
         begin(at_s);
         break;
-      case NamedTransition::Kind::begin_iteration:
-        running_ = behaviour(transition.behaviour);
+      case Step::begin_sending:
+        running_ = behaviour(role.behaviour);
         if (!since_s_) since_s_ = at_s;
         ++lane_.iterations;
         break;
-      case NamedTransition::Kind::error:
+      case Step::error:
         lane_.errors_s.push_back(at_s);
         break;
       default:
@@ -76,7 +75,7 @@ Timeline timeline_of(const Recording& recording) {
     if (event.kind() != Event::Kind::firing || event.subject >= recording.transitions.size()) continue;
     const auto& transition = recording.transitions[event.subject];
     if (transition.instance >= builders.size()) continue;
-    builders[transition.instance].fire(transition.name, at_s);
+    builders[transition.instance].fire(transition.role, at_s);
   }
   for (LaneBuilder& builder : builders) timeline.lanes.push_back(builder.finish(timeline.end_s));
   return timeline;

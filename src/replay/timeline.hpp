@@ -25,8 +25,8 @@ struct Timeline {
   std::vector<Lane> lanes;
 };
 
-/// Reads the firings: `t_in` enters a subsystem's first behaviour, `t_<behaviour>_<k>` leaves that behaviour,
-/// `<behaviour>.t1` is an iteration of it and `<behaviour>.t6` an error.
+/// Reads the firings by their roles: `start` enters a subsystem's first behaviour, `leave` leaves a behaviour,
+/// `begin_sending` (t1) is an iteration of it and `error` (t6) an error.
 [[nodiscard]] Timeline timeline_of(const Recording& recording);
 
 /// At most `columns` stretches: each column of time shows the behaviour that ran longest in it.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "tessera/old_names.hpp"
 #include "tessera/recording.hpp"
 
 /// Builds recordings event by event.
@@ -12,12 +13,15 @@ class Constructed {
 
   explicit Constructed(std::vector<std::string> subsystems) { recording.instances = std::move(subsystems); }
 
-  /// `transition` is local to the subsystem: "follow.t1".
+  /// `transition` is local to the subsystem: "follow.t1". Its role is what this name says.
   Constructed& fire(double at_s, std::uint32_t subsystem, const std::string& transition) {
     const std::string name = recording.instances.at(subsystem) + "." + transition;
     std::uint32_t subject = 0;
     while (subject < recording.transitions.size() && recording.transitions[subject].name != name) ++subject;
-    if (subject == recording.transitions.size()) recording.transitions.push_back({name, subsystem});
+    if (subject == recording.transitions.size()) {
+      const std::string& path = recording.instances.at(subsystem);
+      recording.transitions.push_back({name, subsystem, tessera::role_of_old_name(name, path)});
+    }
     return add(at_s, subsystem, tessera::Event::Kind::firing, subject, 0, {});
   }
   Constructed& call(double at_s, std::uint32_t subsystem) {

@@ -207,7 +207,7 @@ TEST(Schedules, FiringsAreCountedAsARecordingHasThem) {
     std::string error;
     const std::optional<Recording> recording = read_recording(options.recording, error);
     ASSERT_TRUE(recording) << error;
-    for (const Recording::TransitionName& transition : recording->transitions) recorded[transition.name];
+    for (const Recording::Transition& transition : recording->transitions) recorded[transition.name];
     for (const Recording::Entry& entry : recording->entries)
       if (entry.event.kind() == Event::Kind::firing)
         ++recorded[recording->transitions[entry.event.subject].name];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tessera/time.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera {
 
@@ -53,11 +54,16 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 /// The file that a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
 ///
 ///     {"system", "net_hash", "verification_hash", "verdicts", "seed", "clock", "instances": [path...],
-///      "transitions": [[name, instance]...], "parameters": [[path, value]...],
+///      "channels": [name...], "transitions": [[name, instance, step, behaviour, channel]...],
+///      "parameters": [[path, value]...],
 ///      "behaviours": [[name...]...] per instance,
 ///      "values": {"limit": bytes, "buffers": [[path, instance, direction, type]...]}, those of memory last,
 ///      "process": {"name", "number", "incarnation": decimal}, "processes": [name...], "networked": [channel...],
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
+///
+/// Of a transition, "step" is a name of a Step, "behaviour" a name and "channel" an index into "channels"; what
+/// it does not have is left out at the end, or "". Versions before roles wrote [name, instance] and no
+/// "channels" (tessera/old_names.hpp); they read what is written today.
 ///
 /// ("process": of a run of one process of a deployed system, whose recording has the firings of its own agents
 /// and none of the system's; "processes" and "networked", the channels between processes: of every run of a
@@ -142,9 +148,10 @@ struct ValueEvent {
 
 /// A recording that was read.
 struct Recording {
-  struct TransitionName {
+  struct Transition {
     std::string name;        ///< full path
     std::uint32_t instance;  ///< or system_instance
+    TransitionRole role{};
   };
   struct Entry {
     Event event;
@@ -162,7 +169,8 @@ struct Recording {
   std::string system, net_hash, verification_hash, clock;
   std::uint64_t seed = 0;
   std::vector<std::string> instances;
-  std::vector<TransitionName> transitions;
+  std::vector<std::string> channels;  ///< empty: recorded without roles
+  std::vector<Transition> transitions;
   std::vector<std::vector<std::string>> behaviours;             ///< per instance
   std::vector<std::pair<std::string, std::string>> parameters;  ///< given to the run
   std::vector<std::string> injected;                            ///< planted faults, as `--inject`

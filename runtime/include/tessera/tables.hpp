@@ -10,6 +10,7 @@
 #include "tessera/net_words.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
+#include "tessera/transition_role.hpp"
 
 /// The net of a generated controller: constant tables, read once at start. Generated code includes this
 /// file and states which version of it was used.
@@ -54,12 +55,20 @@ struct Place {
   Does does{};
 };
 
+/// What a transition is for, as recordings tell it.
+struct TableRole {
+  Step step = Step::other;
+  std::string_view behaviour{};  ///< that it belongs to, or leaves
+  std::string_view port{};       ///< of a block
+};
+
 /// inputs and outputs name places of the subsystem ("in"), or fused places of a channel as
 /// "port/place" ("motion/full").
 struct Transition {
   std::string_view name;
   std::initializer_list<std::string_view> inputs, outputs;
   Guard guard{};
+  TableRole role{};
 };
 
 enum class Side : std::uint8_t { send, receive };
@@ -76,12 +85,13 @@ struct Behaviour {
   Duration takes{0};  ///< simulated time of its transition function
 };
 
-/// The part of the net that one subsystem executes. The token enters at place "in" and leaves at "out".
+/// The part of the net that one subsystem executes.
 struct SubsystemNet {
   std::span<const Behaviour> behaviours;
   std::span<const Port> ports;
   std::span<const Place> places;
   std::span<const Transition> transitions;
+  std::string_view in = "in", out = "out";  ///< the places where its token enters and leaves
 };
 
 enum class Kind : std::uint8_t { control, receptor, effector };
@@ -121,19 +131,43 @@ struct Instance {
   Policies policies{};
 };
 
+/// A place of the memory of a channel.
 struct FusedPlace {
+  /// As net::PlaceRole. none: only its name is known.
+  enum class Role : std::uint8_t {
+    none,
+    lock,
+    empty,
+    full,
+    acknowledged,
+    idle,
+    sent,
+    more,
+    sent_memory,
+    received_memory
+  };
   std::string_view name;
   std::uint32_t tokens;
+  Role role = Role::none;
 };
-inline constexpr FusedPlace asynchronous[] = {{words::lock, 1}};
-inline constexpr FusedPlace buffered[] = {{words::empty, 1}, {words::full, 0}};
-inline constexpr FusedPlace acknowledged[] = {{words::empty, 1}, {words::full, 0}, {words::acknowledged, 0}};
+namespace shared_places {
+using Role = FusedPlace::Role;
+inline const FusedPlace lock{words::lock, 1, Role::lock}, empty{words::empty, 1, Role::empty},
+    full{words::full, 0, Role::full}, acknowledged{words::acknowledged, 0, Role::acknowledged},
+    idle{words::idle, 1, Role::idle}, sent{words::sent, 0, Role::sent}, more{words::more, 0, Role::more},
+    sent_memory{words::sent_memory, 1, Role::sent_memory},
+    received_memory{words::received_memory, 1, Role::received_memory};
+}  // namespace shared_places
+inline const FusedPlace asynchronous[] = {shared_places::lock};
+inline const FusedPlace buffered[] = {shared_places::empty, shared_places::full};
+inline const FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
+                                          shared_places::acknowledged};
 // Of channels between processes (docs/fleets.md). The last is that of a sender that waits without a timeout.
-inline constexpr FusedPlace networked_exchange[] = {{words::sent_memory, 1}, {words::received_memory, 1}};
-inline constexpr FusedPlace networked[] = {
-    {words::idle, 1}, {words::sent, 0}, {words::more, 0}, {words::empty, 1}, {words::full, 0}};
-inline constexpr FusedPlace networked_single[] = {
-    {words::idle, 1}, {words::sent, 0}, {words::empty, 1}, {words::full, 0}};
+inline const FusedPlace networked_exchange[] = {shared_places::sent_memory, shared_places::received_memory};
+inline const FusedPlace networked[] = {shared_places::idle, shared_places::sent, shared_places::more,
+                                       shared_places::empty, shared_places::full};
+inline const FusedPlace networked_single[] = {shared_places::idle, shared_places::sent, shared_places::empty,
+                                              shared_places::full};
 
 struct End {
   std::uint32_t instance;  ///< into System::instances

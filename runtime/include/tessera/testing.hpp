@@ -136,18 +136,20 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     return next;
   }
 
-  /// By the net: the behaviour whose place `in` the transition of that entry of `next` marks.
+  /// By the net: the behaviour whose transition function the transition of that entry of `next` starts.
   [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
-    const std::string ended = std::string(behaviour) + ".out";
     for (const Transition& transition : Unit::net().transitions) {
-      if (transition.inputs.size() == 0 || *transition.inputs.begin() != ended) continue;
+      if (transition.role.step != Step::leave || transition.role.behaviour != behaviour) continue;
       const bool taken =
           transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
-      if (!taken) continue;
-      const std::string_view place = *transition.outputs.begin();
-      return std::string(place == words::output ? "end" : place.substr(0, place.rfind('.')));
+      if (taken) return started_in(*transition.outputs.begin());
     }
     return {};
+  }
+  [[nodiscard]] static std::string started_in(std::string_view place) {
+    for (const Place& one : Unit::net().places)
+      if (one.name == place && one.does.kind == Does::Kind::call) return std::string(one.does.subject);
+    return "end";
   }
 };
 

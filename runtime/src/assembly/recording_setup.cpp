@@ -20,6 +20,19 @@ namespace {
 
 using nlohmann::ordered_json;
 
+void describe_transitions(const System& system, const FlatNet& net, ordered_json& header) {
+  header["channels"] = ordered_json::array();
+  for (const Channel& channel : system.channels) header["channels"].push_back(channel.name);
+  header["transitions"] = ordered_json::array();
+  for (const FlatNet::FlatTransition& transition : net.transitions) {
+    const TransitionRole& role = transition.role;
+    ordered_json& written = header["transitions"].emplace_back(
+        ordered_json::array({transition.name, transition.instance, name_of(role.step)}));
+    if (!role.behaviour.empty() || role.channel) written.push_back(role.behaviour);
+    if (role.channel) written.push_back(*role.channel);
+  }
+}
+
 void describe_deployment(const ProcessPart& part, network::Incarnation incarnation, ordered_json& header) {
   const System& whole = *part.whole;
   if (whole.processes.empty()) return;
@@ -102,9 +115,7 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   header["instances"] = ordered_json::array();
   for (const Instance& instance : system.instances)
     header["instances"].push_back(fmt::format("{}.{}", instance.agent, instance.name));
-  header["transitions"] = ordered_json::array();
-  for (const FlatNet::FlatTransition& transition : net.transitions)
-    header["transitions"].push_back(ordered_json::array({transition.name, transition.instance}));
+  describe_transitions(system, net, header);
   if (options.values != RunOptions::Values::none) describe_values(options, part, all, header);
   describe_deployment(part, incarnation, header);
   if (scene != nullptr) describe_scene(*scene, header);

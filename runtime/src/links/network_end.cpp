@@ -5,23 +5,25 @@
 #include <algorithm>
 #include <array>
 
-#include "tessera/net_words.hpp"
-
 namespace tessera {
 namespace {
 
-[[nodiscard]] std::uint16_t bit_of(std::span<const FusedPlace> places, std::string_view name) {
+using PlaceRole = FusedPlace::Role;
+
+[[nodiscard]] std::uint16_t bit_of(std::span<const FusedPlace> places, PlaceRole role) {
   for (std::size_t place = 0; place < places.size(); ++place)
-    if (places[place].name == name) return static_cast<std::uint16_t>(1U << place);
+    if (places[place].role == role) return static_cast<std::uint16_t>(1U << place);
   return 0;
 }
 
-/// A blocking sender's block has a place in which it waits.
-[[nodiscard]] bool blocks(const System& whole, const End& end) {
-  if (end.port.empty()) return false;
-  for (const Transition& transition : whole.instances[end.instance].net->transitions)
+/// A blocking sender waits until the receiver's slot is empty.
+[[nodiscard]] bool blocks(const System& whole, const Channel& channel) {
+  const auto empty = std::ranges::find(channel.places, PlaceRole::empty, &FusedPlace::role);
+  if (channel.from.port.empty() || empty == channel.places.end()) return false;
+  const std::string awaited = fmt::format("{}/{}", channel.from.port, empty->name);
+  for (const Transition& transition : whole.instances[channel.from.instance].net->transitions)
     for (const std::string_view place : transition.inputs)
-      if (place.starts_with(end.port) && place.substr(end.port.size()) == "/empty") return true;
+      if (place == awaited) return true;
   return false;
 }
 
@@ -35,21 +37,21 @@ namespace {
 
 LinkedChannel linked_channel(const System& whole, std::uint32_t number, bool is_sender) {
   const Channel& channel = whole.channels[number];
-  const auto bit = [&](std::string_view name) { return bit_of(channel.places, name); };
+  const auto bit = [&](PlaceRole role) { return bit_of(channel.places, role); };
   LinkedChannel made;
   made.number = number;
   made.name = channel.name;
   made.sender = whole.process_of[channel.from.instance];
   made.receiver = whole.process_of[channel.to.instance];
   made.same_host = on_one_host(whole, channel);
-  made.idle = bit(words::idle);
-  made.sent = bit(words::sent);
-  made.more = bit(words::more);
-  made.empty = bit(words::empty);
-  made.full = bit(words::full);
+  made.idle = bit(PlaceRole::idle);
+  made.sent = bit(PlaceRole::sent);
+  made.more = bit(PlaceRole::more);
+  made.empty = bit(PlaceRole::empty);
+  made.full = bit(PlaceRole::full);
   made.exchanged = made.idle == 0;
-  made.sender_blocks = !made.exchanged && blocks(whole, channel.from);
-  made.own_memory = bit(is_sender ? words::sent_memory : words::received_memory);
+  made.sender_blocks = !made.exchanged && blocks(whole, channel);
+  made.own_memory = bit(is_sender ? PlaceRole::sent_memory : PlaceRole::received_memory);
   return made;
 }
 

@@ -51,37 +51,41 @@ class Rebuilding {
  private:
   /// What carries the values of a channel between processes (src/layers/networked.cpp).
   void add_media() {
-    struct Step {
+    struct Delivery {
       std::string_view name;
-      std::array<std::string_view, 2> takes, gives;
+      Step step;
+      std::array<FusedPlace::Role, 2> takes, gives;
     };
-    constexpr Step deliver{words::deliver, {words::sent, words::empty}, {words::idle, words::full}};
-    constexpr std::array beyond_one{
-        Step{words::replace, {words::sent, words::full}, {words::idle, words::full}},
-        Step{words::deliver_older, {words::more, words::empty}, {words::more, words::full}},
-        Step{words::lose_older, {words::more, {}}, {words::sent, {}}}};
+    using enum FusedPlace::Role;
+    const Delivery deliver{words::deliver, Step::deliver, {sent, empty}, {idle, full}};
+    const std::array beyond_one{
+        Delivery{words::replace, Step::replace, {sent, full}, {idle, full}},
+        Delivery{words::deliver_older, Step::deliver_older, {more, empty}, {more, full}},
+        Delivery{words::lose_older, Step::lose_older, {more, none}, {sent, none}}};
     for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel) {
       const Channel& its = system_.channels[channel];
       if (!system_.is_networked(its) || (its.from.port.empty() && its.to.port.empty())) continue;
-      if (!fused(channel, words::idle)) continue;  // both sides are non-blocking: nothing joins them
-      const auto add = [&](const Step& step) {
-        FlatNet::FlatTransition flat{fmt::format("{}.{}", its.name, step.name), system_instance, {}, {}, ""};
-        for (const std::string_view place : step.takes)
+      if (!fused(channel, idle)) continue;  // both sides are non-blocking: nothing joins them
+      const auto add = [&](const Delivery& step) {
+        FlatNet::FlatTransition flat{fmt::format("{}.{}", its.name, step.name), system_instance, {}, {}, "",
+                                     {.step = step.step, .channel = channel}};
+        for (const FusedPlace::Role place : step.takes)
           if (const auto found = fused(channel, place)) flat.inputs.push_back(*found);
-        for (const std::string_view place : step.gives)
+        for (const FusedPlace::Role place : step.gives)
           if (const auto found = fused(channel, place)) flat.outputs.push_back(*found);
         net_.transitions.push_back(std::move(flat));
       };
       add(deliver);
-      if (fused(channel, words::more))
-        for (const Step& step : beyond_one) add(step);
+      if (fused(channel, more))
+        for (const Delivery& step : beyond_one) add(step);
     }
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> fused(std::uint32_t channel, std::string_view name) const {
+  [[nodiscard]] std::optional<std::uint32_t> fused(std::uint32_t channel, FusedPlace::Role role) const {
+    if (role == FusedPlace::Role::none) return std::nullopt;
     const std::span<const FusedPlace> places = system_.channels[channel].places;
     for (std::uint32_t place = 0; place < places.size(); ++place)
-      if (places[place].name == name) return fused_[channel] + place;
+      if (places[place].role == role) return fused_[channel] + place;
     return std::nullopt;
   }
 
@@ -90,20 +94,26 @@ class Rebuilding {
     return static_cast<std::uint32_t>(net_.places.size() - 1);
   }
 
+  [[nodiscard]] static FlatNet::FlatTransition above(std::string name, Step step,
+                                                     std::vector<std::uint32_t> inputs,
+                                                     std::vector<std::uint32_t> outputs) {
+    return {std::move(name), system_instance, std::move(inputs), std::move(outputs), "", {.step = step}};
+  }
+
   /// Layers 1 and 2: an input (one token in that of the system) and an output, a start and an end.
   void add_upper_places() {
     net_.transitions.push_back(
-        {std::string(words::start), system_instance, {add_place(std::string(words::input), 1)}, {}, ""});
+        above(std::string(words::start), Step::start_system, {add_place(std::string(words::input), 1)}, {}));
     net_.transitions.push_back(
-        {std::string(words::end), system_instance, {}, {add_place(std::string(words::output))}, ""});
+        above(std::string(words::end), Step::end_system, {}, {add_place(std::string(words::output))}));
     for (const AgentSpan& agent : agents_) {
       const std::string prefix = std::string(agent.name) + '.';
       const std::uint32_t in = add_place(prefix + std::string(words::input));
       const std::uint32_t out = add_place(prefix + std::string(words::output));
       net_.transitions[0].outputs.push_back(in);
       net_.transitions[1].inputs.push_back(out);
-      net_.transitions.push_back({prefix + std::string(words::start), system_instance, {in}, {}, ""});
-      net_.transitions.push_back({prefix + std::string(words::end), system_instance, {}, {out}, ""});
+      net_.transitions.push_back(above(prefix + std::string(words::start), Step::start_agent, {in}, {}));
+      net_.transitions.push_back(above(prefix + std::string(words::end), Step::end_agent, {}, {out}));
     }
   }
 
@@ -122,17 +132,25 @@ class Rebuilding {
     std::unordered_map<std::string_view, std::uint32_t> places;
     for (const Place& place : instance.net->places)
       places.emplace(place.name, add_place(prefix + std::string(place.name)));
-    in_.push_back(places.contains(words::input) ? places.at(words::input) : 0);
-    out_.push_back(places.contains(words::output) ? places.at(words::output) : 0);
+    in_.push_back(places.contains(instance.net->in) ? places.at(instance.net->in) : 0);
+    out_.push_back(places.contains(instance.net->out) ? places.at(instance.net->out) : 0);
 
     net_.first_of_instance.push_back(static_cast<std::uint32_t>(net_.transitions.size()));
     for (const Transition& transition : instance.net->transitions) {
       FlatNet::FlatTransition flat{
-          prefix + std::string(transition.name), index, {}, {}, guard_text(transition.guard)};
+          prefix + std::string(transition.name), index, {}, {}, guard_text(transition.guard),
+          role_of(index, transition.role)};
       for (std::string_view name : transition.inputs) add_end(index, places, name, flat.inputs);
       for (std::string_view name : transition.outputs) add_end(index, places, name, flat.outputs);
       net_.transitions.push_back(std::move(flat));
     }
+  }
+
+  [[nodiscard]] TransitionRole role_of(std::uint32_t instance, const TableRole& role) const {
+    TransitionRole made{.step = role.step, .behaviour = std::string(role.behaviour)};
+    if (const auto port = ports_[instance].find(role.port); port != ports_[instance].end())
+      made.channel = port->second;
+    return made;
   }
 
   void add_end(std::uint32_t instance, const std::unordered_map<std::string_view, std::uint32_t>& places,

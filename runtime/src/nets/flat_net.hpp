@@ -21,6 +21,7 @@ struct FlatNet {
     std::uint32_t instance;                      ///< system_instance: of the upper layers, or of the network
     std::vector<std::uint32_t> inputs, outputs;  ///< into places
     std::string guard;
+    TransitionRole role{};  ///< its channel: into System::channels
   };
   std::vector<FlatPlace> places;
   /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table; then

@@ -7,7 +7,6 @@
 
 #include "nets/shared_channel.hpp"
 #include "tessera/channel_limits.hpp"
-#include "tessera/net_words.hpp"
 
 namespace tessera {
 namespace {
@@ -43,8 +42,8 @@ class Compilation {
     check_ports();
     for (const Place& place : net_.places) add(place);
     for (const Transition& transition : net_.transitions) add(transition);
-    plan_.in = resolve(places_, words::input, "place");
-    plan_.out = resolve(places_, words::output, "place");
+    plan_.in = resolve(places_, net_.in, "place");
+    plan_.out = resolve(places_, net_.out, "place");
     if (!error_.empty()) return std::nullopt;
     index_leaving();
     return std::move(plan_);

@@ -7,24 +7,15 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "tessera/net_words.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera {
 namespace {
 
-/// "robot.control.follow.out none"
-[[nodiscard]] bool says_that_none_holds(std::string_view name) {
-  if (!name.ends_with(words::no_successor)) return false;
-  name.remove_suffix(words::no_successor.size());
-  return name.ends_with(words::output);
-}
-
-/// The instance to which "robot.control.follow.out none" belongs; nullopt: it belongs to none.
-[[nodiscard]] std::optional<std::uint32_t> owner_of(const System& system, std::string_view name) {
+[[nodiscard]] std::optional<std::uint32_t> instance_at(const System& system, std::string_view path) {
   for (std::uint32_t index = 0; index < system.instances.size(); ++index) {
     const Instance& instance = system.instances[index];
-    if (name.starts_with(fmt::format("{}.{}.", instance.agent, instance.name))) return index;
+    if (path == fmt::format("{}.{}", instance.agent, instance.name)) return index;
   }
   return std::nullopt;
 }
@@ -43,19 +34,25 @@ class Reading {
     if (hash != system_.net_hash)
       return fmt::format("is a scenario of another net ({}, this controller's is {}): verify again", hash,
                          system_.net_hash);
-    for (const nlohmann::json& firing : json.at("firings"))
-      if (!add(firing.get<std::string>(), scenario))
-        return fmt::format("names '{}', which is no transition of this net", firing.get<std::string>());
+    for (const nlohmann::json& firing : json.at("firings")) {
+      const auto name = (firing.is_object() ? firing.at("name") : firing).get<std::string>();
+      const bool known = firing.is_object()
+                             ? add_outcome(name, firing.at("none_holds").get<std::string>(), scenario)
+                             : add(name, scenario);
+      if (!known) return fmt::format("names '{}', which is no transition of this net", name);
+    }
     return "";
   }
 
  private:
+  /// No condition of `next` holds in the subsystem with that path.
+  [[nodiscard]] bool add_outcome(const std::string& name, std::string_view path, Scenario& scenario) const {
+    const std::optional<std::uint32_t> owner = instance_at(system_, path);
+    if (owner) scenario.steps.push_back({*owner, Scenario::none_holds, name});
+    return owner.has_value();
+  }
+
   [[nodiscard]] bool add(const std::string& name, Scenario& scenario) const {
-    if (says_that_none_holds(name)) {
-      const std::optional<std::uint32_t> owner = owner_of(system_, name);
-      if (owner) scenario.steps.push_back({*owner, Scenario::none_holds, name});
-      return owner.has_value();
-    }
     const auto found = known_.find(name);
     if (found == known_.end()) return false;
     const std::uint32_t instance = net_.transitions[found->second].instance;

@@ -147,7 +147,14 @@ json scenario_json(const net::Net& net, const verify::Report& report,
                    const verify::PropertyResult& property) {
   const net::Net its_net = net_of_run(net, property);
   json firings = json::array();
-  for (const net::TransitionId id : property.trace) firings.push_back(its_net[id].name);
+  for (const net::TransitionId id : property.trace) {
+    const net::Transition& transition = its_net[id];
+    if (transition.role == net::TransitionRole::no_successor)
+      firings.push_back(
+          {{"name", transition.name}, {"none_holds", its_net.parts()[transition.subsystem].path}});
+    else
+      firings.push_back(transition.name);
+  }
   return {{"scenario", 1},       {"net_hash", report.net_hash}, {"property", property.name},
           {"why", property.why}, {"firings", firings},          {"waits", waits_json(property)}};
 }

@@ -41,8 +41,9 @@ namespace tessera::project {
 [[nodiscard]] nlohmann::json report_json(const net::Net& net, const net::HierarchicalNet* pages,
                                          const verify::Report& report);
 
-/// {"scenario": 1, "net_hash", "property", "why", "firings": [name...], "waits": [...]}: a run that a
-/// controller of that net can follow.
+/// {"scenario": 1, "net_hash", "property", "why", "firings": [firing...], "waits": [...]}: a run that a
+/// controller of that net can follow. A firing is the name of a transition, or {"name", "none_holds":
+/// subsystem}: no condition of `next` holds there.
 [[nodiscard]] nlohmann::json scenario_json(const net::Net& net, const verify::Report& report,
                                            const verify::PropertyResult& property);
 

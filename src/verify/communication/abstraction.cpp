@@ -82,7 +82,7 @@ class Links {
           .tokens = 1,
           .layer = net::Layer::communication,
           .channel = net.channel_of(id)};
-      place.role = net::PlaceRole::link;
+      place.role = delivers ? net::PlaceRole::link : net::PlaceRole::link_back;
       link->second = to_.add(std::move(place));
     }
     return link->second;
@@ -93,7 +93,7 @@ class Links {
     for (const auto& [of, link] : links_) {
       net::Transition cut;
       cut.name = to_.parts()[of.first] + std::string(of.second ? words::cut_back : words::cut);
-      cut.role = net::TransitionRole::cut;
+      cut.role = of.second ? net::TransitionRole::cut_back : net::TransitionRole::cut;
       to_.add(std::move(cut), std::vector<Arc>{{link, 1}}, {});
     }
   }

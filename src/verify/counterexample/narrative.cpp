@@ -4,8 +4,6 @@
 #include <span>
 #include <string_view>
 
-#include "tessera/net_words.hpp"
-
 namespace tessera::verify {
 namespace {
 
@@ -234,9 +232,11 @@ std::string medium_text(const net::Net& net, std::span<const TransitionId> run) 
       case Role::lose_older:
         one = "loses the older values of " + channel + " on the way";
         break;
+      case Role::cut_back:
+        one = "is cut for acknowledgements of " + channel;
+        break;
       default:
-        one = net[id].name.ends_with(words::cut_back) ? "is cut for acknowledgements of " + channel
-                                                      : "is cut for " + channel;
+        one = "is cut for " + channel;
         break;
     }
     text += (text.empty() ? "" : ", ") + one;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "net/token_game.hpp"
-#include "tessera/net_words.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -35,8 +34,9 @@ std::string Waits::cut_at(const net::Place& place) const {
   const bool back = good_of(place) == Good::acknowledgement;
   for (std::uint32_t link = 0; link < tokens_.size(); ++link) {
     const net::Place& one = net_.places()[link];
-    if (one.role != net::PlaceRole::link || one.channel != place.channel || tokens_[link] > 0) continue;
-    if (back || !one.name.ends_with(words::link_back)) return ", and the network is cut";
+    if (one.channel != place.channel || tokens_[link] > 0) continue;
+    if (one.role == net::PlaceRole::link || (back && one.role == net::PlaceRole::link_back))
+      return ", and the network is cut";
   }
   return {};
 }

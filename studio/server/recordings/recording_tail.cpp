@@ -30,8 +30,7 @@ Id NetNames::find(const Ids<Id>& ids, std::string_view name) {
 
 std::vector<net::TransitionId> NetNames::transitions_of(const Recording& recording) const {
   std::vector<net::TransitionId> ids;
-  for (const Recording::TransitionName& one : recording.transitions)
-    ids.push_back(find(transitions_, one.name));
+  for (const Recording::Transition& one : recording.transitions) ids.push_back(find(transitions_, one.name));
   return ids;
 }
 

@@ -39,7 +39,7 @@ function placeHelp(page: Page, node: PageNode, index: number): string {
   return "a place; a token here says that this is so now.";
 }
 
-function transitionHelp(page: Page, { name, condition }: PageTransition): string {
+function transitionHelp(page: Page, { role, condition }: PageTransition): string {
   const text = condition?.text ?? "";
   if (condition?.truth === "never") return "can never fire: its condition is always false.";
   switch (condition?.kind) {
@@ -54,7 +54,7 @@ function transitionHelp(page: Page, { name, condition }: PageTransition): string
     case "next":
       return text ? `leads to the next behaviour if ${text}.` : "leads to the next behaviour.";
   }
-  if (name === "t_in") return `starts all that is in ${pageName(page)} at the same time.`;
-  if (name === "t_out") return `fires when all that is in ${pageName(page)} has ended.`;
+  if (role === "start") return `starts all that is in ${pageName(page)} at the same time.`;
+  if (role === "end") return `fires when all that is in ${pageName(page)} has ended.`;
   return "fires when each place before it holds a token; takes those tokens and puts one into each place after it.";
 }

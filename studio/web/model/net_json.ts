@@ -54,6 +54,21 @@ export interface PageTransition {
   inputs: number[];
   outputs: number[];
   condition: Condition | null;
+  /** What it is for, besides its condition; null: nothing more. */
+  role:
+    | "start"
+    | "end"
+    | "leave"
+    | "begin_sending"
+    | "end_sending"
+    | "begin_receiving"
+    | "overwrite"
+    | "skip"
+    | "deliver"
+    | "replace"
+    | "deliver_older"
+    | "lose_older"
+    | null;
   span: Span;
 }
 /** What a transition waits for. */

@@ -70,39 +70,39 @@ constexpr tessera::Place places[] = {
     {"follow.out"}, {"follow.snd.in"}, {"follow.snd.out"}, {"follow.rcv.in"},
 };
 const tessera::Transition transitions[] = {
-    {"t_in",       {"in"},         {"init.in"}},
-    {"t_init_1",   {"init.out"},   {"follow.in"}},
-    {"t_follow_1", {"follow.out"}, {"out"}},
+    {"t_in",       {"in"},         {"init.in"},   {}, {tessera::Step::start}},
+    {"t_init_1",   {"init.out"},   {"follow.in"}, {}, {tessera::Step::leave, "init"}},
+    {"t_follow_1", {"follow.out"}, {"out"},       {}, {tessera::Step::leave, "follow"}},
     // init, spec.yaml:18
-    {"init.t1",             {"init.in"},                     {"init.snd.in"}},
-    {"init.t2",             {"init.snd.out"},                {"init.2"}},
-    {"init.t3",             {"init.2"},                      {"init.rcv.in"}},
-    {"init.t4",             {"init.rcv.out"},                {"init.in"},                      tessera::if_go_on},
-    {"init.t5",             {"init.rcv.out"},                {"init.out"},                     tessera::if_terminal},
-    {"init.t6",             {"init.rcv.out"},                {"init.out"},                     tessera::if_error},
-    {"init.snd.motion.t1",  {"init.snd.in", "motion/empty"}, {"init.snd.motion.2"}},
-    {"init.snd.motion.t1o", {"init.snd.in", "motion/full"},  {"init.snd.motion.2"}},
-    {"init.snd.motion.t2",  {"init.snd.motion.2"},           {"init.snd.out", "motion/full"}},
-    {"init.rcv.line.t1",    {"init.rcv.in", "line/channel"}, {"init.rcv.line.2"}},
-    {"init.rcv.line.t2",    {"init.rcv.line.2"},             {"init.rcv.out", "line/channel"}},
+    {"init.t1",             {"init.in"},                     {"init.snd.in"},                  {},                   {tessera::Step::begin_sending, "init"}},
+    {"init.t2",             {"init.snd.out"},                {"init.2"},                       {},                   {tessera::Step::end_sending, "init"}},
+    {"init.t3",             {"init.2"},                      {"init.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "init"}},
+    {"init.t4",             {"init.rcv.out"},                {"init.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "init"}},
+    {"init.t5",             {"init.rcv.out"},                {"init.out"},                     tessera::if_terminal, {tessera::Step::terminal, "init"}},
+    {"init.t6",             {"init.rcv.out"},                {"init.out"},                     tessera::if_error,    {tessera::Step::error, "init"}},
+    {"init.snd.motion.t1",  {"init.snd.in", "motion/empty"}, {"init.snd.motion.2"},            {},                   {tessera::Step::transfer, "init", "motion"}},
+    {"init.snd.motion.t1o", {"init.snd.in", "motion/full"},  {"init.snd.motion.2"},            {},                   {tessera::Step::overwrite, "init", "motion"}},
+    {"init.snd.motion.t2",  {"init.snd.motion.2"},           {"init.snd.out", "motion/full"},  {},                   {tessera::Step::transfer, "init", "motion"}},
+    {"init.rcv.line.t1",    {"init.rcv.in", "line/channel"}, {"init.rcv.line.2"},              {},                   {tessera::Step::transfer, "init", "line"}},
+    {"init.rcv.line.t2",    {"init.rcv.line.2"},             {"init.rcv.out", "line/channel"}, {},                   {tessera::Step::transfer, "init", "line"}},
     // follow, spec.yaml:19
-    {"follow.t1",             {"follow.in"},                     {"follow.snd.in"}},
-    {"follow.t2",             {"follow.snd.out"},                {"follow.2"}},
-    {"follow.t3",             {"follow.2"},                      {"follow.rcv.in"}},
-    {"follow.t4",             {"follow.rcv.out"},                {"follow.in"},                      tessera::if_go_on},
-    {"follow.t5",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_terminal},
-    {"follow.t6",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_error},
-    {"follow.snd.motion.t1",  {"follow.snd.in", "motion/empty"}, {"follow.snd.motion.2"}},
-    {"follow.snd.motion.t1o", {"follow.snd.in", "motion/full"},  {"follow.snd.motion.2"}},
-    {"follow.snd.motion.t2",  {"follow.snd.motion.2"},           {"follow.snd.out", "motion/full"}},
-    {"follow.rcv.line.t1",    {"follow.rcv.in", "line/channel"}, {"follow.rcv.line.2"}},
-    {"follow.rcv.line.t2",    {"follow.rcv.line.2"},             {"follow.rcv.out", "line/channel"}},
+    {"follow.t1",             {"follow.in"},                     {"follow.snd.in"},                  {},                   {tessera::Step::begin_sending, "follow"}},
+    {"follow.t2",             {"follow.snd.out"},                {"follow.2"},                       {},                   {tessera::Step::end_sending, "follow"}},
+    {"follow.t3",             {"follow.2"},                      {"follow.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "follow"}},
+    {"follow.t4",             {"follow.rcv.out"},                {"follow.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "follow"}},
+    {"follow.t5",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_terminal, {tessera::Step::terminal, "follow"}},
+    {"follow.t6",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_error,    {tessera::Step::error, "follow"}},
+    {"follow.snd.motion.t1",  {"follow.snd.in", "motion/empty"}, {"follow.snd.motion.2"},            {},                   {tessera::Step::transfer, "follow", "motion"}},
+    {"follow.snd.motion.t1o", {"follow.snd.in", "motion/full"},  {"follow.snd.motion.2"},            {},                   {tessera::Step::overwrite, "follow", "motion"}},
+    {"follow.snd.motion.t2",  {"follow.snd.motion.2"},           {"follow.snd.out", "motion/full"},  {},                   {tessera::Step::transfer, "follow", "motion"}},
+    {"follow.rcv.line.t1",    {"follow.rcv.in", "line/channel"}, {"follow.rcv.line.2"},              {},                   {tessera::Step::transfer, "follow", "line"}},
+    {"follow.rcv.line.t2",    {"follow.rcv.line.2"},             {"follow.rcv.out", "line/channel"}, {},                   {tessera::Step::transfer, "follow", "line"}},
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::control

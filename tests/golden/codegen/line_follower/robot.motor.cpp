@@ -51,25 +51,25 @@ constexpr tessera::Place places[] = {
     {"drive.out"}, {"drive.snd.in"}, {"drive.snd.out"}, {"drive.rcv.in"},
 };
 const tessera::Transition transitions[] = {
-    {"t_in",      {"in"},        {"drive.in"}},
-    {"t_drive_1", {"drive.out"}, {"out"}},
+    {"t_in",      {"in"},        {"drive.in"}, {}, {tessera::Step::start}},
+    {"t_drive_1", {"drive.out"}, {"out"},      {}, {tessera::Step::leave, "drive"}},
     // drive, spec.yaml:36
-    {"drive.t1",                   {"drive.in"},                       {"drive.snd.in"}},
-    {"drive.t2",                   {"drive.snd.out"},                  {"drive.2"}},
-    {"drive.t3",                   {"drive.2"},                        {"drive.rcv.in"}},
-    {"drive.t4",                   {"drive.rcv.out"},                  {"drive.in"},                        tessera::if_go_on},
-    {"drive.t5",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_terminal},
-    {"drive.t6",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_error},
-    {"drive.snd.t1",               {"drive.snd.in"},                   {"drive.snd.out"}},
-    {"drive.rcv.velocity.t1",      {"drive.rcv.in", "velocity/full"},  {"drive.rcv.velocity.2"}},
-    {"drive.rcv.velocity.t2",      {"drive.rcv.velocity.2"},           {"drive.rcv.out", "velocity/empty"}},
-    {"drive.rcv.velocity.timeout", {"drive.rcv.in", "velocity/empty"}, {"drive.rcv.out", "velocity/empty"}, tessera::if_elapsed},
+    {"drive.t1",                   {"drive.in"},                       {"drive.snd.in"},                    {},                   {tessera::Step::begin_sending, "drive"}},
+    {"drive.t2",                   {"drive.snd.out"},                  {"drive.2"},                         {},                   {tessera::Step::end_sending, "drive"}},
+    {"drive.t3",                   {"drive.2"},                        {"drive.rcv.in"},                    {},                   {tessera::Step::begin_receiving, "drive"}},
+    {"drive.t4",                   {"drive.rcv.out"},                  {"drive.in"},                        tessera::if_go_on,    {tessera::Step::go_on, "drive"}},
+    {"drive.t5",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_terminal, {tessera::Step::terminal, "drive"}},
+    {"drive.t6",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_error,    {tessera::Step::error, "drive"}},
+    {"drive.snd.t1",               {"drive.snd.in"},                   {"drive.snd.out"},                   {},                   {tessera::Step::page, "drive"}},
+    {"drive.rcv.velocity.t1",      {"drive.rcv.in", "velocity/full"},  {"drive.rcv.velocity.2"},            {},                   {tessera::Step::transfer, "drive", "velocity"}},
+    {"drive.rcv.velocity.t2",      {"drive.rcv.velocity.2"},           {"drive.rcv.out", "velocity/empty"}, {},                   {tessera::Step::transfer, "drive", "velocity"}},
+    {"drive.rcv.velocity.timeout", {"drive.rcv.in", "velocity/empty"}, {"drive.rcv.out", "velocity/empty"}, tessera::if_elapsed,  {tessera::Step::timeout, "drive", "velocity"}},
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::motor

@@ -51,24 +51,24 @@ constexpr tessera::Place places[] = {
     {"watch.out"}, {"watch.snd.in"}, {"watch.snd.out"}, {"watch.rcv.in"},
 };
 const tessera::Transition transitions[] = {
-    {"t_in",      {"in"},        {"watch.in"}},
-    {"t_watch_1", {"watch.out"}, {"out"}},
+    {"t_in",      {"in"},        {"watch.in"}, {}, {tessera::Step::start}},
+    {"t_watch_1", {"watch.out"}, {"out"},      {}, {tessera::Step::leave, "watch"}},
     // watch, spec.yaml:26
-    {"watch.t1",          {"watch.in"},                     {"watch.snd.in"}},
-    {"watch.t2",          {"watch.snd.out"},                {"watch.2"}},
-    {"watch.t3",          {"watch.2"},                      {"watch.rcv.in"}},
-    {"watch.t4",          {"watch.rcv.out"},                {"watch.in"},                      tessera::if_go_on},
-    {"watch.t5",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_terminal},
-    {"watch.t6",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_error},
-    {"watch.snd.line.t1", {"watch.snd.in", "line/channel"}, {"watch.snd.line.2"}},
-    {"watch.snd.line.t2", {"watch.snd.line.2"},             {"watch.snd.out", "line/channel"}},
-    {"watch.rcv.t1",      {"watch.rcv.in"},                 {"watch.rcv.out"}},
+    {"watch.t1",          {"watch.in"},                     {"watch.snd.in"},                  {},                   {tessera::Step::begin_sending, "watch"}},
+    {"watch.t2",          {"watch.snd.out"},                {"watch.2"},                       {},                   {tessera::Step::end_sending, "watch"}},
+    {"watch.t3",          {"watch.2"},                      {"watch.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "watch"}},
+    {"watch.t4",          {"watch.rcv.out"},                {"watch.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "watch"}},
+    {"watch.t5",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_terminal, {tessera::Step::terminal, "watch"}},
+    {"watch.t6",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_error,    {tessera::Step::error, "watch"}},
+    {"watch.snd.line.t1", {"watch.snd.in", "line/channel"}, {"watch.snd.line.2"},              {},                   {tessera::Step::transfer, "watch", "line"}},
+    {"watch.snd.line.t2", {"watch.snd.line.2"},             {"watch.snd.out", "line/channel"}, {},                   {tessera::Step::transfer, "watch", "line"}},
+    {"watch.rcv.t1",      {"watch.rcv.in"},                 {"watch.rcv.out"},                 {},                   {tessera::Step::page, "watch"}},
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::sensor

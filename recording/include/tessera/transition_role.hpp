@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tessera {
+
+/// What a transition does in the five layers. The tables of a controller tell it, and its recordings.
+///
+/// Source: Figat & Zielinski, ICRA 2019, sec. IV. "t1" and the like are the names of the paper.
+enum class Step : std::uint8_t {
+  other,  ///< not told
+  // Layers 1 and 2, the system and its agents.
+  start_system,
+  end_system,
+  start_agent,
+  end_agent,
+  // Layer 3, a subsystem.
+  start,  ///< it starts its first behaviour
+  leave,  ///< an entry of `next` of the behaviour is taken
+  // Layer 4, a behaviour.
+  begin_sending,    ///< t1: the transition function has been calculated
+  end_sending,      ///< t2
+  begin_receiving,  ///< t3
+  go_on,            ///< t4: the iteration ends, and the behaviour goes on
+  terminal,         ///< t5
+  error,            ///< t6
+  // Layer 5, communication.
+  page,       ///< of a page, but of none of its blocks
+  transfer,   ///< of a block, and none of the following
+  overwrite,  ///< what is sent takes the place of what nobody has read
+  skip,       ///< there is nothing to read
+  timeout,    ///< it was waited for in vain
+  // Of the medium of a channel between processes. These belong to no subsystem.
+  deliver,
+  replace,
+  deliver_older,
+  lose_older
+};
+
+/// "begin_sending": the name of the enumerator, which recordings and generated tables hold.
+[[nodiscard]] std::string_view name_of(Step step);
+/// The inverse; `other` if no step of this version has the name.
+[[nodiscard]] Step step_named(std::string_view name);
+
+/// The role of a transition of a run.
+struct TransitionRole {
+  Step step = Step::other;
+  std::string behaviour{};                 ///< that it belongs to, or leaves; empty: none
+  std::optional<std::uint32_t> channel{};  ///< of a block or a medium: into Recording::channels
+
+  /// Ends an iteration of a behaviour.
+  [[nodiscard]] bool ends_iteration() const {
+    return step == Step::go_on || step == Step::terminal || step == Step::error;
+  }
+  /// Of the communication of a behaviour.
+  [[nodiscard]] bool communicates() const { return step >= Step::page && step <= Step::timeout; }
+};
+
+}  // namespace tessera

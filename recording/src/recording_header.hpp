@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tessera/recording.hpp"
+
+namespace tessera {
+
+/// Reads Recording::header into the other members. false: the JSON lacks what every recording has.
+[[nodiscard]] bool read_header(Recording& recording);
+
+}  // namespace tessera

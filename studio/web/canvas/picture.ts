@@ -16,6 +16,7 @@ const kept = [
   "font-style",
   "text-anchor",
   "paint-order",
+  "marker-start",
   "marker-end",
 ];
 const hidden = (style: CSSStyleDeclaration) => style.display === "none" || style.visibility === "hidden";
@@ -40,7 +41,9 @@ export function takePicture(areas: readonly Element[], moves = false): Picture {
   const height = Math.max(...frames.map((one) => one.bottom)) - top;
   const root = make("svg", { xmlns: svg, width, height, viewBox: `0 0 ${round(width)} ${round(height)}` });
   const markers = make("defs", {});
-  document.querySelectorAll("marker[id^='tip'], marker[id='channel-tip']").forEach((marker) => markers.append(copy(marker)));
+  document
+    .querySelectorAll("marker[id^='tip'], marker[id='channel-tip'], marker[id='trunk-tip']")
+    .forEach((marker) => markers.append(copy(marker)));
   root.append(markers);
   areas.forEach((area, at) => {
     const frame = frames[at]!;
@@ -91,6 +94,7 @@ function add(element: Element, to: Element, frame: DOMRect, moves: boolean): voi
   const box = element.getBoundingClientRect();
   const scale = element instanceof HTMLElement && element.offsetWidth > 0 ? box.width / element.offsetWidth : 1;
   addBox(style, box, scale, to, frame);
+  if (style.webkitLineClamp && style.webkitLineClamp !== "none") return addLines(element, style, scale, to, frame);
   for (const node of element.childNodes) {
     if (node instanceof Element) add(node, to, frame, moves);
     else if (node.nodeType === Node.TEXT_NODE && node.textContent?.trim()) addText(node, style, scale, to, frame);
@@ -138,10 +142,35 @@ function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Ele
   to.append(rect);
 }
 
+/** A name in several lines, of which those that do not fit are left out, as on the screen. */
+function addLines(element: Element, style: CSSStyleDeclaration, scale: number, to: Element, frame: DOMRect): void {
+  const bottom = element.getBoundingClientRect().bottom;
+  const lines: { text: string; box: DOMRect }[] = [];
+  let cut = false;
+  const walk = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+  for (let node = walk.nextNode(); node; node = walk.nextNode())
+    for (let at = 0; at < node.textContent!.length; at += 1) {
+      const range = document.createRange();
+      range.setStart(node, at);
+      range.setEnd(node, at + 1);
+      const box = range.getBoundingClientRect();
+      const last = lines.at(-1);
+      if (box.top + box.height / 2 > bottom) cut = true;
+      else if (last && Math.abs(last.box.top - box.top) < 2) last.text += node.textContent![at]!;
+      else lines.push({ text: node.textContent![at]!, box });
+    }
+  const end = lines.at(-1);
+  if (cut && end) end.text = `${end.text.slice(0, -1)}…`;
+  for (const { text, box } of lines) addLine(text, box, style, scale, to, frame);
+}
+
 function addText(node: Node, style: CSSStyleDeclaration, scale: number, to: Element, frame: DOMRect): void {
   const range = document.createRange();
   range.selectNodeContents(node);
-  const box = range.getBoundingClientRect();
+  addLine(node.textContent!.replace(/\s+/g, " "), range.getBoundingClientRect(), style, scale, to, frame);
+}
+
+function addLine(words: string, box: DOMRect, style: CSSStyleDeclaration, scale: number, to: Element, frame: DOMRect): void {
   const size = parseFloat(style.fontSize) * scale;
   const text = make("text", {
     x: round(box.left - frame.left),
@@ -152,7 +181,7 @@ function addText(node: Node, style: CSSStyleDeclaration, scale: number, to: Elem
     "font-weight": style.fontWeight,
   });
   text.setAttribute("xml:space", "preserve");
-  text.textContent = node.textContent!.replace(/\s+/g, " ");
+  text.textContent = words;
   to.append(text);
 }
 

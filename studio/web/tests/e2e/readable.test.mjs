@@ -147,6 +147,18 @@ test("an agent that is double-clicked comes near enough to read what is in it", 
     assert.deepEqual(await tooSmall(page), []);
   }));
 
+test("a picture of the structure has the lines of a long name as the screen has them, and tips at both ends of a line", () =>
+  onPage(longNames, async (page) => {
+    await page.setViewportSize({ width: 1024, height: 900 });
+    await tab(page, "Structure").click();
+    await middleOf(page, page.locator(".react-flow__node").first());
+    const [saved] = await Promise.all([page.waitForEvent("download"), button(page, "SVG").click()]);
+    const picture = readFileSync(await saved.path(), "utf8");
+    assert.match(picture, />autonomous_fruit_</);
+    assert.doesNotMatch(picture, />autonomous_fruit_picking_vehicle_north</);
+    assert.match(picture, /marker-start="url\(&quot;#trunk-tip|marker-start="url\(#trunk-tip|marker-start='url\("#trunk-tip/);
+  }));
+
 test("names of agents that are too long for their boxes are broken or cut in the net, and never dropped", () =>
   onPage(longNames, async (page) => {
     const names = () =>

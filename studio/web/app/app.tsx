@@ -1,18 +1,18 @@
 import { lazy, Suspense, useEffect } from "react";
-import { ConflictDialog } from "../panels/conflict_dialog";
+import { ConflictDialog } from "../panels/text/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
-import { Watches } from "../panels/watch";
+import { Watches } from "../panels/plots/watch";
 import { Boundary } from "./boundary";
 import { Centre } from "./centre";
-import { WholePlayer } from "../panels/player";
+import { WholePlayer } from "../panels/run/player";
 import { Split } from "./split";
 import { useStore, useStudio } from "../hooks/use";
 
-const TextPane = lazy(() => import("../panels/text_pane"));
+const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export function App() {
   const studio = useStudio();

@@ -1,11 +1,11 @@
 import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
 import { StructureCanvas } from "../canvas/structure_canvas";
-import { ComparisonBar } from "../panels/comparison";
-import { CoverageLegend } from "../panels/coverage";
-import { FleetPage } from "../panels/fleet_page";
+import { ComparisonBar } from "../panels/run/comparison";
+import { CoverageLegend } from "../panels/run/coverage";
+import { FleetPage } from "../panels/fleet/fleet_page";
 import { PaneHead } from "../panels/pane_head";
 import { usePaneTitle } from "../panels/pane_title";
-import { Player } from "../panels/player";
+import { Player } from "../panels/run/player";
 import { StartPage } from "../panels/start_page";
 import { useStore, useStudio } from "../hooks/use";
 

@@ -1,7 +1,7 @@
 import { useStore, useStudio } from "../hooks/use";
 import { ExportButtons } from "./export_button";
-import { layerTitle, pageName } from "../model/labels";
-import type { NetModel } from "../model/net";
+import { layerTitle, pageName } from "../model/net/labels";
+import type { NetModel } from "../model/net/net";
 
 /**
  * The path from the system to the current page. A click on a part flies there. Beside it: fold and unfold.

@@ -2,9 +2,9 @@ import type { useReactFlow } from "@xyflow/react";
 import type { KeyboardEvent } from "react";
 import type { Stage } from "../live/stage";
 import type { Studio } from "../live/studio";
-import { neighbour, type Direction } from "../model/neighbour";
-import type { NetModel } from "../model/net";
-import type { Sheets } from "../model/sheets";
+import { neighbour, type Direction } from "../model/structure/neighbour";
+import type { NetModel } from "../model/net/net";
+import type { Sheets } from "../model/net/sheets";
 
 interface KeyContext {
   net: NetModel;

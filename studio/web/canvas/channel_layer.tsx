@@ -1,8 +1,8 @@
 import { ViewportPortal } from "@xyflow/react";
 import { useState } from "react";
-import { roundedPath } from "../model/geometry";
-import { channelLabel, channelPath, withoutIndex, type Channel, type Structure } from "../model/structure";
-import { isNext, type StructureDrawing } from "../model/structure_graph";
+import { roundedPath } from "../model/net/geometry";
+import { channelLabel, channelPath, withoutIndex, type Channel, type Structure } from "../model/structure/structure";
+import { isNext, type StructureDrawing } from "../model/structure/structure_graph";
 
 /** How a channel is shown besides its modes. */
 export interface ChannelLook {

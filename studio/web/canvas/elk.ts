@@ -1,4 +1,4 @@
-import type { ElkNode } from "../model/layout";
+import type { ElkNode } from "../model/net/layout";
 
 /** ELK in a separate worker, loaded when the first page needs it. */
 let ready: Promise<{ layout: (graph: unknown) => Promise<unknown> }> | undefined;

@@ -2,9 +2,9 @@ import { useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { message } from "../live/draft";
 import type { Studio } from "../live/studio";
-import { drawnIn, filmOf, mostFirings, type Scenes } from "../model/film";
-import { initialMarking } from "../model/game";
-import type { NetModel } from "../model/net";
+import { drawnIn, filmOf, mostFirings, type Scenes } from "../model/run/film";
+import { initialMarking } from "../model/net/game";
+import type { NetModel } from "../model/net/net";
 import { filmPage } from "./film_page";
 import { asPng, download, takeFirstPicture, takePicture } from "./picture";
 

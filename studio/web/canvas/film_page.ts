@@ -1,6 +1,6 @@
 /** A film of a net as one HTML file that plays by itself, without the studio and without a network. */
 
-import type { Film } from "../model/film";
+import type { Film } from "../model/run/film";
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (one) => `&#${one.charCodeAt(0)};`);
 

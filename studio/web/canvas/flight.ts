@@ -1,8 +1,8 @@
 import { useReactFlow } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import type { Box } from "../model/geometry";
-import type { Sheets } from "../model/sheets";
+import type { Box } from "../model/net/geometry";
+import type { Sheets } from "../model/net/sheets";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 

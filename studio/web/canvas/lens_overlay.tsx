@@ -2,8 +2,8 @@ import { useReactFlow, useStore as useFlow, ViewportPortal, type ReactFlowState 
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Stuck } from "../live/lens";
-import type { Box } from "../model/geometry";
-import { around, arrows, grown, type Arrow } from "../model/lens_layout";
+import type { Box } from "../model/net/geometry";
+import { around, arrows, grown, type Arrow } from "../model/structure/lens_layout";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();

@@ -1,6 +1,6 @@
-import { isActive } from "../model/game";
-import type { NetModel } from "../model/net";
-import { runningBehaviours } from "../model/game";
+import { isActive } from "../model/net/game";
+import type { NetModel } from "../model/net/net";
+import { runningBehaviours } from "../model/net/game";
 import type { Breakpoint } from "../live/protocol";
 import type { Stage } from "../live/stage";
 

@@ -2,7 +2,7 @@ import { useReactFlow, useStore as useFlow, useStoreApi } from "@xyflow/react";
 import { useEffect, useState } from "react";
 import { useStudio } from "../hooks/use";
 import type { Look } from "../live/camera";
-import type { Sheet } from "../model/geometry";
+import type { Sheet } from "../model/net/geometry";
 
 /**
  * Uses the view of the other panes, or else shows the whole drawing. Nothing is drawn before that,

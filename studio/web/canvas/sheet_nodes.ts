@@ -1,8 +1,8 @@
 import { useMemo, useRef } from "react";
 import type { Stage } from "../live/stage";
-import type { NetModel } from "../model/net";
-import type { Box } from "../model/geometry";
-import type { Placed, Sheets, Window } from "../model/sheets";
+import type { NetModel } from "../model/net/net";
+import type { Box } from "../model/net/geometry";
+import type { Placed, Sheets, Window } from "../model/net/sheets";
 import { crowd } from "./crowd";
 import type { SheetNode } from "./sheet_node";
 

@@ -1,7 +1,7 @@
 import { useMemo, useRef, useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import type { NetModel } from "../model/net";
-import { Sheets } from "../model/sheets";
+import type { NetModel } from "../model/net/net";
+import { Sheets } from "../model/net/sheets";
 import { elk } from "./elk";
 
 /** Pages with more children than this are folded at first. */

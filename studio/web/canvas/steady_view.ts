@@ -1,6 +1,6 @@
 import { useReactFlow, useStore, type ReactFlowState } from "@xyflow/react";
 import { useEffect, useRef } from "react";
-import { overlap, type Box } from "../model/geometry";
+import { overlap, type Box } from "../model/net/geometry";
 
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 

@@ -15,12 +15,12 @@ import {
 import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { addAgent, addChannel, freeName, removeChannel } from "../model/edits";
-import type { Box } from "../model/geometry";
-import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure";
-import { channelOf } from "../model/repair_edits";
-import { drawStructure, type StructureDrawing } from "../model/structure_graph";
-import { YamlText } from "../model/yaml_text";
+import { addAgent, addChannel, freeName, removeChannel } from "../model/text/edits";
+import type { Box } from "../model/net/geometry";
+import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
+import { channelOf } from "../model/text/repair_edits";
+import { drawStructure, type StructureDrawing } from "../model/structure/structure_graph";
+import { YamlText } from "../model/text/yaml_text";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { detailAt, structureStep, type Detail } from "./detail";
 import { elk } from "./elk";

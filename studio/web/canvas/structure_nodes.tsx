@@ -2,8 +2,8 @@ import { Handle, Position, useStore as useFlow, type NodeProps } from "@xyflow/r
 import { Fragment, type CSSProperties } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useRunning } from "../hooks/use_stage";
-import type { Agent, Buffer, Subsystem } from "../model/structure";
-import { chipWidth, head, ports, row } from "../model/structure_layout";
+import type { Agent, Buffer, Subsystem } from "../model/structure/structure";
+import { chipWidth, head, ports, row } from "../model/structure/structure_layout";
 import { linesIn } from "./detail";
 
 interface Complaint {

@@ -1,7 +1,7 @@
 import { memo, type CSSProperties } from "react";
-import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/geometry";
-import { conditionText, nameLines, operationText, pageName, spoken } from "../model/labels";
-import type { NetModel, Page } from "../model/net";
+import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/net/geometry";
+import { conditionText, nameLines, operationText, pageName, spoken } from "../model/net/labels";
+import type { NetModel, Page } from "../model/net/net";
 
 /** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
 

@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
-import { runningBehaviours } from "../model/game";
+import { runningBehaviours } from "../model/net/game";
 import type { Stage } from "../live/stage";
-import type { NetModel } from "../model/net";
+import type { NetModel } from "../model/net/net";
 import { useStore, useStudio } from "./use";
 
 /**

@@ -1,5 +1,5 @@
 import { useMemo } from "react";
-import { readStructure, thingAt, type Structure } from "../model/structure";
+import { readStructure, thingAt, type Structure } from "../model/structure/structure";
 import { useStore, useStudio } from "./use";
 
 let last: { text: string; structure: Structure } | null = null;

@@ -1,6 +1,6 @@
 import { History } from "../model/history";
-import { merge } from "../model/merge";
-import { NetModel } from "../model/net";
+import { merge } from "../model/text/merge";
+import { NetModel } from "../model/net/net";
 import { Api, ApiError } from "./api";
 import type { Analysis, Diagnostic, SpecAnswer } from "./protocol";
 import { Store } from "./store";

@@ -3,7 +3,7 @@ import { message } from "./draft";
 import type { PanelShown } from "./protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";
-import { neutralInputs, padInputs, released, type Inputs, type Pad } from "../model/panel_inputs";
+import { neutralInputs, padInputs, released, type Inputs, type Pad } from "../model/run/panel_inputs";
 
 export interface OperatorState {
   /** By path: the panels that this page operates, and what their controls give. */

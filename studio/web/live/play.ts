@@ -1,5 +1,5 @@
-import { activeTransitions, Walk, type Conditions } from "../model/game";
-import type { NetModel } from "../model/net";
+import { activeTransitions, Walk, type Conditions } from "../model/net/game";
+import type { NetModel } from "../model/net/net";
 import type { Stage } from "./stage";
 import { Store } from "./store";
 

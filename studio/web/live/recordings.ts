@@ -1,4 +1,4 @@
-import type { NetModel } from "../model/net";
+import type { NetModel } from "../model/net/net";
 import type { Api } from "./api";
 import { RecordedArrays } from "./arrays";
 import { message, type Draft } from "./draft";

@@ -1,6 +1,6 @@
 import { causesOf, type Cause } from "../model/causes";
-import { candidatesFor, type Candidate } from "../model/repair_edits";
-import { readStructure } from "../model/structure";
+import { candidatesFor, type Candidate } from "../model/text/repair_edits";
+import { readStructure } from "../model/structure/structure";
 import type { Api } from "./api";
 import { message } from "./draft";
 import type { Verdict } from "./protocol";

@@ -1,6 +1,6 @@
-import { fire, markingBefore, runningBehaviours } from "../model/game";
-import type { Scenes } from "../model/film";
-import type { NetModel } from "../model/net";
+import { fire, markingBefore, runningBehaviours } from "../model/net/game";
+import type { Scenes } from "../model/run/film";
+import type { NetModel } from "../model/net/net";
 import { count } from "../model/sorted";
 import type { FiringRow, PathRow, Recording } from "./protocol";
 import { Stage } from "./stage";

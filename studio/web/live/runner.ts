@@ -1,6 +1,6 @@
 import { LiveArrays } from "./arrays";
-import { runningBehaviours } from "../model/game";
-import type { NetModel } from "../model/net";
+import { runningBehaviours } from "../model/net/game";
+import type { NetModel } from "../model/net/net";
 import { bounded } from "../model/sorted";
 import type { Api } from "./api";
 import type { Connection } from "./connection";

@@ -1,4 +1,4 @@
-import { differences, type Difference } from "../model/timeline";
+import { differences, type Difference } from "../model/run/timeline";
 import type { Recordings } from "./recordings";
 import type { Replay } from "./replay";
 import type { Runner } from "./runner";

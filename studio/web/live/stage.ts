@@ -1,5 +1,5 @@
-import { fire, initialMarking, isEnabled, type Marking } from "../model/game";
-import type { NetModel } from "../model/net";
+import { fire, initialMarking, isEnabled, type Marking } from "../model/net/game";
+import type { NetModel } from "../model/net/net";
 import type { Coverage } from "./protocol";
 import { Store } from "./store";
 

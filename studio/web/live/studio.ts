@@ -9,7 +9,7 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
-import { findThing, type Structure } from "../model/structure";
+import { findThing, type Structure } from "../model/structure/structure";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";

@@ -1,7 +1,7 @@
-import type { NetModel } from "../model/net";
-import { Series } from "../model/series";
+import type { NetModel } from "../model/net/net";
+import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
-import { Timeline } from "../model/timeline";
+import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
 import type { PathRow } from "./protocol";
 import { LiveArrays, type Arrays } from "./arrays";

@@ -1,5 +1,5 @@
 import { stuckIn } from "../model/causes";
-import type { NetModel } from "../model/net";
+import type { NetModel } from "../model/net/net";
 import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";

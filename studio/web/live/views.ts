@@ -1,4 +1,4 @@
-import { anglesOf, numbersOf, type Rays } from "../model/views";
+import { anglesOf, numbersOf, type Rays } from "../model/net/views";
 import type { Api } from "./api";
 import type { WorldView } from "./protocol";
 import type { Track } from "./track";

@@ -1,5 +1,5 @@
-import { Paths } from "../model/robots";
-import { PoseFrames } from "../model/pose_frames";
+import { Paths } from "../model/run/robots";
+import { PoseFrames } from "../model/run/pose_frames";
 import { count } from "../model/sorted";
 import { message } from "./draft";
 import type { PoseFrame, RecordedPoses, SceneShown } from "./protocol";

@@ -1,4 +1,4 @@
-import { withoutIndex, type Channel } from "./structure";
+import { withoutIndex, type Channel } from "./structure/structure";
 
 /** What a subsystem does where a run has stopped, as the server tells it (docs/studio.md). */
 export interface SubsystemAtEnd {

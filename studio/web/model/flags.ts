@@ -1,4 +1,4 @@
-import type { NetModel } from "./net";
+import type { NetModel } from "./net/net";
 
 interface Complaint {
   severity: "error" | "warning" | "hint" | "note";

@@ -1,5 +1,5 @@
-import { layerTitle, pageName } from "./labels";
-import type { NetModel, Page, PageNode, PageTransition } from "./net";
+import { layerTitle, pageName } from "./net/labels";
+import type { NetModel, Page, PageNode, PageTransition } from "./net/net";
 
 /** What a drawn element means, in a sentence: shown when the pointer is over it. */
 export function help(net: NetModel, path: string): string {

@@ -1,10 +1,10 @@
 import { useStore, useStudio } from "../hooks/use";
 import { stepsOf } from "../live/verifier";
 import type { Repair } from "../live/repairs";
-import { changedLines } from "../model/changed_lines";
+import { changedLines } from "../model/text/changed_lines";
 import type { Cause } from "../model/causes";
-import { sentence } from "../model/labels";
-import type { NetModel } from "../model/net";
+import { sentence } from "../model/net/labels";
+import type { NetModel } from "../model/net/net";
 
 const words = (name: string) => name.replaceAll("_", " ");
 

@@ -3,10 +3,10 @@ import { useStore, useStudio } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import type { Breakpoint } from "../live/protocol";
 import { sameBreakpoint } from "../live/runner";
-import { layerTitle, operationText } from "../model/labels";
-import type { Element, NetModel } from "../model/net";
-import { findThing, type Thing } from "../model/structure";
-import { MemoryNow } from "./memory_now";
+import { layerTitle, operationText } from "../model/net/labels";
+import type { Element, NetModel } from "../model/net/net";
+import { findThing, type Thing } from "../model/structure/structure";
+import { MemoryNow } from "./run/memory_now";
 
 const forms = () => import("./forms/every_form");
 const EditForm = lazy(() => forms().then((all) => ({ default: all.EditForm })));

@@ -1,10 +1,10 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useStructure } from "../hooks/use_structure";
-import { layerTitle } from "../model/labels";
-import type { NetModel } from "../model/net";
-import { rank } from "../model/rank";
-import type { Structure } from "../model/structure";
+import { layerTitle } from "../model/net/labels";
+import type { NetModel } from "../model/net/net";
+import { rank } from "../model/structure/rank";
+import type { Structure } from "../model/structure/structure";
 
 interface Found {
   path: string;

@@ -1,9 +1,9 @@
 import { useStore, useStudio } from "../hooks/use";
 import type { PanelName } from "../live/studio";
 import { InspectPanel } from "./inspect_panel";
-import { PlayPanel } from "./play_panel";
-import { RecordingsPanel } from "./recordings_panel";
-import { RunPanel } from "./run_panel";
+import { PlayPanel } from "./run/play_panel";
+import { RecordingsPanel } from "./run/recordings_panel";
+import { RunPanel } from "./run/run_panel";
 import { VerifyPanel } from "./verify_panel";
 
 const panels: { name: PanelName; title: string }[] = [

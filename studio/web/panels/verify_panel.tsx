@@ -2,8 +2,8 @@ import { useMemo } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import type { Verdict } from "../live/protocol";
 import { causesOf } from "../model/causes";
-import { sentence } from "../model/labels";
-import { readStructure } from "../model/structure";
+import { sentence } from "../model/net/labels";
+import { readStructure } from "../model/structure/structure";
 import { CauseCard } from "./cause_card";
 import { Icon } from "./icons";
 

@@ -1,8 +1,8 @@
 import { useId, useState } from "react";
-import { addChannel } from "../../model/edits";
-import { already, channelEnd, partnersOf } from "../../model/connections";
-import { channelPath, type Buffer, type Structure } from "../../model/structure";
-import { useEdit } from "../form_parts";
+import { addChannel } from "../../model/text/edits";
+import { already, channelEnd, partnersOf } from "../../model/structure/connections";
+import { channelPath, type Buffer, type Structure } from "../../model/structure/structure";
+import { useEdit } from "./form_parts";
 
 /** A channel from or to a buffer, without the mouse. */
 export function ConnectForm({ structure, buffer }: { structure: Structure; buffer: Buffer }) {

@@ -1,10 +1,10 @@
 import { useStudio } from "../../hooks/use";
-import { driverKinds, type DriverKind } from "../../model/schema_fields";
-import type { Structure } from "../../model/structure";
-import { withoutIndex } from "../../model/structure";
-import { apply, type YamlPath } from "../../model/yaml_text";
-import { Choice, Field } from "../field";
-import { MapForm } from "../map_form";
+import { driverKinds, type DriverKind } from "../../model/text/schema_fields";
+import type { Structure } from "../../model/structure/structure";
+import { withoutIndex } from "../../model/structure/structure";
+import { apply, type YamlPath } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { MapForm } from "./map_form";
 import { listAsTyped, listAsWritten, ObjectFields } from "./object_fields";
 import { schema } from "./schema";
 import { useTargets, type Targets } from "./targets";

@@ -1,9 +1,9 @@
 import { useState } from "react";
-import type { FieldShape } from "../../model/schema_fields";
-import type { Structure } from "../../model/structure";
-import { apply, scalarText, type YamlPath } from "../../model/yaml_text";
-import { Choice, Field } from "../field";
-import { useEdit } from "../form_parts";
+import type { FieldShape } from "../../model/text/schema_fields";
+import type { Structure } from "../../model/structure/structure";
+import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { useEdit } from "./form_parts";
 
 interface ObjectFieldsProps {
   structure: Structure;

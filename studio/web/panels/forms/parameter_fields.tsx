@@ -1,9 +1,9 @@
-import { parameterParts, setParameter, type ParameterParts } from "../../model/parameter_text";
-import type { Structure } from "../../model/structure";
-import { isNumber, numberTypes } from "../../model/type_text";
-import { apply, type YamlPath } from "../../model/yaml_text";
-import { Choice, Field } from "../field";
-import { useEdit } from "../form_parts";
+import { parameterParts, setParameter, type ParameterParts } from "../../model/text/parameter_text";
+import type { Structure } from "../../model/structure/structure";
+import { isNumber, numberTypes } from "../../model/text/type_text";
+import { apply, type YamlPath } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { useEdit } from "./form_parts";
 
 /** A parameter: its value, unit, type and range. */
 export function ParameterFields({ structure, at }: { structure: Structure; at: YamlPath }) {

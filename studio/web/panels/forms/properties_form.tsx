@@ -1,8 +1,8 @@
-import { fieldsOf } from "../../model/schema_fields";
-import type { Structure } from "../../model/structure";
-import { apply } from "../../model/yaml_text";
-import { Choice, Field } from "../field";
-import { useEdit } from "../form_parts";
+import { fieldsOf } from "../../model/text/schema_fields";
+import type { Structure } from "../../model/structure/structure";
+import { apply } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { useEdit } from "./form_parts";
 import { listAsTyped, listAsWritten } from "./object_fields";
 import { schema } from "./schema";
 

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { YamlText } from "../../model/yaml_text";
+import { YamlText } from "../../model/text/yaml_text";
 
 /** What drivers in the world may name, by their kinds. */
 export type Targets = { readonly [kind: string]: readonly string[] };

@@ -1,9 +1,9 @@
-import { freeName } from "../../model/edits";
-import type { Structure } from "../../model/structure";
-import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/type_text";
-import { apply, scalarText, type YamlPath } from "../../model/yaml_text";
-import { Choice, Field } from "../field";
-import { nameProblem, useEdit } from "../form_parts";
+import { freeName } from "../../model/text/edits";
+import type { Structure } from "../../model/structure/structure";
+import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
+import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { nameProblem, useEdit } from "./form_parts";
 
 interface TypeInputsProps {
   structure: Structure;

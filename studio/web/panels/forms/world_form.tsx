@@ -1,11 +1,11 @@
 import { useStore, useStudio } from "../../hooks/use";
-import { setField } from "../../model/edits";
-import { fieldsOf } from "../../model/schema_fields";
-import type { Structure } from "../../model/structure";
-import { apply } from "../../model/yaml_text";
-import { Field } from "../field";
-import { useEdit } from "../form_parts";
-import { MapForm } from "../map_form";
+import { setField } from "../../model/text/edits";
+import { fieldsOf } from "../../model/text/schema_fields";
+import type { Structure } from "../../model/structure/structure";
+import { apply } from "../../model/text/yaml_text";
+import { Field } from "./field";
+import { useEdit } from "./form_parts";
+import { MapForm } from "./map_form";
 import { ObjectFields } from "./object_fields";
 import { schema } from "./schema";
 

@@ -1,23 +1,8 @@
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import {
-  button,
-  changes,
-  draftText,
-  drawn,
-  element,
-  example,
-  find,
-  folder,
-  judges,
-  middleOf,
-  onPage,
-  serve,
-  tab,
-  until,
-} from "./page.mjs";
+import { button, drawn, element, example, find, folder, judges, middleOf, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -88,131 +73,6 @@ test("a double click is meant for what was under its first click, though the vie
     await page.mouse.down({ clickCount: 2 });
     await page.mouse.up({ clickCount: 2 });
     await until(page, async () => (await page.locator('.page.folded[data-path="robot.control"]').count()) === 0, "it opens");
-  }));
-
-test("an edit in the drawing is a clean diff, in the text too, and is undone", () =>
-  onPage(lineFollower, async (page, server) => {
-    const before = server.text();
-    await tab(page, "Structure").click();
-    await page.locator('[data-path="robot.control"]').click();
-    await button(page, "Add behaviour").click();
-    await page.getByRole("textbox", { name: "Name" }).fill("stop");
-    await page.keyboard.press("Enter");
-    await page.locator('.chip[data-path="robot.control.stop"]').waitFor();
-    await page.getByRole("textbox", { name: "Terminal condition" }).fill("in.line.left");
-    await page.keyboard.press("Enter");
-    const expected = ["+        stop:", "+          terminal: in.line.left"];
-    assert.deepEqual(changes(before, await draftText(page)), expected);
-    await page.getByTestId("editor").getByText("terminal: in.line.left").waitFor();
-    await button(page, "Save").click();
-    await page.getByText("Saved").waitFor();
-    assert.deepEqual(changes(before, server.text()), expected);
-    for (let step = 0; step < 3; step += 1) await button(page, "Undo").click();
-    assert.equal(await draftText(page), before);
-    await tab(page, "Net").click();
-    await find(page, "robot.control.follow");
-    await page.locator('[data-sheet="robot.control.follow"]').waitFor();
-  }));
-
-test("renaming an agent changes its name everywhere and nothing else", () =>
-  onPage(lineFollower, async (page, server) => {
-    await tab(page, "Structure").click();
-    await page.locator('.agent-name[data-path="robot"]').click();
-    await page.getByRole("textbox", { name: "Name" }).fill("rover");
-    await page.keyboard.press("Enter");
-    await page.locator('.agent-name[data-path="rover"]').waitFor();
-    await page.getByText("No problems").waitFor();
-    assert.equal((await draftText(page)).replaceAll("rover", "robot"), server.text());
-  }));
-
-test("a channel is dragged from an output to an input, and its modes are chosen", () =>
-  onPage(lineFollower, async (page, server) => {
-    const before = server.text();
-    await tab(page, "Structure").click();
-    await page.locator('[data-path="robot.motor"]').click();
-    await button(page, "Add input").click();
-    await page.locator('[data-handle="robot.motor.input"]').waitFor();
-    // The new input moves what is drawn, and on a busy machine it does so under the mouse: then again.
-    const channel = page.locator('[data-path="channel:2"]');
-    for (let turn = 0; turn < 20 && (await channel.count()) === 0; turn += 1) {
-      await page.locator('[data-handle="robot.sensor.line"]').dragTo(page.locator('[data-handle="robot.motor.input"]'));
-      await channel.waitFor({ timeout: 2000 }).catch(() => undefined);
-    }
-    await channel.waitFor();
-    await page.getByLabel("The receiver").selectOption("blocking");
-    await page.locator('.channel-label[data-path="channel:2"]').getByText("N → B").waitFor();
-    assert.deepEqual(
-      changes(before, await draftText(page)).at(-1),
-      "+  - { from: robot.sensor.line, to: robot.motor.input, receive: blocking }",
-    );
-  }));
-
-test("the text completes names, says what they mean, and leads to their definition", () =>
-  onPage(lineFollower, async (page) => {
-    const editor = page.getByTestId("editor").locator(".cm-content");
-    const line = editor.locator(".cm-line", { hasText: "next: follow" });
-    await line.click();
-    await page.keyboard.press("End");
-    for (let i = 0; i < 8; ++i) await page.keyboard.press(i < 2 ? "ArrowLeft" : "Backspace");
-    await page.keyboard.type("f");
-    await page.locator(".cm-tooltip-autocomplete li").getByText("follow").waitFor();
-    await page.keyboard.press("Tab");
-    await editor.locator(".cm-line", { hasText: "next: follow }" }).waitFor();
-    await page.keyboard.press("F12");
-    await editor.locator(".cm-activeLine", { hasText: "follow: {}" }).waitFor();
-    const { x, y } = await editor.locator(".cm-line", { hasText: "outputs: { motion" }).boundingBox();
-    await page.mouse.move(x + 220, y + 8);
-    await page.locator(".cm-tooltip-hover").getByText("linear: float64 m/s").waitFor();
-  }));
-
-test("a broken file says where, keeps its drawing, and is repaired", () =>
-  onPage(lineFollower, async (page) => {
-    const editor = page.getByTestId("editor").locator(".cm-content");
-    await editor.getByText("start: [1.2").count();
-    await find(page, "robot.control.init");
-    await editor.focus();
-    await page.keyboard.press("End");
-    await page.keyboard.type(" ]");
-    await page
-      .getByTestId("problem-count")
-      .getByText(/\d+ error/)
-      .waitFor();
-    await page.getByText("this is the drawing of the last version without").waitFor();
-    assert.ok((await page.locator(".sheet").count()) > 0);
-    assert.ok((await page.locator(".problem-list .problem").count()) > 0);
-    await page.keyboard.press("Backspace");
-    await page.keyboard.press("Backspace");
-    await page.getByText("No problems").waitFor();
-  }));
-
-test("a file that is broken on disk opens with its errors", () =>
-  onPage(folder("broken"), async (page) => {
-    await page.getByText("No drawing yet").waitFor();
-    assert.ok((await page.locator(".problem-list .problem").count()) > 0);
-    await tab(page, "Structure").click();
-    await page.locator('[data-path="robot.control"]').waitFor();
-  }));
-
-test("a change on disk is taken, merged, or asked about", () =>
-  onPage(lineFollower, async (page, server) => {
-    const before = server.text();
-    writeFileSync(server.file, before.replace("rate: 20 Hz", "rate: 25 Hz"));
-    await page.getByTestId("editor").getByText("25 Hz").waitFor();
-    await tab(page, "Structure").click();
-    await page.locator('[data-path="robot.motor"]').click();
-    await page.getByRole("textbox", { name: "Rate" }).fill("40 Hz");
-    await page.keyboard.press("Enter");
-    writeFileSync(server.file, server.text().replace("rate: 25 Hz", "rate: 30 Hz"));
-    await page.getByText("both changes were merged").waitFor();
-    assert.match(await draftText(page), /rate: 30 Hz[\s\S]*rate: 40 Hz/);
-    writeFileSync(server.file, server.text().replace(/(motor:\n\s+rate:) 50 Hz/, "$1 60 Hz"));
-    const dialog = page.getByRole("dialog");
-    await dialog.getByText("60 Hz").waitFor();
-    await dialog.getByRole("button", { name: "Keep mine" }).click();
-    assert.match(await draftText(page), /rate: 40 Hz/);
-    await page.keyboard.press("Control+s");
-    await page.getByText("Saved").waitFor();
-    assert.match(server.text(), /rate: 40 Hz/);
   }));
 
 test("a violation is shown as a run that steps back and forth", () =>
@@ -352,51 +212,6 @@ test("what is under other licences is said, with their texts", () =>
       await other.getByText(text).first().waitFor();
       await other.close();
     }
-  }));
-
-test("without a mouse: a behaviour is added, the text verified, undone and saved", () =>
-  onPage(lineFollower, async (page, server) => {
-    const before = server.text();
-    const press = async (...keys) => {
-      for (const key of keys) await page.keyboard.press(key);
-    };
-    /** Goes on with the tabulator key to what has that name. */
-    const tabTo = async (role, name) => {
-      for (let turn = 0; turn < 120; turn += 1) {
-        const there = await page
-          .getByRole(role, { name, exact: true })
-          .evaluateAll((all) => all.includes(document.activeElement));
-        if (there) return;
-        await press("Tab");
-      }
-      assert.fail(`the tabulator key never came to the ${role} ${name}`);
-    };
-    await tabTo("tab", "Structure");
-    await press("Enter");
-    await page.locator('[data-path="robot.control"]').waitFor();
-    await page.locator('.subsystem-head[data-path="robot.control"]').focus();
-    await press("Enter");
-    await button(page, "Add behaviour").waitFor();
-    await tabTo("button", "Add behaviour");
-    await press("Enter");
-    await page.locator('.chip[data-path="robot.control.act"]').waitFor();
-    await tabTo("textbox", "Name");
-    await press("Control+a");
-    await page.keyboard.type("wait");
-    await press("Enter");
-    await page.locator('.chip[data-path="robot.control.wait"]').waitFor();
-    await tabTo("tab", "Verify");
-    await press("Enter");
-    await tabTo("button", "Verify");
-    await press("Enter");
-    await page.locator(".verdict").first().waitFor();
-    await press("Control+s");
-    await page.getByText("Saved").waitFor();
-    assert.deepEqual(changes(before, server.text()), ["+        wait: {}"]);
-    // Its name, and itself.
-    await press("Control+z", "Control+z");
-    await press("Control+s");
-    await until(page, async () => server.text() === before, "the text of before on disk");
   }));
 
 test("all that is loaded packs into less than a megabyte, and nothing moves for those who asked for stillness", () =>

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import type { RecordedPoses } from "../../live/protocol";
 import { LiveWorld, RecordedWorld } from "../../live/world";
-import { PoseFrames } from "../../model/pose_frames";
+import { PoseFrames } from "../../model/run/pose_frames";
 
 const base64 = (hex: string) => Buffer.from(hex, "hex").toString("base64");
 /** tests/runtime/poses_test.cpp has the same bytes and poses. */

@@ -1,9 +1,9 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import * as edits from "../../model/edits";
-import { diff } from "../../model/merge";
-import { findThing, readStructure, thingAt, type Structure, type Subsystem } from "../../model/structure";
-import { scalarText } from "../../model/yaml_text";
+import * as edits from "../../model/text/edits";
+import { diff } from "../../model/text/merge";
+import { findThing, readStructure, thingAt, type Structure, type Subsystem } from "../../model/structure/structure";
+import { scalarText } from "../../model/text/yaml_text";
 
 const example = readFileSync(new URL("../../../../examples/01_line_follower/spec.yaml", import.meta.url), "utf8");
 const structure = readStructure(example);

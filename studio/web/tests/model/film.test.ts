@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { filmPage } from "../../canvas/film_page";
-import { drawnIn, filmOf, type Drawn } from "../../model/film";
-import { initialMarking, runningBehaviours, Walk } from "../../model/game";
-import { activeTransitions } from "../../model/game";
+import { drawnIn, filmOf, type Drawn } from "../../model/run/film";
+import { initialMarking, runningBehaviours, Walk } from "../../model/net/game";
+import { activeTransitions } from "../../model/net/game";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();

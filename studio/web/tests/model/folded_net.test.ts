@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { activeTransitions, fire } from "../../model/game";
+import { activeTransitions, fire } from "../../model/net/game";
 import { flagsOf } from "../../model/flags";
-import { NetModel, type FoldedNet } from "../../model/net";
-import type { NetJson } from "../../model/net_json";
+import { NetModel, type FoldedNet } from "../../model/net/net";
+import type { NetJson } from "../../model/net/net_json";
 import json from "./ring.json";
 
 // Three robots of one template in a ring and two other agents, as the server sends them and as `tessera show --json` writes them.

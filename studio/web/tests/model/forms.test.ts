@@ -1,11 +1,11 @@
 import { expect, it } from "vitest";
 import schemaText from "../../../../share/tessera/spec.schema.json";
-import { channelEnd, partnersOf } from "../../model/connections";
-import { parameterParts, setParameter, type ParameterParts } from "../../model/parameter_text";
-import { driverKinds, fieldsOf, type Schema } from "../../model/schema_fields";
-import { readStructure } from "../../model/structure";
-import { typeParts, typeText } from "../../model/type_text";
-import { apply, scalarText, YamlText } from "../../model/yaml_text";
+import { channelEnd, partnersOf } from "../../model/structure/connections";
+import { parameterParts, setParameter, type ParameterParts } from "../../model/text/parameter_text";
+import { driverKinds, fieldsOf, type Schema } from "../../model/text/schema_fields";
+import { readStructure } from "../../model/structure/structure";
+import { typeParts, typeText } from "../../model/text/type_text";
+import { apply, scalarText, YamlText } from "../../model/text/yaml_text";
 
 const schema = schemaText as unknown as Schema;
 

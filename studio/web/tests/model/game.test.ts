@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { activeTransitions, fire, initialMarking, runningBehaviours, Walk } from "../../model/game";
+import { activeTransitions, fire, initialMarking, runningBehaviours, Walk } from "../../model/net/game";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();

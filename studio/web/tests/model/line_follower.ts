@@ -1,6 +1,6 @@
 import Elk from "elkjs/lib/elk.bundled.js";
-import type { ElkNode } from "../../model/layout";
-import { NetModel, type FoldedNet } from "../../model/net";
+import type { ElkNode } from "../../model/net/layout";
+import { NetModel, type FoldedNet } from "../../model/net/net";
 import json from "./line_follower.json";
 
 /** The example 01_line_follower as the server sends it. */

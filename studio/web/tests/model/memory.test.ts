@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { memoryOf } from "../../model/memory";
-import { Series, shown } from "../../model/series";
-import { readStructure } from "../../model/structure";
-import { unitOf } from "../../model/units";
+import { memoryOf } from "../../model/run/memory";
+import { Series, shown } from "../../model/run/series";
+import { readStructure } from "../../model/structure/structure";
+import { unitOf } from "../../model/text/units";
 
 const structure = readStructure(`
 system: s

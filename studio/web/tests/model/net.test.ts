@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { rank } from "../../model/rank";
+import { rank } from "../../model/structure/rank";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();

@@ -8,7 +8,7 @@ import {
   released,
   stepOfSlider,
   type ControlShape,
-} from "../../model/panel_inputs";
+} from "../../model/run/panel_inputs";
 
 const control = (
   field: string,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { controlOf, same, stepOf, type ShownParameter } from "../../model/parameters";
+import { controlOf, same, stepOf, type ShownParameter } from "../../model/run/parameters";
 
 const shown = (known: Partial<ShownParameter>): ShownParameter => ({
   path: "robot.v",

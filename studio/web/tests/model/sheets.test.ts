@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { foldedPage, intersects, type Point, type Sheet } from "../../model/geometry";
-import { layoutPage } from "../../model/layout";
-import { NetModel, type FoldedNet, type Page } from "../../model/net";
-import { boxWithin, Sheets } from "../../model/sheets";
+import { foldedPage, intersects, type Point, type Sheet } from "../../model/net/geometry";
+import { layoutPage } from "../../model/net/layout";
+import { NetModel, type FoldedNet, type Page } from "../../model/net/net";
+import { boxWithin, Sheets } from "../../model/net/sheets";
 import { elk, lineFollower } from "./line_follower";
 
 const net = lineFollower();

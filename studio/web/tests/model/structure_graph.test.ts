@@ -1,9 +1,9 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { intersects, type Box, type Point } from "../../model/geometry";
-import { readStructure, type Structure } from "../../model/structure";
-import { connected, drawStructure, type StructureDrawing } from "../../model/structure_graph";
-import { chipLines } from "../../model/structure_layout";
+import { intersects, type Box, type Point } from "../../model/net/geometry";
+import { readStructure, type Structure } from "../../model/structure/structure";
+import { connected, drawStructure, type StructureDrawing } from "../../model/structure/structure_graph";
+import { chipLines } from "../../model/structure/structure_layout";
 import { elk } from "./line_follower";
 
 const orchard = readFileSync(new URL("../e2e/projects/orchard/spec.yaml", import.meta.url), "utf8");

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { History } from "../../model/history";
-import { diff, merge, splice } from "../../model/merge";
+import { diff, merge, splice } from "../../model/text/merge";
 
 describe("History", () => {
   it("undoes what was typed in one go at once, and redoes it", () => {

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { RecordedArrays } from "../../live/arrays";
-import { anglesOf, numbersOf, pixelsOf } from "../../model/views";
-import { fromAbove, Paths, robotsOf } from "../../model/robots";
+import { anglesOf, numbersOf, pixelsOf } from "../../model/net/views";
+import { fromAbove, Paths, robotsOf } from "../../model/run/robots";
 
 const base64 = (numbers: ArrayBufferView) =>
   Buffer.from(numbers.buffer, numbers.byteOffset, numbers.byteLength).toString("base64");

@@ -2,10 +2,10 @@ import { describe, expect, it } from "vitest";
 import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
 import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
-import { niceStep, stepFor } from "../../panels/draw_timeline";
-import { Series, shown } from "../../model/series";
+import { niceStep, stepFor } from "../../panels/plots/draw_timeline";
+import { Series, shown } from "../../model/run/series";
 import { plainColour } from "../../canvas/picture";
-import { differences, Timeline } from "../../model/timeline";
+import { differences, Timeline } from "../../model/run/timeline";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();

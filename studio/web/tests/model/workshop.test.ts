@@ -3,13 +3,13 @@ import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
 import type { Api } from "../../live/api";
 import { mended, Repairs } from "../../live/repairs";
 import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";
-import { changedLines } from "../../model/changed_lines";
-import { buildMessages, functionAt } from "../../model/cpp_function";
-import { csvOf } from "../../model/csv";
-import { renameParameter, renameType } from "../../model/edits";
-import { candidatesFor } from "../../model/repair_edits";
-import { readStructure } from "../../model/structure";
-import { unitOf } from "../../model/units";
+import { changedLines } from "../../model/text/changed_lines";
+import { buildMessages, functionAt } from "../../model/text/cpp_function";
+import { csvOf } from "../../model/run/csv";
+import { renameParameter, renameType } from "../../model/text/edits";
+import { candidatesFor } from "../../model/text/repair_edits";
+import { readStructure } from "../../model/structure/structure";
+import { unitOf } from "../../model/text/units";
 
 const atEnd = (known: Partial<SubsystemAtEnd>): SubsystemAtEnd => ({
   path: "a.control",

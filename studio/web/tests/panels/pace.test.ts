@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { Pace } from "../../panels/pace";
+import { Pace } from "../../panels/run/pace";
 
 /** The part of ten seconds that drawing takes, at sixty frames a second with a change in each. */
 function shares(own: number, whole: number) {

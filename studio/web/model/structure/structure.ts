@@ -1,0 +1,240 @@
+import { isMap, isScalar, isSeq } from "yaml";
+import { YamlText, type YamlPath } from "../text/yaml_text";
+
+/**
+ * A specification as roboticists draw it: agents with a control subsystem, virtual receptors and effectors,
+ * buffers and channels. It is read from the text as far as possible, so that a file with errors is shown,
+ * too. The parser of the server decides what is right and wrong.
+ */
+
+export interface Buffer {
+  name: string;
+  path: string;
+  direction: "input" | "output" | "real";
+  type: string;
+  yaml: YamlPath;
+  line: number;
+}
+export interface Behaviour {
+  name: string;
+  path: string;
+  yaml: YamlPath;
+  line: number;
+  terminal: string;
+  error: string;
+  next: { to: string; when: string }[];
+}
+export type SubsystemKind = "control" | "receptor" | "effector";
+export interface Subsystem {
+  name: string;
+  path: string;
+  kind: SubsystemKind;
+  yaml: YamlPath;
+  line: number;
+  endLine: number;
+  rate: string;
+  start: string;
+  behaviours: Behaviour[];
+  buffers: Buffer[];
+}
+export interface Agent {
+  name: string;
+  yaml: YamlPath;
+  /** The part of the file with its subsystems: at the agent or at its template. */
+  body: YamlPath;
+  template: string;
+  count: string;
+  line: number;
+  subsystems: Subsystem[];
+}
+export interface Channel {
+  index: number;
+  /** As written, `robot[i].control.x`. */
+  from: string;
+  to: string;
+  send: "blocking" | "non_blocking";
+  receive: "blocking" | "non_blocking";
+  timeout: string;
+  model: string;
+  line: number;
+}
+const mode = (end: Channel["send"]) => (end === "blocking" ? "B" : "N");
+
+/** A short description of a channel: the modes of its ends, or its model, and its timeout. */
+export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
+  modes: model || `${mode(send)} → ${mode(receive)}`,
+  timeout,
+});
+
+export interface Structure {
+  yaml: YamlText;
+  system: string;
+  types: string[];
+  agents: Agent[];
+  channels: Channel[];
+}
+export type Thing =
+  | { kind: "agent"; of: Agent }
+  | { kind: "subsystem"; of: Subsystem; agent: Agent }
+  | { kind: "behaviour"; of: Behaviour; subsystem: Subsystem }
+  | { kind: "buffer"; of: Buffer; subsystem: Subsystem }
+  | { kind: "channel"; of: Channel };
+
+/** The path in the drawing: `robot[3].control` is drawn as `robot.control`. */
+export const withoutIndex = (path: string) => path.replace(/\[[^\]]*\]/g, "");
+
+export const channelPath = (index: number) => `channel:${index}`;
+
+export function readStructure(text: string): Structure {
+  const yaml = new YamlText(text);
+  return {
+    yaml,
+    system: yaml.valueText(["system"]) ?? "",
+    types: yaml.keys(["types"]),
+    agents: yaml.keys(["agents"]).map((name) => readAgent(yaml, name)),
+    channels: (yaml.seq(["channels"])?.items ?? []).map((_, index) => readChannel(yaml, index)),
+  };
+}
+
+function readAgent(yaml: YamlText, name: string): Agent {
+  const at = ["agents", name];
+  const template = yaml.valueText([...at, "use"]) ?? "";
+  const body = bodyOf(yaml, at);
+  const subsystems = [
+    ...(yaml.pair([...body, "control"]) ? [readSubsystem(yaml, name, "control", [...body, "control"])] : []),
+    ...(["receptor", "effector"] as const).flatMap((kind) =>
+      yaml.keys([...body, `${kind}s`]).map((own) => readSubsystem(yaml, name, kind, [...body, `${kind}s`, own])),
+    ),
+  ];
+  return { name, yaml: at, body, template, count: yaml.valueText([...at, "count"]) ?? "", line: yaml.line(at), subsystems };
+}
+
+/** A template may refer to another template. */
+function bodyOf(yaml: YamlText, at: YamlPath): YamlPath {
+  const seen = new Set<string>();
+  let body = at;
+  for (let use = yaml.valueText([...body, "use"]); use && !seen.has(use); use = yaml.valueText([...body, "use"])) {
+    seen.add(use);
+    body = ["templates", use];
+  }
+  return body;
+}
+
+function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: YamlPath): Subsystem {
+  const name = String(at.at(-1));
+  const path = `${agent}.${name}`;
+  const buffers = (
+    [
+      ["inputs", "input"],
+      ["outputs", "output"],
+      ["real", "real"],
+    ] as const
+  ).flatMap(([key, direction]) =>
+    yaml.keys([...at, key]).map((own): Buffer => {
+      const where = [...at, key, own];
+      return {
+        name: own,
+        path: `${path}.${own}`,
+        direction,
+        type: yaml.valueText(where) ?? "",
+        yaml: where,
+        line: yaml.line(where),
+      };
+    }),
+  );
+  const behaviours = yaml.keys([...at, "behaviours"]).map((own) => readBehaviour(yaml, path, [...at, "behaviours", own]));
+  const field = (key: string) => yaml.valueText([...at, key]) ?? "";
+  return {
+    name,
+    path,
+    kind,
+    yaml: at,
+    line: yaml.line(at),
+    endLine: yaml.endLine(at),
+    rate: field("rate"),
+    start: field("start"),
+    behaviours,
+    buffers,
+  };
+}
+
+function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behaviour {
+  const name = String(at.at(-1));
+  const field = (key: string) => yaml.valueText([...at, key]) ?? "";
+  return {
+    name,
+    path: `${subsystem}.${name}`,
+    yaml: at,
+    line: yaml.line(at),
+    terminal: field("terminal"),
+    error: field("error"),
+    next: readNext(yaml, [...at, "next"]),
+  };
+}
+
+function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string }[] {
+  const node = yaml.node(at);
+  if (isScalar(node)) return [{ to: String(node.value ?? ""), when: "" }];
+  if (!isSeq(node)) return [];
+  return node.items.map((item, index) =>
+    isMap(item)
+      ? { to: yaml.valueText([...at, index, "to"]) ?? "", when: yaml.valueText([...at, index, "when"]) ?? "" }
+      : { to: yaml.valueText([...at, index]) ?? "", when: "" },
+  );
+}
+
+function readChannel(yaml: YamlText, index: number): Channel {
+  const at = ["channels", index];
+  const line = yaml.line(at);
+  const short = yaml.map(at) ? undefined : yaml.valueText(at);
+  if (short !== undefined) {
+    const [from = "", to = ""] = short.split("->").map((end) => end.trim());
+    return { index, from, to, send: "non_blocking", receive: "non_blocking", timeout: "", model: "", line };
+  }
+  const field = (key: string) => yaml.valueText([...at, key]) ?? "";
+  const mode = (key: string) => (field(key) === "blocking" ? "blocking" : "non_blocking");
+  return {
+    index,
+    from: field("from"),
+    to: field("to"),
+    send: mode("send"),
+    receive: mode("receive"),
+    timeout: field("timeout"),
+    model: field("model"),
+    line,
+  };
+}
+
+/**
+ * The element that a path names: `robot`, `robot.control`, `robot.control.follow`,
+ * `robot.control.line`, `channel:2`.
+ */
+export function findThing(structure: Structure, path: string): Thing | undefined {
+  if (path.startsWith("channel:")) {
+    const of = structure.channels[Number(path.slice(8))];
+    return of && { kind: "channel", of };
+  }
+  const [agentName, ...rest] = withoutIndex(path).split(".");
+  const agent = structure.agents.find((one) => one.name === agentName);
+  if (!agent || rest.length > 2) return undefined;
+  if (rest.length === 0) return { kind: "agent", of: agent };
+  const subsystem = agent.subsystems.find((one) => one.name === rest[0]);
+  if (!subsystem) return undefined;
+  if (rest.length === 1) return { kind: "subsystem", of: subsystem, agent };
+  const behaviour = subsystem.behaviours.find((one) => one.name === rest[1]);
+  if (behaviour) return { kind: "behaviour", of: behaviour, subsystem };
+  const buffer = subsystem.buffers.find((one) => one.name === rest[1]);
+  return buffer && { kind: "buffer", of: buffer, subsystem };
+}
+
+/** The innermost element on a line. */
+export function thingAt(structure: Structure, line: number): string | undefined {
+  const channel = structure.channels.find((one) => one.line === line);
+  if (channel) return channelPath(channel.index);
+  for (const agent of structure.agents)
+    for (const subsystem of agent.subsystems) {
+      if (line < subsystem.line || line > subsystem.endLine) continue;
+      return subsystem.behaviours.find((one) => one.line === line)?.path ?? subsystem.path;
+    }
+  return structure.agents.find((one) => one.line === line)?.name;
+}

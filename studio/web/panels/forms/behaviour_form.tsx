@@ -1,0 +1,98 @@
+import * as edits from "../../model/text/edits";
+import { readStructure, type Behaviour, type Structure, type Subsystem } from "../../model/structure/structure";
+import { CodeForm } from "./code_form";
+import { Choice, Field } from "./field";
+import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
+
+export function BehaviourForm({
+  structure,
+  behaviour,
+  subsystem,
+}: {
+  structure: Structure;
+  behaviour: Behaviour;
+  subsystem: Subsystem;
+}) {
+  const edit = useEdit();
+  const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
+  const set = (key: string) => (text: string) => edit(edits.setField(structure, behaviour.yaml, key, text));
+  return (
+    <>
+      <Field
+        label="Name"
+        value={behaviour.name}
+        wrong={nameProblem(behaviour.name, namesIn(subsystem))}
+        hint="Its C++ function has the same name"
+        onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
+      />
+      <Field
+        label="Terminal condition"
+        mono
+        value={behaviour.terminal}
+        placeholder="never"
+        hint="C++ over in, out, memory, parameters"
+        onChange={set("terminal")}
+      />
+      <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
+      <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
+      <Field label="Sends" mono value={field("send")} placeholder="all outputs" onChange={set("send")} />
+      <Field label="Receives" mono value={field("receive")} placeholder="all inputs" onChange={set("receive")} />
+      <Choice
+        label="Transfer"
+        value={field("transfer") === "parallel" ? "parallel" : "sequential"}
+        choices={[
+          { value: "sequential", title: "one channel after the other" },
+          { value: "parallel", title: "all channels at once" },
+        ]}
+        onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
+      />
+      <CodeForm behaviour={behaviour} subsystem={subsystem} />
+      <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
+      <div className="buttons">
+        <Remove
+          what="behaviour"
+          structure={structure}
+          at={behaviour.yaml}
+          after={() => edits.removeBehaviour(structure, subsystem, behaviour, readStructure)}
+          onClick={(text) => edit(text, subsystem.path)}
+        />
+      </div>
+    </>
+  );
+}
+
+function NextForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
+  const edit = useEdit();
+  const { next } = behaviour;
+  const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
+  const write = (changed: Behaviour["next"]) => edit(edits.setNext(structure, behaviour, changed));
+  const change = (at: number, part: Partial<Behaviour["next"][number]>) =>
+    write(next.map((entry, index) => (index === at ? { ...entry, ...part } : entry)));
+  return (
+    <fieldset className="next">
+      <legend>Then</legend>
+      {next.length === 0 && <p className="faint">the subsystem ends</p>}
+      {next.map((entry, at) => (
+        <div key={at} className="next-entry">
+          <Field
+            label={`Then ${at + 1}: to`}
+            value={entry.to}
+            choices={targets}
+            onChange={(to) => (to ? change(at, { to }) : write(next.filter((_, index) => index !== at)))}
+          />
+          <Field
+            label="when"
+            mono
+            value={entry.when}
+            placeholder="always"
+            choices={["error"]}
+            onChange={(when) => change(at, { when })}
+          />
+        </div>
+      ))}
+      <button onClick={() => write([...next, { to: targets.find((name) => name !== behaviour.name) ?? "end", when: "" }])}>
+        Add what follows
+      </button>
+    </fieldset>
+  );
+}

@@ -1,0 +1,174 @@
+import { useEffect, useId, useRef, useState, type ReactNode } from "react";
+import { useStore, useStudio } from "../../hooks/use";
+import type { FunctionShown } from "../../live/protocol";
+import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
+import type { Behaviour, Subsystem } from "../../model/structure/structure";
+
+/** The C++ function of a behaviour: read, edited, or begun if it is missing. */
+export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
+  const studio = useStudio();
+  const { functions, files, problem } = useStore(studio.sources.store, (all) => all);
+  const text = useStore(studio.draft.store, (draft) => (draft.current ? draft.text : null));
+  // Members of a fleet share the functions of their template.
+  const owner = `${String(subsystem.yaml[1])}.${subsystem.name}`;
+  const known = functions.find((one) => one.subsystem === owner && one.function === behaviour.name);
+  const file = known?.state === "defined" ? known.file : undefined;
+  useEffect(() => {
+    if (text === null) return;
+    const timer = setTimeout(() => void studio.sources.look(), 250);
+    return () => clearTimeout(timer);
+  }, [studio, text]);
+  useEffect(() => {
+    if (file) void studio.sources.open(file);
+  }, [studio, file]);
+  const source = file === undefined ? undefined : files.get(file)?.text;
+  const found = source !== undefined && known?.line ? functionAt(source, known.line) : null;
+  return (
+    <section className="code" aria-label={`C++ of ${behaviour.name}`}>
+      <h3>C++</h3>
+      {problem && <p className="problem-hint">{problem}</p>}
+      {!known && <p className="faint">The function is shown once the specification has no errors.</p>}
+      {known?.state === "missing" && <Missing of={known} />}
+      {known?.state === "unclear" && (
+        <p className="faint">A macro or a template may define it in {known.file}. The linker will tell.</p>
+      )}
+      {known && file && found && (
+        <Edited key={`${file} ${owner}.${behaviour.name}`} known={known} source={source!} found={found} />
+      )}
+      {known && file && source !== undefined && !found && (
+        <p className="faint">
+          It is in {file}, line {known.line}.
+        </p>
+      )}
+    </section>
+  );
+}
+
+function Missing({ of }: { of: FunctionShown }) {
+  const studio = useStudio();
+  return (
+    <>
+      <p className="faint">There is no function {of.function} yet. Without it, the controller cannot be built.</p>
+      <div className="buttons">
+        {of.leftovers.map((from) => (
+          <button key={from} onClick={() => void studio.sources.rename(of, from)}>
+            Rename the function {from}, which no behaviour has
+          </button>
+        ))}
+        <button onClick={() => void studio.sources.add(of)}>Write it into {of.file}</button>
+      </div>
+    </>
+  );
+}
+
+const isWithin = (line: number, { firstLine, lastLine }: FunctionText) => line >= firstLine && line <= lastLine;
+
+/** The functions of behaviours in a source. */
+const functionsIn = (source: string, functions: readonly FunctionShown[], file: string) =>
+  functions.flatMap((one) => (one.file === file && one.line ? (functionAt(source, one.line) ?? []) : []));
+
+/** Puts the cursor of a text to a line, from 0, and a column, from 1. */
+function goTo(area: HTMLTextAreaElement | null, line: number, column: number): void {
+  if (!area) return;
+  const lines = area.value.split("\n");
+  const start = lines.slice(0, line).reduce((sum, one) => sum + one.length + 1, 0);
+  const at = start + Math.min(Math.max(column - 1, 0), lines[line]?.length ?? 0);
+  area.focus();
+  area.setSelectionRange(at, at);
+}
+
+/** A message of the build: where, its line with a caret, what is wrong and what to do. */
+function Message({ of, source, children }: { of: BuildMessage; source: string; children: ReactNode }) {
+  const text = source.split("\n")[of.line - 1] ?? "";
+  const indent = text.length - text.trimStart().length;
+  return (
+    <li className={of.severity}>
+      {children}
+      <pre tabIndex={0} aria-label={`Line ${of.line}`}>
+        {text.trimStart()}
+        {of.column > indent && `\n${" ".repeat(of.column - 1 - indent)}^`}
+      </pre>
+      <p className={of.severity === "error" ? "problem-hint" : "faint"}>
+        {of.severity}
+        {of.code && ` ${of.code}`}: {of.text}
+      </p>
+      {of.hint && <p className="faint">Hint: {of.hint}</p>}
+    </li>
+  );
+}
+
+function Edited({ known, source, found }: { known: FunctionShown; source: string; found: FunctionText }) {
+  const studio = useStudio();
+  const id = useId();
+  const name = `${known.subsystem}.${known.function}`;
+  const [text, show] = useState(studio.sources.unsaved.get(name) ?? found.text);
+  const [base, setBase] = useState(found.text);
+  const build = useStore(studio.runner.store, (all) => all.build);
+  const functions = useStore(studio.sources.store, (all) => all.functions);
+  const setText = (text: string) => {
+    if (text === found.text) studio.sources.unsaved.delete(name);
+    else studio.sources.unsaved.set(name, text);
+    show(text);
+  };
+  useEffect(() => {
+    // Text that is not saved yet stays when the file changes.
+    if (text === base) setText(found.text);
+    setBase(found.text);
+  }, [found.text]);
+  const dirty = text !== found.text;
+  if (!dirty) studio.sources.unsaved.delete(name);
+  const area = useRef<HTMLTextAreaElement>(null);
+  const messages = buildMessages(build, known.file);
+  const inside = messages.filter(({ line }) => line >= found.firstLine && line <= found.lastLine);
+  /** Errors that no form of another function shows: those of the rest of the file. */
+  const outside = messages.filter(
+    ({ line, severity }) =>
+      severity === "error" && !functionsIn(source, functions, known.file).some((one) => isWithin(line, one)),
+  );
+  const save = () => void studio.sources.save(known.file, source.slice(0, found.from) + text + source.slice(found.to));
+  return (
+    <>
+      <label htmlFor={id}>
+        {known.file}, line {found.firstLine}
+      </label>
+      <textarea
+        ref={area}
+        id={id}
+        className="mono"
+        value={text}
+        rows={Math.min(24, Math.max(5, text.split("\n").length + 1))}
+        spellCheck={false}
+        wrap="off"
+        onChange={(event) => setText(event.target.value)}
+        onKeyDown={(event) => {
+          if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
+          event.preventDefault();
+          event.stopPropagation();
+          if (dirty) save();
+        }}
+      />
+      {inside.length + outside.length > 0 && (
+        <ul className="build-messages" aria-label="What the build says">
+          {inside.map((one) => (
+            <Message key={`${one.line} ${one.column} ${one.text}`} of={one} source={source}>
+              <button className="link" onClick={() => goTo(area.current, one.line - found.firstLine, one.column)}>
+                Line {one.line - found.firstLine + 1} of the function
+              </button>
+            </Message>
+          ))}
+          {outside.map((one) => (
+            <Message key={`${one.line} ${one.column} ${one.text}`} of={one} source={source}>
+              {known.file}, line {one.line}
+            </Message>
+          ))}
+        </ul>
+      )}
+      <div className="buttons">
+        <button className={dirty ? "primary" : ""} disabled={!dirty} onClick={save}>
+          Save the function
+        </button>
+        {dirty && <button onClick={() => setText(found.text)}>Discard</button>}
+      </div>
+    </>
+  );
+}

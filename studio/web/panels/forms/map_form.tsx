@@ -1,0 +1,132 @@
+import { useState, type ReactNode } from "react";
+import { useStudio } from "../../hooks/use";
+import { freeName } from "../../model/text/edits";
+import type { Structure } from "../../model/structure/structure";
+import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import { Field } from "./field";
+import { nameProblem } from "./form_parts";
+
+interface MapFormProps {
+  structure: Structure;
+  /** Where the map is; it is made with its first entry. */
+  at: YamlPath;
+  title: string;
+  /** What one entry is called: "type". */
+  one: string;
+  /** A new entry, as text of the file; none: entries are not added here. */
+  fresh?: { name: string; value: string };
+  hint?: string;
+  /** Names are paths and not plain names. */
+  paths?: boolean;
+  /** Offered while a name is typed. */
+  names?: readonly string[];
+  /** Entries that are shown elsewhere. */
+  without?: readonly string[];
+  /** What follows from a new name, besides the key itself: the text with it. */
+  renamed?: (text: string, from: string, to: string) => string;
+  /** The fields of an entry; without them it is shown as text. */
+  fields?: (name: string) => ReactNode;
+}
+
+/** The entries of a map of the specification: each has a name, and fields or a value. */
+export function MapForm(props: MapFormProps) {
+  const { structure, at, title, one, fresh, hint, paths, without = [] } = props;
+  const studio = useStudio();
+  const { yaml } = structure;
+  const [opened, open] = useState<string | null>(null);
+  const taken = yaml.keys(at);
+  return (
+    <fieldset className="map-form">
+      <legend>{title}</legend>
+      {taken
+        .filter((name) => !without.includes(name))
+        .map((name) => (
+          <Entry key={name} of={props} name={name} taken={taken} opened={opened === name} open={open} />
+        ))}
+      {hint && <p className="faint">{hint}</p>}
+      {fresh && (
+        <button
+          onClick={() => {
+            const name = freeName(fresh.name, taken);
+            studio.draft.edit(apply(yaml.text, yaml.insert(at, paths ? scalarText(name) : name, fresh.value)), "edit");
+            open(name);
+          }}
+        >
+          Add {one}
+        </button>
+      )}
+    </fieldset>
+  );
+}
+
+interface EntryProps {
+  of: MapFormProps;
+  name: string;
+  taken: readonly string[];
+  opened: boolean;
+  open: (name: string | null) => void;
+}
+
+function Entry({ of, name, taken, opened, open }: EntryProps) {
+  const { structure, at, paths, names, renamed, fields } = of;
+  const studio = useStudio();
+  const { yaml } = structure;
+  const where = [...at, name];
+  const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
+  const rename = (to: string) => {
+    const text = renamed ? renamed(yaml.text, name, to) : yaml.text;
+    if (text === yaml.text) change(yaml.renameKey(where, to));
+    else studio.draft.edit(text, "edit");
+    open(to);
+  };
+  const wrong = (text: string) =>
+    paths
+      ? text !== name && taken.includes(text)
+        ? `The name ${text} is taken here`
+        : undefined
+      : nameProblem(name, taken)(text);
+  const value = yaml.valueText(where) ?? "";
+  const asText = value.includes("\n") ? (
+    <button className="link" onClick={() => studio.showLine(yaml.line(where))}>
+      {name}: in the text, line {yaml.line(where)}
+    </button>
+  ) : (
+    <Field label={fields ? `${name} as text` : name} mono value={value} onChange={(text) => change(yaml.set(at, name, text))} />
+  );
+  const more = (
+    <button
+      className="quiet"
+      aria-label={`Rename or remove ${name}`}
+      aria-expanded={opened}
+      onClick={() => open(opened ? null : name)}
+    >
+      …
+    </button>
+  );
+  const opening = opened && (
+    <div className="map-more">
+      <Field label={`New name of ${name}`} value={name} wrong={wrong} {...(names ? { choices: names } : {})} onChange={rename} />
+      {fields && asText}
+      <button className="danger" onClick={() => change(yaml.remove(where))}>
+        Remove {name}
+      </button>
+    </div>
+  );
+  if (fields)
+    return (
+      <fieldset className="entry" aria-label={name}>
+        <legend>
+          <span className="mono">{name}</span> {more}
+        </legend>
+        {opening}
+        {fields(name)}
+      </fieldset>
+    );
+  return (
+    <div className="map-entry">
+      {asText}
+      {more}
+      {opening}
+    </div>
+  );
+}

@@ -1,0 +1,134 @@
+import type { Track } from "../../live/track";
+import { Timeline } from "../../model/run/timeline";
+import type { Colours, Size } from "../world/painted";
+
+const axis = 18;
+const names = 108;
+const last = 4;
+
+/**
+ * The time span that is shown: the last seconds; in a recording, the span around the time that is shown.
+ */
+function shownTime(track: Track, seconds: number): { start: number; end: number } {
+  const length = seconds * 1e9;
+  const end = track.end > track.now ? Math.min(track.end, track.now + length / 2) : track.now;
+  return { start: Math.max(end, length) - length, end: Math.max(end, length) };
+}
+
+/** The time at a distance from the left edge of the timeline. */
+export function timeAt(track: Track, seconds: number, x: number, width: number): number {
+  const { start, end } = shownTime(track, seconds);
+  return start + Math.min(1, Math.max(0, (x - names) / (width - names - last))) * (end - start);
+}
+
+/** One lane per subsystem: its behaviours as bands with their names, and its firings as ticks. */
+export function drawTimeline(
+  context: CanvasRenderingContext2D,
+  size: Size,
+  colours: Colours,
+  track: Track,
+  seconds: number,
+): void {
+  const { timeline } = track;
+  const { start, end } = shownTime(track, seconds);
+  const x = (time: number) => names + ((time - start) / (end - start)) * (size.width - names - last);
+  const height = Math.min(34, Math.max(14, (size.height - axis) / Math.max(1, timeline.lanes.length)));
+  context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  context.textBaseline = "middle";
+  drawAxis(context, size, colours, start, end, x);
+  timeline.lanes.forEach((lane, at) => {
+    const y = at * height;
+    if (y > size.height - axis) return;
+    context.fillStyle = colours.text;
+    context.fillText(clip(lane.path, 17), 6, y + height / 2, names - 10);
+    drawBands(context, colours, lane, Math.min(end, track.end), start, x, y, height);
+    drawTicks(context, colours, lane.firings, start, x, y + height - 5, size.width);
+  });
+  if (track.end <= track.now) return;
+  context.fillStyle = colours.text;
+  context.fillRect(x(track.now) - 0.75, 0, 1.5, size.height - axis);
+}
+
+const clip = (text: string, length: number) => (text.length > length ? `…${text.slice(1 - length)}` : text);
+
+function drawAxis(
+  context: CanvasRenderingContext2D,
+  size: Size,
+  colours: Colours,
+  start: number,
+  end: number,
+  x: (time: number) => number,
+): void {
+  const step = stepFor((end - start) / 1e9, size.width - names - last, 6);
+  context.strokeStyle = colours.line;
+  context.fillStyle = colours.faint;
+  for (let second = Math.ceil(start / 1e9 / step) * step; second <= end / 1e9; second += step) {
+    const at = Math.round(x(second * 1e9)) + 0.5;
+    context.beginPath();
+    context.moveTo(at, 0);
+    context.lineTo(at, size.height - axis);
+    context.stroke();
+    context.textAlign = at > size.width - 16 ? "right" : "center";
+    context.fillText(`${Number(second.toFixed(3))} s`, Math.min(at, size.width - 2), size.height - axis / 2);
+  }
+  context.textAlign = "left";
+}
+
+/** Seconds from one number of a time axis to the next: at most so many, and none touches another. */
+export const stepFor = (seconds: number, pixels: number, most: number) =>
+  niceStep(seconds / Math.max(1, Math.min(most, pixels / 44)));
+
+export function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const part = rough / power;
+  return power * (part <= 1 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
+}
+
+/** The darkness of the bands of a lane's first, second, … behaviour. */
+const shades = [0.14, 0.4, 0.26, 0.52];
+
+function drawBands(
+  context: CanvasRenderingContext2D,
+  colours: Colours,
+  { segments, behaviours }: Timeline["lanes"][number],
+  end: number,
+  start: number,
+  x: (time: number) => number,
+  y: number,
+  height: number,
+): void {
+  for (let at = segments.length - 1; at >= 0; at -= 1) {
+    const { start: from, behaviour } = segments[at]!;
+    const to = Math.min(segments[at + 1]?.start ?? end, end);
+    if (to < start) break;
+    if (!behaviour || from > end) continue;
+    const left = x(Math.max(from, start));
+    const width = Math.max(1, x(to) - left);
+    context.fillStyle = colours.accent;
+    context.globalAlpha = shades[behaviours.indexOf(behaviour) % shades.length]!;
+    context.fillRect(left, y + 3, width, height - 9);
+    context.globalAlpha = 1;
+    context.fillRect(left, y + 3, 1.5, height - 9);
+    context.fillStyle = colours.text;
+    if (width > 7 * behaviour.length + 8) context.fillText(behaviour, left + 5, y + height / 2 - 1.5, width - 8);
+  }
+}
+
+function drawTicks(
+  context: CanvasRenderingContext2D,
+  colours: Colours,
+  firings: readonly number[],
+  start: number,
+  x: (time: number) => number,
+  y: number,
+  width: number,
+): void {
+  context.fillStyle = colours.faint;
+  let last = -1;
+  for (let at = Timeline.from(firings, start); at < firings.length; at += 1) {
+    const pixel = Math.round(x(firings[at]!));
+    if (pixel === last || pixel > width) continue;
+    context.fillRect(pixel, y, 1, 3);
+    last = pixel;
+  }
+}

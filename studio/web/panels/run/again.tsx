@@ -1,0 +1,52 @@
+import { useEffect, useState } from "react";
+import { useStore, useStudio } from "../../hooks/use";
+import { againFrom } from "../../live/again";
+
+/** Makes the run again with the code as it is now, and goes on from the moment shown. */
+export function Again() {
+  const studio = useStudio();
+  const { request, state } = useStore(studio.runner.store, (all) => all);
+  const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const current = useStore(studio.draft.store, (draft) => draft.current);
+  const [typed, setTyped] = useState("");
+  const [now, setNow] = useState(0);
+  const { track } = studio.runner;
+  useEffect(() => {
+    const look = () => setNow(track ? track.now / 1e9 : 0);
+    look();
+    const timer = setInterval(look, 250);
+    return () => clearInterval(timer);
+  }, [track, state]);
+  if (request?.kind !== "simulate" || state === "building" || state === "idle") return null;
+  const at = typed === "" ? now : Number(typed);
+  const wrong = !(at >= 0 && at < 1e9);
+  const again = async () => {
+    // A run uses the file on disk.
+    if (dirty && !(await studio.draft.save())) return;
+    const paused = studio.runner.store.get().state === "paused";
+    await studio.runner.stop();
+    await studio.run(againFrom(request, at, paused));
+    setTyped("");
+  };
+  return (
+    <div className="again">
+      <button
+        disabled={!current || wrong}
+        title="Builds the code as it is now, makes the same run again from its beginning, as fast as possible, and goes on from this second"
+        onClick={() => void again()}
+      >
+        {dirty ? "Save, and again from" : "Again from"}
+      </button>
+      <input
+        type="text"
+        inputMode="decimal"
+        aria-label="Again from, in seconds"
+        aria-invalid={wrong}
+        value={typed}
+        placeholder={now.toFixed(2)}
+        onChange={(event) => setTyped(event.target.value)}
+      />
+      <span>s</span>
+    </div>
+  );
+}

@@ -1,0 +1,216 @@
+import { useState } from "react";
+import { useRunning } from "../../hooks/use_stage";
+import { useStore, useStudio } from "../../hooks/use";
+import type { Breakpoint } from "../../live/protocol";
+import { sentence } from "../../model/net/labels";
+import type { NetModel } from "../../model/net/net";
+import { Again } from "./again";
+import { Choice } from "../forms/field";
+import { Icon, IconButton } from "../icons";
+import { OperatorPanels } from "./operator_panel";
+import { OutcomeOf } from "./outcome";
+import { reason, stateTitles } from "../pane_title";
+import { ParametersNow } from "./parameters_now";
+import { StartForm } from "./start_form";
+
+export function RunPanel() {
+  const studio = useStudio();
+  const runner = useStore(studio.runner.store, (all) => all);
+  const active = ["building", "running", "paused"].includes(runner.state);
+  return (
+    <div className="run-panel">
+      <h2 className="visually-hidden">Run</h2>
+      {runner.state !== "idle" && (
+        <p className={`run-state ${runner.state}`} role="status" data-testid="run-state">
+          <span className={`dot ${runner.state === "failed" ? "error" : active ? "good" : ""}`} /> {stateTitles[runner.state]}
+          {runner.why && ` — ${reason(runner.why)}`}
+        </p>
+      )}
+      {runner.problem && <p className="problem-hint">{runner.problem}</p>}
+      {active && !runner.shown && (
+        <div className="buttons">
+          <button onClick={() => studio.showRun()}>Show it in the drawing</button>
+        </div>
+      )}
+      {active ? <Controls /> : <StartForm />}
+      <Again />
+      {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
+      {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
+      {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
+      {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
+      {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
+      <Breakpoints />
+      {runner.build.length > 0 && (
+        <details open={runner.state === "building" || runner.state === "failed"}>
+          <summary>
+            <h3>Build</h3>
+          </summary>
+          <pre className="build" tabIndex={0} aria-label="Output of the build">
+            {runner.build.join("\n")}
+          </pre>
+        </details>
+      )}
+    </div>
+  );
+}
+
+function Controls() {
+  const studio = useStudio();
+  const { state, kind, speed } = useStore(studio.runner.store, (all) => all);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const [subsystem, setSubsystem] = useState("");
+  const control = studio.runner.control.bind(studio.runner);
+  const paused = state === "paused";
+  // On the steady clock, nothing can be paused.
+  const paced = kind !== "run" && kind !== "deployment";
+  const subsystems = net?.subsystemPages().map((page) => net.page(page).path) ?? [];
+  return (
+    <>
+      <div className="buttons" style={{ marginTop: 0 }}>
+        {paced && (
+          <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
+            <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
+          </button>
+        )}
+        <button onClick={() => void control({ command: "stop" })}>
+          <Icon name="stop" /> {kind === "attach" || kind === "deployment" ? "Let go" : "Stop"}
+        </button>
+      </div>
+      {paced && (
+        <>
+          <div className="buttons">
+            <button disabled={!paused} onClick={() => void control({ command: "step_firing" })}>
+              Step one firing
+            </button>
+            <button
+              disabled={!paused}
+              onClick={() =>
+                void control({
+                  command: "step_iteration",
+                  ...(subsystem || subsystems[0] ? { subsystem: subsystem || subsystems[0]! } : {}),
+                })
+              }
+            >
+              Step one iteration
+            </button>
+          </div>
+          {subsystems.length > 1 && (
+            <Choice
+              label="Iteration of"
+              value={subsystem || subsystems[0]!}
+              onChange={setSubsystem}
+              choices={subsystems.map((path) => ({ value: path, title: path }))}
+            />
+          )}
+          <SpeedSlider speed={speed} onChange={(value) => void studio.runner.setSpeed(value)} />
+        </>
+      )}
+    </>
+  );
+}
+
+function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: number) => void }) {
+  const exact = (power: number) => Number((10 ** power).toPrecision(2));
+  return (
+    <div className="field">
+      <label htmlFor="speed">
+        Speed <strong>{speed} ×</strong>
+      </label>
+      <input
+        id="speed"
+        type="range"
+        min={-1}
+        max={2}
+        step={0.1}
+        value={Math.log10(speed)}
+        onChange={(event) => onChange(exact(Number(event.target.value)))}
+      />
+    </div>
+  );
+}
+
+/** Who can do nothing at this moment, and whom they wait for. */
+function WhoWaits() {
+  const studio = useStudio();
+  const { shown, problem } = useStore(studio.lens.store, (all) => all);
+  return (
+    <>
+      <div className="buttons">
+        <button onClick={() => (shown ? studio.lens.close() : void studio.lens.look(studio.runner.stage.marking))}>
+          {shown ? "Close the lens" : "Who waits now?"}
+        </button>
+      </div>
+      {problem && <p className="faint">{problem}</p>}
+      {shown && (
+        <ul className="at-end">
+          {shown.atEnd.map(({ text }) => (
+            <li key={text}>{sentence(text)}</li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}
+
+/** The behaviours that run now, by subsystem. */
+function RunningNow() {
+  const studio = useStudio();
+  const running = useRunning(studio.runner.stage);
+  return (
+    <>
+      <h3>Running now</h3>
+      <ul className="running-now">
+        {[...running].slice(0, 60).map(([path, behaviour]) => (
+          <li key={path}>
+            <button className="choice" onClick={() => studio.flyTo(`${path}.${behaviour}`)}>
+              <span className="path">{path}</span>
+              <span className="chip running">{behaviour}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+function Breakpoints() {
+  const studio = useStudio();
+  const breakpoints = useStore(studio.runner.store, (all) => all.breakpoints);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  if (breakpoints.length === 0 || !net) return null;
+  return (
+    <>
+      <h3>Breakpoints</h3>
+      <ul className="choice-list">
+        {breakpoints.map((breakpoint) => {
+          const { path, where } = placeOf(net, breakpoint);
+          return (
+            <li key={where}>
+              <button className="choice" onClick={() => studio.flyTo(path)}>
+                {where}
+              </button>
+              <IconButton
+                name="remove"
+                label={`Remove the breakpoint at ${where}`}
+                onClick={() => studio.runner.toggleBreakpoint(breakpoint)}
+              />
+            </li>
+          );
+        })}
+      </ul>
+    </>
+  );
+}
+
+function placeOf(net: NetModel, breakpoint: Breakpoint): { path: string; where: string } {
+  if ("place" in breakpoint) {
+    const path = net.places.at(breakpoint.place)?.name ?? "";
+    return { path, where: path };
+  }
+  if ("transition" in breakpoint) {
+    const path = net.transitions.at(breakpoint.transition)?.name ?? "";
+    return { path, where: path };
+  }
+  const path = net.transitions.at(breakpoint.condition)?.name ?? "";
+  return { path, where: `condition of ${path}` };
+}

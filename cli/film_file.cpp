@@ -131,7 +131,7 @@ std::string FilmFile::finish(bool complete) {
     while (waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
     child_ = -1;
     if (film_interrupted == 0 && (!WIFEXITED(status) || WEXITSTATUS(status) != 0))
-      return "ffmpeg failed; what it says stands above\nhint: --film FILE.png needs no other program";
+      return "ffmpeg failed; its message stands above\nhint: --film FILE.png needs no other program";
   }
   if (film_interrupted != 0) return fmt::format("interrupted: there is no new '{}'", file_);
   if (!complete || !reason_.empty()) return fmt::format("cannot write '{}': {}", file_, reason_);

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       "`tessera COMMAND --help` shows the options of a command, with examples.");
   line.option(
       "--state", "DIR", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
-      "Where Tessera keeps what it builds and records, instead of in .tessera of the project "
+      "The folder for builds and recordings, instead of .tessera of the project "
       "(or TESSERA_STATE_DIR)");
   int exit_code = cli::ok;
   for (auto* add : {cli::add_new,       cli::add_check,    cli::add_show,    cli::add_verify,

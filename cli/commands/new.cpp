@@ -180,7 +180,7 @@ void add_new(CommandLine& app, int& exit_code) {
   command.option("name", *name, "Folder to make; its last part names the system").required();
   command
       .option("--robot", *robot,
-              "What to begin with: a robot that follows a line, a rover with a laser, an arm over a wall, "
+              "The robot to begin with: one that follows a line, a rover with a laser, an arm over a wall, "
               "or two rovers that share a crossing")
       .one_of(names)
       .shows_default();

@@ -199,7 +199,7 @@ void add_reset(CommandLine& app, int& exit_code) {
   command.option("controller,--controller", options->which,
                  "Its system, its process (cart[0]) or its process number; needed if several run");
   command.footer(
-      "Of a system of several processes, name the system: all its processes on this machine that have an\n"
+      "If a system has several processes, name the system: all its processes on this machine that have an\n"
       "emergency stop are reset.");
   command.callback([options, &exit_code] { exit_code = reset_command(*options); });
 }

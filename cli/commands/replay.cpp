@@ -375,10 +375,10 @@ void add_replay(CommandLine& app, int& exit_code) {
                      ".webm and .gif");
   command
       .option("--camera", options->film.camera,
-              "Of a film: a camera of the world (default: all robots in view)")
+              "Films: a camera of the world (default: all robots in view)")
       .needs(film);
-  command.option("--speed", options->film.speed, "Of a film: so many times as fast as the run").needs(film);
-  command.option("--size", options->film.size, "Of a film: WIDTHxHEIGHT in pixels")
+  command.option("--speed", options->film.speed, "Films: so many times as fast as the run").needs(film);
+  command.option("--size", options->film.size, "Films: WIDTHxHEIGHT in pixels")
       .shows_default()
       .needs(film);
   for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",

@@ -225,12 +225,12 @@ void add_simulate(CommandLine& app, int& exit_code) {
               "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report what fails, how "
               "often, and how likely that is")
           .within(1, std::numeric_limits<int>::max());
-  command.option("--part", options->schedules.part, "Of schedules: only one part of the seeds, 3/20");
+  command.option("--part", options->schedules.part, "Schedules: only one part of the seeds, 3/20");
   command
-      .option("--jobs", options->schedules.jobs, "Of schedules: processes at a time (default: one per core)")
+      .option("--jobs", options->schedules.jobs, "Schedules: processes at a time (default: one per core)")
       .within(1, most_jobs);
   command.option("--results", options->schedules.results,
-                 "Of schedules: write the counts to this file, which `tessera merge` joins with others");
+                 "Schedules: write the counts to this file, which `tessera merge` joins with others");
   command.flag("--coverage", options->coverage, shown_only,
                "Show what of the net was not reached; --coverage=FILE writes JSON, too");
   command.flag(
@@ -243,7 +243,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
           "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
           "then not faster than the wall clock (docs/ros2.md)")
       .excludes(schedules);
-  command.option("--steps", options->steps, "Of a PNML file, which has no controller: how often to fire")
+  command.option("--steps", options->steps, "PNML files, which have no controller: how often to fire")
       .shows_default();
   command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command.option("--report", options->report, "Folder for a page and a picture of the run")
@@ -274,9 +274,9 @@ namespace {
 
 void declare_deployment_options(Subcommand& command, RunCommandOptions& options) {
   Option deploy = command.flag("--deploy", options.deploy.asked,
-                               "Of a system with `deploy`: start all processes whose host is this machine");
+                               "Systems with `deploy`: start all processes whose host is this machine");
   Option process =
-      command.option("--process", options.process, "Of a system with `deploy`: run this process");
+      command.option("--process", options.process, "Systems with `deploy`: run this process");
   deploy.excludes(process);
   command
       .option("--only", options.deploy.only,

@@ -98,7 +98,7 @@ json Client::exchange(json request, Duration patience) {
   }
   json reply = from_bounded_cbor(socket_.ask(json::to_cbor(request), patience));
   if (reply.is_object()) return reply;
-  throw LinkError("what answers at " + name_ + " speaks another protocol: the reply is no map in CBOR");
+  throw LinkError("the program at " + name_ + " speaks another protocol: the reply is no map in CBOR");
 }
 
 json Client::call(const std::string& function, json arguments, Duration patience) try {

@@ -81,7 +81,7 @@ void RequestSocket::throw_if_lost() {
   std::uint16_t kind = 0;
   std::memcpy(&kind, event.bytes().data(), sizeof kind);
   if (kind == ZMQ_EVENT_DISCONNECTED) throw LinkError("the server at " + name_ + " has gone" + doubt());
-  throw LinkError("what listens at " + name_ + " speaks no ZeroMQ; is it CoppeliaSim's remote API?");
+  throw LinkError("the program at " + name_ + " speaks no ZeroMQ; is it CoppeliaSim's remote API?");
 }
 
 /// Another program may listen there.
@@ -90,7 +90,7 @@ std::string RequestSocket::doubt() const { return has_answered_ ? "" : "; is it 
 std::vector<std::uint8_t> RequestSocket::receive() {
   Message reply;
   if (!reply.receive(socket_.get(), 0)) fail("no reply from " + name_);
-  if (reply.more()) throw LinkError("what answers at " + name_ + " speaks another protocol: several frames");
+  if (reply.more()) throw LinkError("the program at " + name_ + " speaks another protocol: several frames");
   has_answered_ = true;
   return {reply.bytes().begin(), reply.bytes().end()};
 }

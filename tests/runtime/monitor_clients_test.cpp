@@ -98,7 +98,7 @@ TEST_F(Controlled, EndsWithItsOwner) {
   close(socket_);
   socket_ = -1;
   running_.join();
-  EXPECT_EQ(summary_.ended, "stopped: who started it has gone");
+  EXPECT_EQ(summary_.ended, "stopped: the process that started it has ended");
 }
 
 TEST_F(Controlled, ExecutesCommandsOfAClientThatHasGone) {

@@ -153,7 +153,7 @@ TEST(Protocol, OtherProtocolsAreNamed) {
                 "not match'");
   EXPECT_EQ(problem_after({json::to_cbor(json::object())}), who + "speaks another version of the remote API");
   const std::string what =
-      "what answers at 127.0.0.1:PORT speaks another protocol: the reply is no map in CBOR";
+      "the program at 127.0.0.1:PORT speaks another protocol: the reply is no map in CBOR";
   for (const Bytes& garbage :
        {bytes_of("hello"), Bytes{}, Bytes{0xa1}, Bytes{0x81, 0x00}, Bytes(1'000'000, 0x81)})
     EXPECT_EQ(problem_after({garbage}), what);

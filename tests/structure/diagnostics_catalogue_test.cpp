@@ -24,8 +24,8 @@ std::string text_of(const fs::path& file) {
 Codes codes_of_sources() {
   static const std::regex quoted_code(R"re("([EW]\d{3})")re");
   Codes codes;
-  for (const char* room : {"src", "cli", "studio/server"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+  for (const char* module : {"src", "cli", "studio/server"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / module)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
       const std::string text = text_of(entry.path());
       for (std::sregex_iterator at(text.begin(), text.end(), quoted_code), end; at != end; ++at)

@@ -88,7 +88,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
           "SUBSYSTEM or BUFFER that has its real driver in a simulated run (hardware in the loop); the "
           "simulated clock is then not faster than the wall clock")
       ->allow_extra_args(false);
-  command.add_option("--seed", options.seed, "Of ties and sensor noise")->capture_default_str();
+  command.add_option("--seed", options.seed, "The seed of ties and sensor noise")->capture_default_str();
   command.add_option("--summary", line.summary, "Write the result of the run as JSON; - is standard output");
   command.add_flag("--accept-stuck", options.accept_stuck,
                    "A subsystem that waits for ever, while others go on, is no failure");
@@ -267,10 +267,10 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                      "Subsystems take turns after every firing, drawn from the seed");
   simulate->add_option("--schedules", line.schedules,
                        "Try so many seeds from --seed on, interleaved; report how many fail, and of what");
-  simulate->add_option("--jobs", line.jobs, "Of schedules: processes at a time (default: one per core)")
+  simulate->add_option("--jobs", line.jobs, "Schedules: processes at a time (default: one per core)")
       ->check(CLI::Range(1U, most_jobs));
   simulate->add_flag("--coverage", line.coverage,
-                     "Of schedules: the summary says how often each transition fired");
+                     "Schedules: the summary says how often each transition fired");
   simulate->add_option("--from", line.from,
                        "Run user code again on the inputs of this recording, and compare the results");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");

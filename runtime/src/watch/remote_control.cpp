@@ -137,7 +137,7 @@ Snapshot::Simulation RemoteControl::shown() const {
 }
 
 void RemoteControl::abandon() {
-  assembly_.control.request_stop("who started it has gone", /*fault=*/false);
+  assembly_.control.request_stop("the process that started it has ended", /*fault=*/false);
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
 }

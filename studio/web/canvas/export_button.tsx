@@ -28,10 +28,10 @@ export function ExportButtons({ name, film }: { name: string; film?: boolean }) 
   return (
     <>
       {film && <FilmButton busy={busy} onTake={(make) => void save(make, "html")} />}
-      <button className="quiet" disabled={busy} title="What is seen, as SVG" onClick={() => void save(svg, "svg")}>
+      <button className="quiet" disabled={busy} title="The visible part, as SVG" onClick={() => void save(svg, "svg")}>
         SVG
       </button>
-      <button className="quiet" disabled={busy} title="What is seen, as PNG" onClick={() => void save(png, "png")}>
+      <button className="quiet" disabled={busy} title="The visible part, as PNG" onClick={() => void save(png, "png")}>
         PNG
       </button>
     </>

@@ -179,7 +179,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
           title="Safe command"
           one="safe value"
           fresh={{ name: subsystem.buffers.find(({ direction }) => direction === "real")!.name, value: "0" }}
-          hint="What the devices get when the subsystem stops or fails"
+          hint="The command that the devices get when the subsystem stops or fails"
         />
       )}
     </>

@@ -107,6 +107,6 @@ function Facts({ track }: { track: Track }) {
     const timer = setInterval(tell, 100);
     return () => clearInterval(timer);
   }, [track, state]);
-  const sampled = "Of a run that fires faster than can be sent, some firings are counted and not drawn one by one";
+  const sampled = "The run fires faster than can be sent: some firings are counted and not drawn one by one";
   return <span ref={ref} className="facts" data-testid="run-facts" title={sampled} />;
 }

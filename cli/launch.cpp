@@ -27,9 +27,8 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
       .repeated();
   command.option("--parameters", options.parameters,
                  "YAML file of parameters (default: params.yaml of the project)");
-  command.option(
-      "--record", options.record,
-      "The file of the recording (default: in the folder of the run, which .tessera/last shows)");
+  command.option("--record", options.record,
+                 "The file of the recording (default: in the folder of the run, which .tessera/last shows)");
   command.option(
       "--record-limit", options.record_limit,
       "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB; "

@@ -374,13 +374,10 @@ void add_replay(CommandLine& app, int& exit_code) {
                      "Draw the simulated run: FILE.png (animated) or FILE.y4m; with ffmpeg also .mp4, "
                      ".webm and .gif");
   command
-      .option("--camera", options->film.camera,
-              "Films: a camera of the world (default: all robots in view)")
+      .option("--camera", options->film.camera, "Films: a camera of the world (default: all robots in view)")
       .needs(film);
   command.option("--speed", options->film.speed, "Films: so many times as fast as the run").needs(film);
-  command.option("--size", options->film.size, "Films: WIDTHxHEIGHT in pixels")
-      .shows_default()
-      .needs(film);
+  command.option("--size", options->film.size, "Films: WIDTHxHEIGHT in pixels").shows_default().needs(film);
   for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",
                             "--coverage", "--last", "--subsystem", "--containing"})
     film.excludes(command.declared(other));

@@ -226,8 +226,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
               "often, and how likely that is")
           .within(1, std::numeric_limits<int>::max());
   command.option("--part", options->schedules.part, "Schedules: only one part of the seeds, 3/20");
-  command
-      .option("--jobs", options->schedules.jobs, "Schedules: processes at a time (default: one per core)")
+  command.option("--jobs", options->schedules.jobs, "Schedules: processes at a time (default: one per core)")
       .within(1, most_jobs);
   command.option("--results", options->schedules.results,
                  "Schedules: write the counts to this file, which `tessera merge` joins with others");
@@ -275,8 +274,7 @@ namespace {
 void declare_deployment_options(Subcommand& command, RunCommandOptions& options) {
   Option deploy = command.flag("--deploy", options.deploy.asked,
                                "Systems with `deploy`: start all processes whose host is this machine");
-  Option process =
-      command.option("--process", options.process, "Systems with `deploy`: run this process");
+  Option process = command.option("--process", options.process, "Systems with `deploy`: run this process");
   deploy.excludes(process);
   command
       .option("--only", options.deploy.only,

@@ -17,6 +17,7 @@ import { useStudio, useStore } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
+import { channelEnd } from "../model/structure/connections";
 import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
 import { channelOf } from "../model/text/repair_edits";
 import { drawStructure, type StructureDrawing } from "../model/structure/structure_graph";
@@ -186,12 +187,9 @@ function Drawing() {
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
-    const end = (path: string) => {
-      const agent = structure.agents.find((one) => path.startsWith(`${one.name}.`));
-      return agent?.count ? path.replace(agent.name, `${agent.name}[i]`) : path;
-    };
+    const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
     studio.draft.edit(
-      addChannel(structure, end(sourceHandle), end(targetHandle), { send: "non_blocking", receive: "non_blocking", timeout: "" }),
+      addChannel(structure, from, to, { send: "non_blocking", receive: "non_blocking", timeout: "" }),
       "edit",
     );
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });

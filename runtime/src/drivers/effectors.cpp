@@ -60,7 +60,10 @@ Effectors::Answer Effectors::command(Time now) {
     const Lock lock(device, Busy::waits);
     // Checked under the lock: the safe command of another thread is then the later one.
     if (control_.withholds_commands()) return Answer::withheld;
-    if (!write(device, now)) return Answer::refused;
+    if (!write(device, now)) {
+      refuser_ = device.its.name;
+      return Answer::refused;
+    }
     device.safe = false;
     // A thread that withholds commands and then finds the device in use relies on
     // this thread to notice that.

@@ -63,6 +63,8 @@ class Effectors {
   /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops.
   /// Passes on what a driver throws.
   [[nodiscard]] Answer command(Time now);
+  /// The device that has refused a command last.
+  [[nodiscard]] std::string_view refuser() const { return refuser_; }
 
   enum class Busy : std::uint8_t { waits, leaves_out };
   /// Gives all devices the safe command, once. A driver that throws has refused. true: all devices have
@@ -117,6 +119,7 @@ class Effectors {
   const Clock& clock_;
   std::size_t count_;
   std::unique_ptr<Device[]> devices_;
+  std::string_view refuser_;
 };
 
 /// "no valid value has come to input 'velocity' yet"

@@ -11,18 +11,6 @@ namespace tessera::sim {
 namespace {
 
 constexpr Duration sampling_period = std::chrono::milliseconds(10);
-constexpr double line_threshold = 0.5;
-
-/// The point nearest to the mean of all: for three sensors in a row, the middle one.
-Point middle_of(const std::vector<Point>& points) {
-  Point mean;
-  for (const Point& p : points) {
-    mean.x_m += p.x_m / static_cast<double>(points.size());
-    mean.y_m += p.y_m / static_cast<double>(points.size());
-  }
-  return *std::ranges::min_element(
-      points, {}, [&](const Point& p) { return std::hypot(p.x_m - mean.x_m, p.y_m - mean.y_m); });
-}
 
 /// nullopt: no body that can move carries it.
 std::optional<WorldScene::Eye> eye_of_scene(const Physics& physics, int site, double footprint_m) {
@@ -44,7 +32,7 @@ std::optional<WorldScene::Eye> eye_of_scene(const Physics& physics, int site, do
 }  // namespace
 
 Simulation::Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace)
-    : physics_(std::move(physics)), floor_(std::move(floor)), trace_(std::move(trace)) {}
+    : physics_(std::move(physics)), eyes_(std::move(floor)), trace_(std::move(trace)) {}
 
 void Simulation::advance_to(Time time) {
   const std::scoped_lock lock(mutex_);
@@ -53,14 +41,15 @@ void Simulation::advance_to(Time time) {
     watched_.look(*physics_);
     if (physics_->next_time() > time.time_since_epoch()) break;
     physics_->step();
-    if (judging_) judging_->after_step();
+    if (judging_ && physics_->failure().empty()) judging_->after_step();
   }
+  throw_failure();
 }
 
 std::optional<Problem> Simulation::judge_by(const std::string& checks_json) {
   const std::scoped_lock lock(mutex_);
   if (checks_json.empty()) return std::nullopt;
-  Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_);
+  Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_, eyes_);
   if (!judging) return Problem{judging.problem()};
   judging_ = std::move(*judging);
   return std::nullopt;
@@ -68,7 +57,7 @@ std::optional<Problem> Simulation::judge_by(const std::string& checks_json) {
 
 std::optional<Problem> Simulation::problem_with_checks(const std::string& checks_json) {
   const std::scoped_lock lock(mutex_);
-  const Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_);
+  const Result<std::unique_ptr<Judging>> judging = Judging::read(checks_json, *physics_, eyes_);
   return judging ? std::nullopt : std::optional(Problem{judging.problem()});
 }
 
@@ -86,8 +75,8 @@ std::string Simulation::results() {
 
 WorldScene Simulation::scene(std::span<const DriverRequest> devices) const {
   const std::scoped_lock lock(mutex_);
-  WorldScene scene = PoseSampler::scene(*physics_, floor_ ? &*floor_ : nullptr, devices);
-  for (const Eye& eye : eyes_)
+  WorldScene scene = PoseSampler::scene(*physics_, eyes_.floor(), devices);
+  for (const Eyes::Eye& eye : eyes_.all())
     if (const auto seen = eye_of_scene(*physics_, eye.site, eye.footprint_m)) scene.eyes.push_back(*seen);
   return scene;
 }
@@ -107,14 +96,10 @@ void Simulation::sample() {
                    .x_m = robot.at.x_m,
                    .y_m = robot.at.y_m,
                    .heading_rad = robot.heading_rad};
-  std::vector<Point> positions;
-  for (std::size_t eye = 0; eye < eyes_.size(); ++eye) {
-    positions.push_back(physics_->site_position(eyes_[eye].site));
-    point.on_line = point.on_line || light_under(*physics_, eye) < line_threshold;
-  }
-  const Point middle = positions.empty() ? robot.at : middle_of(positions);
-  point.eye_x_m = middle.x_m;
-  point.eye_y_m = middle.y_m;
+  const std::optional<Eyes::Look> look = eyes_.look(*physics_, std::nullopt);
+  point.on_line = look && look->on_line;
+  point.eye_x_m = look ? look->middle.x_m : robot.at.x_m;
+  point.eye_y_m = look ? look->middle.y_m : robot.at.y_m;
   trace_.add(point);
 }
 
@@ -134,9 +119,8 @@ std::optional<Problem> Simulation::finish() {
 
 std::size_t Simulation::add_eye(int site, double footprint_m) {
   const std::scoped_lock lock(mutex_);
-  eyes_.push_back({site, footprint_m});
   robots_.insert(physics_->root_of_site(site));
-  return eyes_.size() - 1;
+  return eyes_.add({site, footprint_m});
 }
 
 void Simulation::add_robot_of_site(int site) {
@@ -152,11 +136,6 @@ void Simulation::add_robot_of_actuator(int actuator) {
 void Simulation::wrap(int joint, double length) {
   const std::scoped_lock lock(mutex_);
   physics_->wrap(joint, length);
-}
-
-double Simulation::light_under(const Physics& physics, std::size_t eye) const {
-  const Eye& one = eyes_[eye];
-  return floor_ ? floor_->reflectance(physics.site_position(one.site), one.footprint_m) : 1;
 }
 
 void Simulation::throw_failure() const {

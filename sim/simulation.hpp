@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/engine/physics.hpp"
+#include "sim/eyes.hpp"
 #include "sim/judging/judging.hpp"
 #include "sim/pose_sampler.hpp"
 #include "sim/trace_writer.hpp"
@@ -35,6 +36,7 @@ class Simulation {
   /// As Judging::results; judges what holds at the end.
   [[nodiscard]] std::string results();
 
+  /// Throws std::runtime_error once the physics has failed.
   void advance_to(Time time);
   /// What tessera::World says about them.
   [[nodiscard]] WorldScene scene(std::span<const DriverRequest> devices) const;
@@ -51,6 +53,14 @@ class Simulation {
     throw_failure();
   }
 
+  /// The same for commands, which a world takes also after its physics has failed: nothing moves any more, so
+  /// every command is obeyed.
+  template <class Use>
+  void command(Use&& use) {
+    const std::scoped_lock lock(mutex_);
+    std::forward<Use>(use)(*physics_);
+  }
+
   /// A site as a light sensor, which from now on counts for the trace. Returns its number.
   [[nodiscard]] std::size_t add_eye(int site, double footprint_m);
   /// The robot that has such a device counts for the trace.
@@ -60,21 +70,18 @@ class Simulation {
   void wrap(int joint, double length);
 
   /// 0 dark .. 1 bright, without noise. Called from within `use`.
-  [[nodiscard]] double light_under(const Physics& physics, std::size_t eye) const;
+  [[nodiscard]] double light_under(const Physics& physics, std::size_t eye) const {
+    return eyes_.light_under(physics, eye);
+  }
 
  private:
-  struct Eye {
-    int site;
-    double footprint_m;
-  };
   void sample();
   [[nodiscard]] std::vector<std::string> robot_names() const;
   void throw_failure() const;
 
   mutable std::mutex mutex_;
   std::unique_ptr<Physics> physics_;
-  std::optional<Track> floor_;
-  std::vector<Eye> eyes_;
+  Eyes eyes_;
   std::unique_ptr<Judging> judging_;    // nullptr: there is nothing to judge
   std::set<Physics::RootBody> robots_;  // that have devices
   TraceWriter trace_;

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,6 +14,7 @@ namespace {
 
 struct Drive {
   int id = 0;
+  std::string name;
   bool limited = false;
   double least = 0, most = 0;
 
@@ -22,10 +26,13 @@ struct Drive {
     const double rounding = 1e-6 * std::max(std::abs(least), std::abs(most));
     return clamp || std::abs(command - inside) <= rounding ? std::optional(inside) : std::nullopt;
   }
+  [[nodiscard]] std::string refusal(double command) const {
+    return fmt::format("actuator '{}' takes {:.4g} to {:.4g}, not {:.6g}", name, least, most, command);
+  }
 };
 
-Drive drive_of(const mjModel& model, int id) {
-  return {id, model.actuator_ctrllimited[id] != 0, model.actuator_ctrlrange[2 * id],
+Drive drive_of(const mjModel& model, int id, const std::string& name) {
+  return {id, name, model.actuator_ctrllimited[id] != 0, model.actuator_ctrlrange[2 * id],
           model.actuator_ctrlrange[2 * id + 1]};
 }
 
@@ -65,7 +72,7 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
   std::optional<Wrap> wrap;
   context.simulation->use([&](const Physics& physics) {
     for (const std::string& name : request.targets)
-      drives.push_back(drive_of(physics.model(), element_of(physics, mjOBJ_ACTUATOR, request, name)));
+      drives.push_back(drive_of(physics.model(), element_of(physics, mjOBJ_ACTUATOR, request, name), name));
     wrap = wrap_of(physics, request, options);
   });
   options.refuse_others();
@@ -75,9 +82,10 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
   for (const Drive& drive : drives) context.simulation->add_robot_of_actuator(drive.id);
   if (wrap) context.simulation->wrap(wrap->joint, wrap->length);
   return commanding(context.simulation, std::move(buffer),
-                    [drives, clamp](Physics& physics, std::span<const double> numbers) {
+                    [drives, clamp, path = request.path](Physics& physics, std::span<const double> numbers) {
                       for (std::size_t index = 0; index < drives.size(); ++index)
-                        if (!drives[index].within(numbers[index], clamp)) return false;
+                        if (!drives[index].within(numbers[index], clamp))
+                          throw std::runtime_error(path + ": " + drives[index].refusal(numbers[index]));
                       for (std::size_t index = 0; index < drives.size(); ++index)
                         physics.command(drives[index].id, *drives[index].within(numbers[index], clamp));
                       return true;

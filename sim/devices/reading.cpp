@@ -40,7 +40,7 @@ class Commanding final : public RealEffector {
     const std::span<const double> numbers = buffer_.take(value);
     if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); })) return false;
     bool taken = false;
-    simulation_->use([&](Physics& physics) { taken = act_(physics, numbers); });
+    simulation_->command([&](Physics& physics) { taken = act_(physics, numbers); });
     return taken;
   }
 

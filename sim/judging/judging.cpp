@@ -31,7 +31,8 @@ Result<Check> check_of(const json& written) {
   const auto text = written.at("formula").get<std::string>();
   checks::Parsed<checks::Formula> formula = checks::parse_formula(text, checks::no_units);
   if (!when || !formula.value) return unreadable(text, formula.mistake.text);
-  Check check{written.at("name").get<std::string>(), *when, *std::move(formula.value), std::nullopt};
+  Check check{written.at("name").get<std::string>(), *when, *std::move(formula.value), std::nullopt,
+              written.value("text", "")};
   if (written.contains("within_s")) check.within_s = written.at("within_s").get<double>();
   return check;
 }
@@ -69,8 +70,9 @@ json json_of(const checks::Judge::Plotted& plotted) {
 
 }  // namespace
 
-Result<std::unique_ptr<Judging>> Judging::read(const std::string& text, const Physics& physics) {
-  std::unique_ptr<Judging> judging(new Judging(physics));
+Result<std::unique_ptr<Judging>> Judging::read(const std::string& text, const Physics& physics,
+                                               const Eyes& eyes) {
+  std::unique_ptr<Judging> judging(new Judging(physics, eyes));
   const json written = text.empty() ? json::object() : json::parse(text);
   std::vector<Check> all_checks;
   std::vector<checks::Measure> all_measures;
@@ -97,13 +99,18 @@ void Judging::after_step() {
   scene_.note_contacts();
   if (physics_.time() < next_) return;
   next_ += period;
+  scene_.follow_lines();
   judge_->observe(seconds(physics_.time()));
   scene_.forget_contacts();
 }
 
 void Judging::finish() {
   if (!judge_ || std::exchange(finished_, true)) return;
-  judge_->finish(seconds(physics_.time()));
+  static_cast<void>(physics_.state());  // it may fail only now
+  if (physics_.failure().empty())
+    judge_->finish(seconds(physics_.time()));
+  else
+    judge_->cut_short();
 }
 
 std::vector<WorldFailure> Judging::take_failures() {

@@ -15,9 +15,11 @@ namespace tessera::sim {
 /// The checks and measures of a run, as the simulation file has them, on the physics of a world.
 class Judging {
  public:
-  /// json: a list of {"name", "when", "formula", "within_s"?} at "checks", and an object at "measures"; empty:
-  /// none of both. Problem: a check or measure that does not fit the world. physics: must outlive this object.
-  [[nodiscard]] static Result<std::unique_ptr<Judging>> read(const std::string& json, const Physics& physics);
+  /// json: a list of {"name", "when", "formula", "text"?, "within_s"?} at "checks", and an object at "measures"; empty:
+  /// none of both. Problem: a check or measure that does not fit the world. physics, eyes: must outlive this
+  /// object; eyes may come after this call.
+  [[nodiscard]] static Result<std::unique_ptr<Judging>> read(const std::string& json, const Physics& physics,
+                                                             const Eyes& eyes);
 
   /// Call it after every step: notes contacts, and judges every 10 ms.
   void after_step();
@@ -30,7 +32,7 @@ class Judging {
   [[nodiscard]] std::string results() const;
 
  private:
-  explicit Judging(const Physics& physics) : physics_(physics), scene_(physics) {}
+  Judging(const Physics& physics, const Eyes& eyes) : physics_(physics), scene_(physics, eyes) {}
 
   const Physics& physics_;
   Scene scene_;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <stdexcept>
 
 #include "sim/devices/device_error.hpp"
 #include "sim/engine/elements.hpp"
@@ -53,6 +54,16 @@ std::vector<std::int64_t> Scene::indices_of(std::string_view name) const {
     if (const auto index = index_in(name_of(physics_.model(), mjOBJ_BODY, body), name))
       indices.insert(*index);
   return {indices.begin(), indices.end()};
+}
+
+std::vector<std::string> Scene::groups() const {
+  std::set<std::string> names;
+  for (int body = 0; body < physics_.model().nbody; ++body) {
+    const std::string name = name_of(physics_.model(), mjOBJ_BODY, body);
+    const std::string before = name.substr(0, name.find('['));
+    if (index_in(name, before)) names.insert(before + "[*]");
+  }
+  return {names.begin(), names.end()};
 }
 
 /// In the order of the model, so that the first is the root of the others.
@@ -109,6 +120,7 @@ Problem Scene::unknown(const char* what, const std::string& name, std::initializ
 
 Result<std::size_t> Scene::find(As as, const std::string& name) {
   if (as == As::solid) return find_solid(name);
+  if (as == As::follower) return find_follower(name);
   if (as == As::point) {
     const Result<std::optional<Element>> element = point_named(name);
     if (!element) return Problem{element.problem()};
@@ -121,6 +133,21 @@ Result<std::size_t> Scene::find(As as, const std::string& name) {
     elements_.push_back({type, *id});
   }
   return elements_.size() - 1;
+}
+
+Result<std::size_t> Scene::find_follower(const std::string& name) {
+  if (eyes_.floor() == nullptr) return Problem{"only a world with a track has a line to follow"};
+  const Result<std::optional<Element>> element = point_named(name);
+  if (!element) return Problem{element.problem()};
+  if (!*element || (*element)->type != mjOBJ_BODY) return unknown("model or body", name, {mjOBJ_BODY});
+  if (!line_) line_ = std::make_shared<const Skeleton>(skeleton(*eyes_.floor()));
+  if (line_->points.size() < 2) return Problem{"there is no line on the track"};
+  followers_.emplace_back(name, physics_.root_of_body((*element)->id), line_);
+  return followers_.size() - 1;
+}
+
+void Scene::follow_lines() {
+  for (LineFollower& follower : followers_) follower.look(physics_, eyes_);
 }
 
 std::vector<bool> Scene::geoms_of(const std::string& name) const {
@@ -168,10 +195,16 @@ std::array<double, 3> Scene::position(std::size_t point) {
   return {at[0], at[1], at[2]};
 }
 
+const mjData& Scene::state() const {
+  const mjData& now = physics_.state();
+  if (!physics_.failure().empty()) throw std::runtime_error(physics_.failure());
+  return now;
+}
+
 double Scene::speed(std::size_t point) {
   const auto [type, id] = elements_[point];
   mjtNum velocity[6] = {};
-  mj_objectVelocity(&physics_.model(), &physics_.state(), type, id, velocity, 0);
+  mj_objectVelocity(&physics_.model(), &state(), type, id, velocity, 0);
   return std::hypot(velocity[3], velocity[4], velocity[5]);
 }
 
@@ -213,7 +246,7 @@ bool Scene::inside(std::size_t point, std::size_t zone) {
 
 double Scene::sensor(std::size_t sensor, std::size_t component) {
   const mjModel& model = physics_.model();
-  return physics_.state().sensordata[model.sensor_adr[elements_[sensor].id] + static_cast<int>(component)];
+  return state().sensordata[model.sensor_adr[elements_[sensor].id] + static_cast<int>(component)];
 }
 
 }  // namespace tessera::sim

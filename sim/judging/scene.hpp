@@ -10,6 +10,8 @@
 
 #include "checks/scene.hpp"
 #include "sim/engine/physics.hpp"
+#include "sim/eyes.hpp"
+#include "sim/judging/line_follower.hpp"
 
 namespace tessera::sim {
 
@@ -21,10 +23,11 @@ namespace tessera::sim {
 /// Contacts are noted after every step, so none between two observations is missed.
 class Scene final : public checks::Scene {
  public:
-  /// physics: must outlive this object.
-  explicit Scene(const Physics& physics) : physics_(physics) {}
+  /// physics, eyes: must outlive this object.
+  Scene(const Physics& physics, const Eyes& eyes) : physics_(physics), eyes_(eyes) {}
 
   [[nodiscard]] std::vector<std::int64_t> indices_of(std::string_view name) const override;
+  [[nodiscard]] std::vector<std::string> groups() const override;
   [[nodiscard]] Result<std::size_t> find(As as, const std::string& name) override;
   [[nodiscard]] std::size_t dimension_of(std::size_t sensor) const override;
   [[nodiscard]] std::array<double, 3> position(std::size_t point) override;
@@ -34,6 +37,10 @@ class Scene final : public checks::Scene {
   [[nodiscard]] bool inside(std::size_t point, std::size_t zone) override;
   [[nodiscard]] double sensor(std::size_t sensor, std::size_t component) override;
 
+  [[nodiscard]] checks::OnLine on_line(std::size_t follower) override { return followers_[follower].seen(); }
+
+  /// Notes how the robots keep to the line, before each look at them.
+  void follow_lines();
   /// Notes the contacts of the last step.
   void note_contacts();
   void forget_contacts();
@@ -52,8 +59,15 @@ class Scene final : public checks::Scene {
   [[nodiscard]] Problem unknown(const char* what, const std::string& name,
                                 std::initializer_list<mjtObj> types) const;
   void note_contact(int geom, int other);
+  /// With velocities and sensors. Throws std::runtime_error if the physics fails.
+  [[nodiscard]] const mjData& state() const;
+
+  [[nodiscard]] Result<std::size_t> find_follower(const std::string& name);
 
   const Physics& physics_;
+  const Eyes& eyes_;
+  std::shared_ptr<const Skeleton> line_;  ///< of the track; nullptr: it was not needed yet
+  std::vector<LineFollower> followers_;
   std::vector<Element> elements_;  ///< points, zones and sensors
   std::map<std::string, std::size_t> solids_;
   std::vector<std::vector<std::size_t>> solids_of_geom_;

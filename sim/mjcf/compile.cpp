@@ -4,8 +4,6 @@
 #include <limits>
 #include <memory>
 
-#include "sim/mjcf/engine_message.hpp"
-
 namespace tessera::sim {
 
 Result<ModelPtr> compile_text(const std::string& mjcf) {
@@ -25,7 +23,7 @@ Result<ModelPtr> compile_text(const std::string& mjcf) {
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), name.c_str())], mjcf.data(), mjcf.size());
   Result<ModelPtr> model = load_model(name, files.get());
   if (model) return model;
-  return Problem{explained(model.problem().substr(name.size() + 2))};
+  return Problem{model.problem().substr(name.size() + 2)};
 }
 
 }  // namespace tessera::sim

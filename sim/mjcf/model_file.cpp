@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "sim/mjcf/compile.hpp"
-#include "sim/mjcf/engine_message.hpp"
 #include "sim/mjcf/preparation.hpp"
 
 namespace tessera::sim {
@@ -56,7 +55,7 @@ std::string text_of(const pugi::xml_document& document) {
 Problem why_not(const std::string& path, const std::string& complaint_of_prepared) {
   const Result<ModelPtr> model = load_model(path);
   if (model) return Problem{path + ": " + complaint_of_prepared};
-  return Problem{path + ": " + explained(model.problem().substr(path.size() + 2))};
+  return Problem{model.problem()};
 }
 
 }  // namespace

@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t most_pairs = 2'000'000;
 
+bool is_of_line(Number::Kind kind) {
+  return kind == Number::Kind::laps || kind == Number::Kind::line_error || kind == Number::Kind::line_lost;
+}
+
 /// Looks elements up, for one i and one meaning of [*].
 class Binder {
  public:
@@ -30,7 +34,7 @@ class Binder {
     else if (written.kind == Number::Kind::sensor)
       bind_sensor(written, bound);
     else if (!written.elements.empty())
-      bind_element(written, Scene::As::point, bound);
+      bind_element(written, is_of_line(written.kind) ? Scene::As::follower : Scene::As::point, bound);
     return bound;
   }
 
@@ -51,6 +55,13 @@ class Binder {
  private:
   void complain(std::string text) {
     if (!problem_) problem_ = Problem{std::move(text)};
+  }
+
+  void complain_of_group(const std::string& name) {
+    std::string known;
+    for (const std::string& group : scene_.groups()) known += (known.empty() ? "" : ", ") + group;
+    complain("no model is placed as " + name + "[...]; " +
+             (known.empty() ? "the world has none with a number" : "the world has: " + known));
   }
 
   std::size_t find(Scene::As as, const std::string& name) {
@@ -97,7 +108,7 @@ class Binder {
       plain.number = index;
       names.push_back(text_of(plain));
     }
-    if (names.empty()) complain("no model is placed as " + element.name + "[...]");
+    if (names.empty()) complain_of_group(element.name);
     return names;
   }
 
@@ -159,7 +170,7 @@ class Binder {
     }
     const std::string group = *groups.begin();
     const std::vector<std::int64_t> indices = scene_.indices_of(group);
-    if (indices.empty()) complain("no model is placed as " + group + "[...]");
+    if (indices.empty()) complain_of_group(group);
     for (const std::int64_t index : indices) {
       every_[group] = index;
       bound.parts.push_back(formula(part));

@@ -23,7 +23,7 @@ struct BoundNumber {
   Number::Kind kind = Number::Kind::literal;
   double value = 0;
   std::vector<Pair> pairs;    ///< of a distance: the nearest one counts
-  std::size_t element = 0;    ///< of height, speed and sensor
+  std::size_t element = 0;    ///< of what is no distance
   std::size_t component = 0;  ///< of a sensor
   std::vector<BoundNumber> parts;
   std::string text;  ///< for people

@@ -10,7 +10,8 @@ namespace tessera::checks {
 namespace {
 
 std::string written(const Check& check) {
-  std::string text = fmt::format("{}: {}", name_of(check.when), text_of(check.formula));
+  std::string text =
+      fmt::format("{}: {}", name_of(check.when), check.text.empty() ? text_of(check.formula) : check.text);
   if (check.within_s) text += fmt::format(" within {} s", *check.within_s);
   return text;
 }
@@ -145,6 +146,11 @@ void Judge::finish(double time_s) {
     else
       fail(one, time_s, "it did not come; " + facts.value_or(""));
   }
+}
+
+void Judge::cut_short() {
+  for (BoundCheck& one : checks_)
+    if (!one.decided) one.result.verdict = CheckResult::Verdict::open;
 }
 
 std::vector<CheckResult> Judge::take_failures() {

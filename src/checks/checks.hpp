@@ -21,6 +21,7 @@ struct Check {
   When when = When::never;
   Formula formula;
   std::optional<double> within_s;  ///< of eventually, from the start of the run
+  std::string text;                ///< of the formula, as its author wrote it; empty: not known
 };
 [[nodiscard]] std::string_view name_of(Check::When when);
 
@@ -36,7 +37,7 @@ struct CheckResult {
   enum class Verdict : std::uint8_t {
     held,
     failed,
-    open  ///< the run ended before it could be decided
+    open  ///< the run ended, or its world failed, before it could be decided
   } verdict = Verdict::held;
   double time_s = 0;   ///< failed: when first; eventually, held: when it came
   std::string detail;  ///< failed: the facts of that instant
@@ -61,6 +62,8 @@ class Judge {
   void observe(double time_s);
   /// Judges what holds at the end. Call it once, after the last observe.
   void finish(double time_s);
+  /// In place of finish, if the world has failed: what is not decided yet stays open.
+  void cut_short();
 
   /// Checks that have failed since the last call.
   [[nodiscard]] std::vector<CheckResult> take_failures();

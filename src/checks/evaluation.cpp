@@ -39,6 +39,20 @@ bool compare(const BoundFormula& formula, Scene& scene) {
   }
 }
 
+const char* unit_of(Number::Kind kind) {
+  switch (kind) {
+    case Number::Kind::height:
+    case Number::Kind::line_error:
+      return " m";
+    case Number::Kind::speed:
+      return " m/s";
+    case Number::Kind::line_lost:
+      return " s";
+    default:
+      return "";
+  }
+}
+
 /// Collects facts, up to a number that people still read.
 class Facts {
  public:
@@ -66,9 +80,9 @@ class Facts {
     if (number.kind == Number::Kind::distance) {
       const Pair& nearest = *std::ranges::min_element(
           number.pairs, {}, [&](const Pair& pair) { return distance_of(pair, scene_); });
-      add(fmt::format("distance({}) = {:.6g}", nearest.names, distance_of(nearest, scene_)));
+      add(fmt::format("distance({}) = {:.6g} m", nearest.names, distance_of(nearest, scene_)));
     } else if (number.kind != Number::Kind::literal && number.parts.empty()) {
-      add(fmt::format("{} = {:.6g}", number.text, value_of(number, scene_)));
+      add(fmt::format("{} = {:.6g}{}", number.text, value_of(number, scene_), unit_of(number.kind)));
     }
   }
   void collect_contacts(const BoundFormula& formula) {
@@ -100,6 +114,12 @@ double value_of(const BoundNumber& number, Scene& scene) {
       return scene.speed(number.element);
     case Number::Kind::sensor:
       return scene.sensor(number.element, number.component);
+    case Number::Kind::laps:
+      return scene.on_line(number.element).laps;
+    case Number::Kind::line_error:
+      return scene.on_line(number.element).error_m;
+    case Number::Kind::line_lost:
+      return scene.on_line(number.element).lost_s;
     case Number::Kind::sum:
       return value_of(number.parts[0], scene) + value_of(number.parts[1], scene);
     case Number::Kind::difference:

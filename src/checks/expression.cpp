@@ -66,6 +66,12 @@ std::string text_of(const Number& number) {
       return call("speed", number.elements);
     case Number::Kind::sensor:
       return sensor_text(number);
+    case Number::Kind::laps:
+      return call("laps", number.elements);
+    case Number::Kind::line_error:
+      return call("line_error", number.elements);
+    case Number::Kind::line_lost:
+      return call("line_lost", number.elements);
     case Number::Kind::sum:
       return joined(number, "+");
     case Number::Kind::difference:

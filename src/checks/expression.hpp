@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "checks/dimension.hpp"
+
 /// Formulas and numbers about a simulated world, as the checks and measures of a specification write them:
 ///
 ///     formula     = conjunction { "or" conjunction }       conjunction = negation { "and" negation }
@@ -13,7 +15,8 @@
 ///                 | number ("<" | "<=" | ">" | ">=") number
 ///     number      = product { ("+" | "-") product }        product = factor { ("*" | "/") factor }
 ///     factor      = "-" factor | DIGITS [ UNIT ] | "(" number ")" | "distance" "(" element "," element ")"
-///                 | ("height" | "speed") "(" element ")" | "sensor" "(" element [ "," DIGITS ] ")"
+///                 | ("height" | "speed" | "laps" | "line_error" | "line_lost") "(" element ")"
+///                 | "sensor" "(" element [ "," DIGITS ] ")"
 ///     element     = NAME [ "[" index "]" ] { "/" NAME }    index = DIGITS | "*" | "i" [ ("+" | "-") DIGITS ]
 ///
 /// `and`, `or`, `not`, `any` and `all` mean what they mean in properties.
@@ -41,10 +44,13 @@ struct Element {
 struct Number {
   enum class Kind : std::uint8_t {
     literal,
-    distance,  ///< of two origins, in m
-    height,    ///< of an origin over the world's, in m
-    speed,     ///< of an origin, in m/s
-    sensor,    ///< one of the numbers that a sensor gives
+    distance,    ///< of two origins, in m
+    height,      ///< of an origin over the world's, in m
+    speed,       ///< of an origin, in m/s
+    sensor,      ///< one of the numbers that a sensor gives
+    laps,        ///< of a robot on the line of a track
+    line_error,  ///< of its middle light sensor, in m
+    line_lost,   ///< for how long no light sensor of it has been over the line, in s
     sum,
     difference,
     product,
@@ -55,6 +61,7 @@ struct Number {
   std::vector<Element> elements;
   std::size_t component = 0;  ///< of a sensor
   bool has_component = false;
+  Dimension dimension;
   std::vector<Number> parts;
   Place place;
 };

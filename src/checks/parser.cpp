@@ -16,14 +16,24 @@ namespace {
 constexpr std::uint32_t deepest = 64;
 constexpr const char* formula_hint =
     "for example contact(robot[*], robot[*]), inside(box[0], bin) or distance(a, b) > 0.2 m";
-constexpr std::string_view functions = "distance, height, speed, sensor, contact and inside";
+constexpr std::string_view functions =
+    "distance, height, speed, sensor, contact, inside, laps, line_error and line_lost";
 
 struct Function {
   std::string_view name;
   std::size_t least, most;  ///< arguments
 };
-constexpr std::array number_functions = {Function{"distance", 2, 2}, Function{"height", 1, 1},
-                                         Function{"speed", 1, 1}, Function{"sensor", 1, 1}};
+struct NumberFunction : Function {
+  Number::Kind kind;
+  std::string_view unit;  ///< empty: it is not known
+};
+constexpr std::array number_functions = {NumberFunction{{"distance", 2, 2}, Number::Kind::distance, "m"},
+                                         NumberFunction{{"height", 1, 1}, Number::Kind::height, "m"},
+                                         NumberFunction{{"speed", 1, 1}, Number::Kind::speed, "m/s"},
+                                         NumberFunction{{"sensor", 1, 1}, Number::Kind::sensor, ""},
+                                         NumberFunction{{"laps", 1, 1}, Number::Kind::laps, "1"},
+                                         NumberFunction{{"line_error", 1, 1}, Number::Kind::line_error, "m"},
+                                         NumberFunction{{"line_lost", 1, 1}, Number::Kind::line_lost, "s"}};
 constexpr std::array formula_functions = {Function{"contact", 1, 2}, Function{"inside", 2, 2}};
 
 /// A recursive descent parser.
@@ -162,6 +172,7 @@ class Parser : private TextReader {
     formula.kind = kind.value_or(Formula::Kind::less);
     formula.numbers.push_back(sum());
     formula.place = since(from);
+    require_one_unit(formula.numbers[0], formula.numbers[1], "compared with");
     if (comparison_sign()) fail({at_ - 1, 1}, "one comparison at a time", "write a < b and b < c");
     return formula;
   }
@@ -175,9 +186,30 @@ class Parser : private TextReader {
 
   // ------------------------------------------------------------------------------------------ numbers
 
+  /// The mistake is at the right side.
+  void require_one_unit(const Number& left, const Number& right, const std::string& how) {
+    if (!units_ || mistake_ || fits(left.dimension, right.dimension)) return;
+    fail(right.place, name_of(left.dimension) + " cannot be " + how + " " + name_of(right.dimension),
+         left.dimension.known == Dimension::Known::by_unit &&
+                 left.dimension != Dimension{Dimension::Known::by_unit}
+             ? "write a number in " + name_of(left.dimension) + ", or without a unit"
+             : "leave the unit out");
+  }
+
   Number combined(Number::Kind kind, std::size_t from, Number left, Number right) {
     Number number;
     number.kind = kind;
+    switch (kind) {
+      case Number::Kind::product:
+        number.dimension = of_product(left.dimension, right.dimension, 1);
+        break;
+      case Number::Kind::quotient:
+        number.dimension = of_product(left.dimension, right.dimension, -1);
+        break;
+      default:
+        require_one_unit(left, right, kind == Number::Kind::sum ? "added to" : "diminished by");
+        number.dimension = of_sum(left.dimension, right.dimension);
+    }
     number.parts.push_back(std::move(left));
     number.parts.push_back(std::move(right));
     number.place = since(from);
@@ -226,6 +258,7 @@ class Parser : private TextReader {
       Number number;
       number.kind = Number::Kind::negative;
       number.parts.push_back(factor());
+      number.dimension = number.parts.back().dimension;
       number.place = since(from);
       return number;
     }
@@ -235,7 +268,7 @@ class Parser : private TextReader {
       return number;
     }
     if (!left.empty() && (is_digit(left.front()) || left.front() == '.')) return literal();
-    for (const Function& function : number_functions)
+    for (const NumberFunction& function : number_functions)
       if (take_word(function.name)) return measured(function, from);
     unknown_function();
     return {};
@@ -253,12 +286,11 @@ class Parser : private TextReader {
          meant.empty() ? "the functions are " + std::string(functions) : meant);
   }
 
-  Number measured(const Function& function, std::size_t from) {
+  Number measured(const NumberFunction& function, std::size_t from) {
     Number number;
-    number.kind = function.name == "distance" ? Number::Kind::distance
-                  : function.name == "height" ? Number::Kind::height
-                  : function.name == "speed"  ? Number::Kind::speed
-                                              : Number::Kind::sensor;
+    number.kind = function.kind;
+    number.dimension = function.unit.empty() ? Dimension{.known = Dimension::Known::never}
+                                             : dimension_of_unit(function.unit);
     number.elements = arguments(function, from, number.kind == Number::Kind::sensor ? &number : nullptr);
     number.place = since(from);
     return number;
@@ -274,7 +306,10 @@ class Parser : private TextReader {
       return number;
     }
     at_ += static_cast<std::size_t>(end - left.data());
-    number.value = converted(number.value, unit_factor());
+    if (const std::optional<Unit> written = unit()) {
+      number.value = converted(number.value, written->factor);
+      number.dimension = dimension_of_unit(written->in_si);
+    }
     number.place = since(from);
     return number;
   }
@@ -285,24 +320,24 @@ class Parser : private TextReader {
     return parts > 1 && parts * factor == 1 ? number / parts : number * factor;
   }
 
-  /// m, rad, or m/s. A slash before anything but a letter divides.
-  double unit_factor() {
+  /// m, rad, or m/s; nullopt: none. A slash before anything but a letter divides.
+  std::optional<Unit> unit() {
     const std::string_view left = rest();
-    if (left.empty() || !(is_letter(left.front()) || left.front() == '%')) return 1;
+    if (left.empty() || !(is_letter(left.front()) || left.front() == '%')) return std::nullopt;
     std::size_t length = 1;
     while (length < left.size() &&
            (is_letter(left[length]) ||
             (left[length] == '/' && length + 1 < left.size() && is_letter(left[length + 1]))))
       ++length;
     const std::string_view unit = left.substr(0, length);
-    if (unit == "and" || unit == "or") return 1;
-    const std::optional<double> factor = units_(unit);
-    if (factor)
+    if (unit == "and" || unit == "or") return std::nullopt;
+    std::optional<Unit> known = units_ ? units_(unit) : std::nullopt;
+    if (known)
       at_ += length;
     else
       fail({at_, length}, "unknown unit '" + std::string(unit) + "'",
            "write mm, cm, m, deg, rad, ms, s, min or m/s");
-    return factor.value_or(1);
+    return known;
   }
 
   // ------------------------------------------------------------------------------------------ elements

@@ -22,14 +22,19 @@ struct Parsed {
   Mistake mistake;  ///< if there is no value
 };
 
-/// The factor of a unit to SI units; nullopt: there is no such unit.
-using Units = std::function<std::optional<double>(std::string_view unit)>;
+/// What a unit is in SI units; nullopt: there is no such unit.
+struct Unit {
+  double factor = 1;
+  std::string in_si;  ///< "m/s" for "cm/min"
+};
+using Units = std::function<std::optional<Unit>(std::string_view unit)>;
 
-/// Reads what the head of expression.hpp describes. Never fails otherwise, whatever the text.
+/// Reads what the head of expression.hpp describes. Never fails otherwise, whatever the text. A mistake is also
+/// that numbers of different units are compared, added or subtracted.
 [[nodiscard]] Parsed<Formula> parse_formula(std::string_view text, const Units& units);
 [[nodiscard]] Parsed<Number> parse_number(std::string_view text, const Units& units);
 
-/// For texts that text_of has made.
-[[nodiscard]] inline std::optional<double> no_units(std::string_view /*unit*/) { return std::nullopt; }
+/// For texts that text_of has made: no unit is known, and none is compared.
+inline const Units no_units;
 
 }  // namespace tessera::checks

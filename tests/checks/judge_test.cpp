@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 Check check(Check::When when, std::string_view text, std::optional<double> within_s = {}) {
   auto parsed = checks::parse_formula(text, checks::no_units);
   EXPECT_TRUE(parsed.value) << text << ": " << parsed.mistake.text;
-  return {"it", when, *std::move(parsed.value), within_s};
+  return {"it", when, *std::move(parsed.value), within_s, ""};
 }
 
 class JudgeOfChecks : public ::testing::Test {
@@ -64,7 +64,7 @@ TEST_F(JudgeOfChecks, RunningIndicesStayWithinTheFleet) {
   points_.at["robot[2]"] = {2.5, 0, 0};
   const CheckResult failed = judged(check(Check::When::always, "distance(robot[i], robot[i+1]) > 1"));
   EXPECT_EQ(failed.verdict, CheckResult::Verdict::failed);
-  EXPECT_EQ(failed.detail, "i = 1: distance(robot[1], robot[2]) = 0.5");
+  EXPECT_EQ(failed.detail, "i = 1: distance(robot[1], robot[2]) = 0.5 m");
   EXPECT_THAT(problem("distance(robot[i], robot[i+3]) > 1"), HasSubstr("no i"));
 }
 
@@ -131,7 +131,8 @@ TEST_F(JudgeOfChecks, MeasuresKeepLeastAndGreatest) {
 
 TEST_F(JudgeOfChecks, WhatIsNotThereIsNamed) {
   EXPECT_THAT(problem("contact(rabbit)"), HasSubstr("no 'rabbit'"));
-  EXPECT_THAT(problem("contact(box[*], robot[*])"), HasSubstr("no model is placed as box[...]"));
+  EXPECT_THAT(problem("contact(box[*], robot[*])"),
+              HasSubstr("no model is placed as box[...]; the world has: robot[*]"));
   EXPECT_THAT(problem("inside(robot[*], bin)"), HasSubstr("any(...) or all(...)"));
   EXPECT_THAT(problem("all(inside(bin, bin))"), HasSubstr("need a [*]"));
   EXPECT_THAT(problem("contact(robot[0], robot[0])"), HasSubstr("no pair"));

@@ -7,9 +7,10 @@
 namespace tessera::checks_test {
 namespace {
 
-std::optional<double> metres(std::string_view unit) {
-  if (unit == "m" || unit == "m/s") return 1;
-  if (unit == "mm") return 1e-3;
+std::optional<checks::Unit> metres(std::string_view unit) {
+  if (unit == "m" || unit == "m/s" || unit == "s") return checks::Unit{1, std::string(unit)};
+  if (unit == "mm") return checks::Unit{1e-3, "m"};
+  if (unit == "deg") return checks::Unit{0.0174533, "rad"};
   return std::nullopt;
 }
 
@@ -35,7 +36,7 @@ TEST(ParserOfChecks, BracketsMayHoldFormulasAndNumbers) {
   EXPECT_EQ(read("((speed(a) + 1) * 2 > 1)"), "((speed(a) + 1) * 2) > 1");
   EXPECT_EQ(read("((((speed(a))))) > 1 and (contact(a) or contact(b))"),
             "(speed(a) > 1 and (contact(a) or contact(b)))");
-  EXPECT_EQ(read("speed(a) / 2 - height(b) > 0"), "((speed(a) / 2) - height(b)) > 0");
+  EXPECT_EQ(read("speed(a) / 2 - speed(b) > 0"), "((speed(a) / 2) - speed(b)) > 0");
 }
 
 TEST(ParserOfChecks, WhatItWritesItReadsAlike) {
@@ -83,6 +84,32 @@ TEST(ParserOfChecks, TellsWhereAMistakeIs) {
     EXPECT_GE(parsed.mistake.place.length, 1U);
   }
   EXPECT_EQ(checks::parse_formula("distanc(a, b) > 3", metres).mistake.hint, "did you mean 'distance'?");
+}
+
+TEST(ParserOfChecks, NumbersOfOneComparisonHaveOneUnit) {
+  for (const char* text :
+       {"distance(a, b) > 2", "distance(a, b) > 2 m", "speed(a) * 2 s < distance(a, b)",
+        "speed(a) > -2 * 3 m/s", "distance(a, b) / 2 s < speed(b)", "sensor(a) > 2 deg and sensor(a) < 3 s",
+        "height(a) + 2 > sensor(b)", "2 * sensor(a) * 3 m > 5 deg"})
+    EXPECT_NE(read(text), "") << text;
+  for (const Wrong& wrong : {
+           Wrong{"distance(p, q) > 2 s", 17, "m cannot be compared with s"},
+           {"height(p) > 300 deg", 12, "m cannot be compared with rad"},
+           {"speed(robot) < 5 deg", 15, "m/s cannot be compared with rad"},
+           {"5 deg > speed(robot)", 8, "rad cannot be compared with m/s"},
+           {"speed(a) + 1 deg > 0", 11, "m/s cannot be added to rad"},
+           {"1 - 2 s - 3 m > 0", 10, "s cannot be diminished by m"},
+           {"-height(a) * 2 m < 3 m", 19, "m m cannot be compared with m"},
+           {"height(a) / 2 m > 1 m", 18, "a plain number cannot be compared with m"},
+       }) {
+    const auto parsed = checks::parse_formula(wrong.text, metres);
+    ASSERT_FALSE(parsed.value) << wrong.text;
+    EXPECT_EQ(parsed.mistake.text, wrong.message) << wrong.text;
+    EXPECT_EQ(parsed.mistake.place.offset, wrong.offset) << wrong.text;
+  }
+  EXPECT_EQ(checks::parse_formula("height(p) > 3 s", metres).mistake.hint,
+            "write a number in m, or without a unit");
+  EXPECT_FALSE(checks::parse_number("speed(robot) + 1 deg", metres).value);
 }
 
 TEST(ParserOfChecks, DeepAndRandomTextsAreRefusedNotFollowed) {

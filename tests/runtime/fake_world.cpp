@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,6 +15,7 @@
 
 /// A world in which a wheel's speed adds up to a position. WorldOptions::track names the thing that must not
 /// exist; its trace has a line per call. "seen.xml" can be looked at: it has two bodies. "slow.xml" takes four times as long as the time that passes in it.
+/// "stopped.xml" gets a SIGTERM at its first step, and "fails.xml" fails at 20 ms.
 namespace {
 
 struct State {
@@ -62,6 +65,9 @@ class FakeWorld final : public tessera::World {
   }
   void advance_to(tessera::Time time) override {
     if (options_.world == "slow.xml") std::this_thread::sleep_for(4 * (time - now_));
+    if (options_.world == "stopped.xml" && time > tessera::Time{}) std::raise(SIGTERM);
+    if (options_.world == "fails.xml" && time >= tessera::Time(std::chrono::milliseconds(20)))
+      throw std::runtime_error("the physics failed at 0.020 s");
     const std::lock_guard lock(state_->mutex);
     state_->position += state_->speed * tessera::seconds(time - now_);
     now_ = time;

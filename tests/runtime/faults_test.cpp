@@ -127,8 +127,8 @@ TEST_F(Routed, ADeviceThatRefusesIsAnErrorAndGetsTheSafeCommand) {
   add(std::move(motor));
   EXPECT_EQ(run_with("device:robot.a@10ms"),
             (std::vector<Recorded>{{10ms, Fault::device,
-                                    "robot.a.first.in: a real effector refused its command; the devices get "
-                                    "the safe command"}}));
+                                    "robot.a.first.in: robot.a.command: the device refused its command; "
+                                    "the devices get the safe command"}}));
   EXPECT_EQ(system.devices.commands, (std::vector<double>{5, -1, 5, 5, 5, -1}));
 }
 

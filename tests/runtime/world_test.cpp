@@ -53,6 +53,31 @@ TEST_F(InAWorld, MovesInLockStepWithTheSimulatedClock) {
   EXPECT_TRUE(system.devices.commands.empty()) << "the world's device comes before the C++ driver";
 }
 
+TEST_F(InAWorld, ASignalEndsTheRunHoweverFarTheWorldHasToGo) {
+  options.world->world = "stopped.xml";
+  options.duration = 5s;
+  TestSystem slow;
+  Script script;
+  script.senses = script.acts = true;
+  slow.add("robot.body", nets::alone, script, 2s, 0ms, Kind::effector);
+  const RunSummary summary = run(slow, options);
+  EXPECT_EQ(summary.signal, SIGTERM);
+  EXPECT_LE(summary.simulated, 10ms);
+}
+
+/// Also at the last instant of the run, where nothing comes after it.
+TEST_F(InAWorld, AWorldThatFailsStopsTheRunWithItsReason) {
+  options.world->world = "fails.xml";
+  for (const Duration duration : {Duration(20ms), Duration(5s)}) {
+    options.duration = duration;
+    const RunSummary summary = run(system, options);
+    EXPECT_TRUE(summary.failed);
+    EXPECT_EQ(summary.failure, RunSummary::Failure::world);
+    EXPECT_EQ(summary.ended, "stopped: the world: the physics failed at 0.020 s");
+    EXPECT_EQ(summary.simulated, 20ms);
+  }
+}
+
 /// What a recording has of the first body, by time in ms.
 [[nodiscard]] std::map<std::int64_t, double> places_in(const Recording& recording) {
   std::map<std::int64_t, double> places;

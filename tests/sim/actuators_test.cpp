@@ -17,15 +17,25 @@ Seven pose_of(World& world, const std::string& name) {
   return read_as<Seven>(*receptor<Seven>(world, {"a.look." + name, "pose", {name}, {}}));
 }
 
+/// What a command is refused with; empty: it is taken.
+template <class T>
+std::string refusal(RealEffector& device, const T& value) {
+  try {
+    return write_as(device, value) ? "" : "without a reason";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 TEST(Actuators, RefuseWhatIsBeyondTheirRangeOrClampIt) {
   const auto world = open_text("range", workshop);
   const auto strict = effector<double>(*world, {"a.m.c", "actuator", {"shoulder"}, {}});
   EXPECT_TRUE(write_as(*strict, 1.5));
-  EXPECT_FALSE(write_as(*strict, 1.6));
+  EXPECT_EQ(refusal(*strict, 1.6), "a.m.c: actuator 'shoulder' takes -1.5 to 1.5, not 1.6");
   EXPECT_FALSE(write_as(*strict, std::nan("")));
   const auto single = effector<float>(*world, {"a.m.d", "velocity", {"wrist"}, {}});
   EXPECT_TRUE(write_as(*single, 0.1F)) << "the limit, rounded to float32, is a little more";
-  EXPECT_FALSE(write_as(*single, 0.11F));
+  EXPECT_EQ(refusal(*single, 0.11F), "a.m.d: actuator 'wrist' takes 0 to 0.1, not 0.11");
   const auto lenient = effector<double>(*world, {"a.m.e", "actuator", {"shoulder"}, {{"outside", "clamp"}}});
   EXPECT_TRUE(write_as(*lenient, 99.0));
   world->advance_to(Time(3s));
@@ -36,7 +46,7 @@ TEST(Actuators, RefuseWhatIsBeyondTheirRangeOrClampIt) {
 TEST(Actuators, AListIsTakenAsAWholeOrNotAtAll) {
   const auto world = open_text("whole", workshop);
   const auto both = effector<std::array<double, 2>>(*world, {"a.m.c", "actuator", {"shoulder", "wrist"}, {}});
-  EXPECT_FALSE(write_as(*both, std::array{1.0, 5.0}));
+  EXPECT_EQ(refusal(*both, std::array{1.0, 5.0}), "a.m.c: actuator 'wrist' takes 0 to 0.1, not 5");
   world->advance_to(Time(1s));
   const auto angle = receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}});
   EXPECT_NEAR(read_as<double>(*angle), 0, 1e-9);

@@ -77,14 +77,35 @@ TEST(Engine, SaysWhichWordNeedsANewerVersion) {
   const auto complaint = [](const std::string& inside) {
     return sim::Physics::load(file_with("newer.xml", "<mujoco>" + inside + "</mujoco>")).problem();
   };
-  EXPECT_THAT(
-      complaint("<option integrator='implicitfast'/>"),
-      ::testing::EndsWith("invalid keyword: 'implicitfast', Element 'option', line 1; 'implicitfast' needs a "
-                          "newer MuJoCo than this one, which is 2.2.2"));
+  using ::testing::EndsWith;
+  EXPECT_THAT(complaint("<option integrator='implicitfast'/>"),
+              EndsWith("newer.xml: needs a newer MuJoCo: `implicitfast` in `option` (line 1)"));
   EXPECT_THAT(complaint("<worldbody><frame/></worldbody>"),
-              ::testing::HasSubstr("'frame' needs a newer MuJoCo"));
-  EXPECT_THAT(complaint("<worldbody><blob/></worldbody>"),
-              ::testing::Not(::testing::HasSubstr("newer MuJoCo")));
+              EndsWith("needs a newer MuJoCo: `frame` (line 1)"));
+  EXPECT_THAT(complaint("<worldbody><blob/></worldbody>"), EndsWith("it is wrong, or needs a newer MuJoCo"));
+  const std::string body = "<worldbody><body name='b'><joint name='j'/><geom size='1'/></body></worldbody>";
+  EXPECT_THAT(
+      complaint("<default><adhesion ctrlrange='0 1'/></default>" + body +
+                "<actuator><adhesion body='b'/></actuator>"),
+      EndsWith("MuJoCo 2.2.2 wants `ctrlrange` at `adhesion` itself (line 1), not in a default class; "
+               "write it there, or use a newer MuJoCo, which takes both"));
+  EXPECT_THAT(
+      complaint(body + "<actuator><general joint='j' dyntype='integrator'/><motor joint='j'/></actuator>"),
+      EndsWith("sort them, or use a newer MuJoCo, which takes any order"));
+  EXPECT_THAT(
+      sim::Physics::load(file_with("part.xml", "<mujocoinclude/>")).problem(),
+      EndsWith("part.xml: is a part for an <include>, no model of its own: open the file that includes it"));
+}
+
+TEST(Engine, RefusesATimeStepThatNoRunCanMake) {
+  const auto complaint = [](const std::string& step) {
+    return sim::Physics::load(file_with("step.xml", "<mujoco><option timestep='" + step + "'/></mujoco>"))
+        .problem();
+  };
+  for (const char* step : {"0", "-0.002", "9e-7"})
+    EXPECT_THAT(complaint(step), ::testing::HasSubstr("it must be 1 us (1e-6 s) or longer")) << step;
+  EXPECT_EQ(complaint("1e-6"), "");
+  EXPECT_THAT(complaint("0.2"), ::testing::HasSubstr("longer than 0.1 s"));
 }
 
 TEST(Engine, AnActuatorWithoutANameHasThatOfItsJoint) {

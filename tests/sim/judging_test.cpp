@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "drawing.hpp"
 #include "small_worlds.hpp"
 
 namespace tessera::testing {
@@ -144,6 +145,71 @@ TEST(Judging, APlacedModelIsWhereItsFirstBodyIs) {
   EXPECT_EQ(results["checks"][0]["verdict"], "held");
   EXPECT_EQ(results["checks"][1]["verdict"], "failed");
   EXPECT_NEAR(results["measures"]["pace"]["greatest"].get<double>(), 1, 0.05);
+}
+
+TEST(Judging, NothingIsJudgedOnAWorldWhosePhysicsHasFailed) {
+  const std::string failing = file_with("failing.xml", R"(<mujoco><option timestep="0.01"/><worldbody>
+    <body name="p"><joint type="slide" axis="1 0 0" stiffness="1e7" springref="0.1"/>
+      <geom type="sphere" size="0.1" mass="0.01"/></body>
+    <body name="q" pos="3 0 0"><freejoint/><geom size="0.1"/></body>
+    <site name="goal" type="box" size="1000 1000 1000"/></worldbody></mujoco>)");
+  const json judged{
+      {"checks",
+       {check("at_end", "inside(q, goal)"),
+        check("never", "height(q) > 5"),
+        check("always", "inside(q, goal)"),
+        check("eventually", "height(q) < -4"),
+        {{"name", "soon"}, {"when", "eventually"}, {"formula", "height(q) < 9"}, {"within_s", 2}}}}};
+  auto world = open({.world = failing, .checks = judged.dump()});
+  const auto drive = [&] { world->advance_to(Time(std::chrono::seconds(3))); };
+  EXPECT_THROW(drive(), std::runtime_error);
+  const json results = json::parse(world->results());
+  for (const std::size_t index : {0U, 1U, 2U, 3U})
+    EXPECT_EQ(results["checks"][index]["verdict"], "open") << index;
+  EXPECT_EQ(results["checks"][4]["verdict"], "held") << "it was decided before";
+  EXPECT_TRUE(world->take_failures().empty());
+}
+
+/// A robot that is pushed along a line 1 m long, with one eye, and leaves it.
+TEST(Judging, HowARobotKeepsToTheLineIsMeasuredAndChecked) {
+  const std::string sled = file_with("sled.xml", R"(<mujoco><option gravity="0 0 0"/><worldbody>
+    <body name="sled[0]" pos="0.5 0.5 0.1"><joint name="x" type="slide" axis="1 0 0"/>
+      <geom size="0.02"/><site name="eye"/></body>
+    <body name="blind" pos="0 2 0"><joint type="slide" axis="1 0 0"/><geom size="0.02"/></body></worldbody>
+    <actuator><velocity name="push" joint="x" kv="1"/></actuator></mujoco>)");
+  const json checks = json::array({check("never", "line_lost(sled[0]) > 0.3")});
+  const json judged{
+      {"checks", checks},
+      {"measures",
+       {{"laps", "laps(sled[0])"}, {"off", "line_error(sled[0])"}, {"lost", "line_lost(sled[0])"}}}};
+  const std::string floor =
+      write_png(Drawing{.width_m = 2, .height_m = 1, .strokes = {{.points = {{0.5, 0.5}, {1.5, 0.5}}}}},
+                "straight.png");
+  auto world = open({.world = sled, .track = floor, .metres_per_pixel = 0.005, .checks = judged.dump()});
+  auto eye = receptor<double>(*world, {.path = "sled[0].a.eye", .kind = "reflectance", .targets = {"eye"}});
+  auto push = effector<double>(*world, {.path = "sled[0].a.b", .kind = "actuator", .targets = {"push"}});
+  EXPECT_TRUE(write_as(*push, 1.0));
+  world->advance_to(Time(std::chrono::seconds(2)));
+  const json results = json::parse(world->results());
+  EXPECT_EQ(results["checks"][0]["verdict"], "failed");
+  EXPECT_NEAR(results["checks"][0]["time_s"].get<double>(), 1.4, 0.15);
+  EXPECT_NEAR(results["measures"]["laps"]["greatest"].get<double>(), 1, 0.15);
+  EXPECT_GT(results["measures"]["off"]["last"].get<double>(), 0.5);
+  EXPECT_NEAR(results["measures"]["lost"]["last"].get<double>(), 0.9, 0.15);
+
+  const auto problem = [&](const char* formula, const std::string& track) -> std::string {
+    const json one{{"checks", json::array({check("never", formula)})}};
+    try {
+      open({.world = sled, .track = track, .metres_per_pixel = 0.005, .checks = one.dump()})
+          ->advance_to(Time(std::chrono::milliseconds(10)));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(problem("laps(sled[0]) > 1", ""), HasSubstr("only a world with a track has a line to follow"));
+  EXPECT_THAT(problem("laps(sleigh) > 1", floor), HasSubstr("the world has no model or body 'sleigh'"));
+  EXPECT_THAT(problem("laps(blind) > 1", floor), HasSubstr("'blind' has no light sensor"));
 }
 
 /// Reading never disturbs: a judged run has the same bytes as one that is not.

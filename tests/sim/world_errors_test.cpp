@@ -110,7 +110,8 @@ void expect_failure(const std::string& mjcf, const std::string& part) {
   std::string error;
   const auto receptor = world->receptor(request_for<double>({"a", "reflectance", {"s"}, {}}), error);
   ASSERT_NE(receptor, nullptr) << error;
-  world->advance_to(Time(2s));
+  EXPECT_THROW(world->advance_to(Time(2s)), std::runtime_error);
+  EXPECT_THROW(world->advance_to(Time(2s)), std::runtime_error) << "it stays so";
   EXPECT_FALSE(world->finish(error));
   EXPECT_THAT(error, HasSubstr("the physics failed at"));
   EXPECT_THAT(error, HasSubstr(part));

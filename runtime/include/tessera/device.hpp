@@ -221,7 +221,8 @@ class World {
   /// The world's state for drivers that are C++ classes; names are those that `agent` uses.
   /// nullptr: this world does not give it.
   [[nodiscard]] virtual std::shared_ptr<WorldState> state(const std::string& /*agent*/) { return nullptr; }
-  /// Computes the physics up to `time`, deterministically. Never goes back.
+  /// Computes the physics up to `time`, deterministically. Never goes back. Throws a std::exception once the
+  /// world has failed, which ends the run.
   virtual void advance_to(Time time) = 0;
   /// Why it could not judge by such checks and measures (WorldOptions::checks); nullopt: it can, or does not
   /// tell.

@@ -61,7 +61,10 @@ Effectors::Answer Effectors::command(Time now) {
     // Checked under the lock: the safe command of another thread is then the later one.
     if (control_.withholds_commands()) return Answer::withheld;
     device.safe = false;  // even if the driver does not return
-    if (!write(device, now)) return Answer::refused;
+    if (!write(device, now)) {
+      refuser_ = device.its.name;
+      return Answer::refused;
+    }
     // A thread that withholds commands and then finds the device in use relies on
     // this thread to notice that.
     device.owes = false;

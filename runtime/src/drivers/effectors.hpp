@@ -64,6 +64,8 @@ class Effectors {
   /// began to stop while a driver was called: the safe command must follow.
   /// Passes on what a driver throws.
   [[nodiscard]] Answer command(Time now);
+  /// The device that has refused a command last.
+  [[nodiscard]] std::string_view refuser() const { return refuser_; }
 
   enum class Busy : std::uint8_t { waits, leaves_out };
   /// Gives all devices the safe command, once. A driver that throws has refused. true: all devices have
@@ -118,6 +120,7 @@ class Effectors {
   const Clock& clock_;
   std::size_t count_;
   std::unique_ptr<Device[]> devices_;
+  std::string_view refuser_;
 };
 
 /// "robot.motor.left has not taken its safe command". Precondition: there are names.

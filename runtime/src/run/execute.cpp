@@ -51,7 +51,7 @@ void close_recording(Assembly& assembly, RunSummary& summary) {
 void close_world(Assembly& assembly, RunSummary& summary) {
   if (assembly.world == nullptr) return;
   std::string error;
-  if (assembly.world->finish(error)) return;
+  if (assembly.world->finish(error) || summary.ended.find(error) != std::string::npos) return;
   if (!std::exchange(summary.failed, true)) summary.failure = RunSummary::Failure::world;
   warn(summary, fmt::format("the world: {}", error));
 }

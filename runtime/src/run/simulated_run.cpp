@@ -114,16 +114,50 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
   upper.subsystem_ended(instance, clock_.now());
 }
 
+/// The world moves in short steps, so that a signal ends the run although the world is slow. Time goes only as
+/// far as the world has come.
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
-  clock_.set(time);
-  if (published_) published_->move_to(time);
-  if (assembly.world == nullptr) return;
+  constexpr Duration world_step = std::chrono::milliseconds(10);
+  Time reached = assembly.world == nullptr ? time : clock_.now();
   const auto advance = [&] {
-    assembly.world->advance_to(time);
+    do {
+      reached = std::min(time, reached + world_step);
+      assembly.world->advance_to(reached);
+    } while (reached < time && StopSignals::pending() == 0);
     notice_failed_checks(assembly);
-    record_failed_checks(assembly, time);
+    record_failed_checks(assembly, reached);
   };
-  if (!survives_in_thread(assembly.control, "the world", advance)) world_failure_ = Failure::world;
+  if (assembly.world != nullptr && !survives_in_thread(assembly.control, "the world", advance))
+    world_failure_ = Failure::world;
+  clock_.set(reached);
+  if (published_) published_->move_to(reached);
+}
+
+/// Why the run ends now; nullopt: it goes on.
+std::optional<Ending> SimulatedRun::stopped(const Assembly& assembly) const {
+  if (const int signal = StopSignals::pending(); signal != 0)
+    return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
+  if (!assembly.control.stopping()) return std::nullopt;
+  return Ending{fmt::format("stopped: {}", assembly.control.reason()),
+                assembly.control.failed(),
+                clock_.now(),
+                0,
+                std::nullopt,
+                world_failure_};
+}
+
+/// A device may have met the failure of the world before the clock did. Then the run has ended for what followed
+/// from it.
+Ending SimulatedRun::with_failure_of_world(Ending ending, Assembly& assembly) const {
+  if (assembly.world == nullptr || !ending.failed || world_failure_ != Failure::none) return ending;
+  try {
+    assembly.world->advance_to(clock_.now());
+  } catch (const std::exception& failure) {
+    ending.text = fmt::format("stopped: the world: {}", failure.what());
+    ending.failed = true;
+    ending.failure = Failure::world;
+  }
+  return ending;
 }
 
 /// Gives safe commands to all devices at this instant, and not at the next turns of their subsystems.
@@ -182,7 +216,8 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
     monitor_->warn_of_failure(clock_.now());
   }
   calls_.emplace(assembly);
-  Ending ending = with_stuck(run_until_end(assembly, upper, signals), assembly);
+  Ending ending =
+      with_failure_of_world(with_stuck(run_until_end(assembly, upper, signals), assembly), assembly);
   for (std::size_t instance = 0; instance < assembly.executors.size(); ++instance)
     if (!has_ended_[instance]) assembly.executors[instance]->leave();
   // does not wait for a device that refuses
@@ -196,7 +231,9 @@ std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLay
   const std::vector<Scenario::Step>& steps = assembly.scenario->steps;
   for (std::size_t index = 0; index < steps.size(); ++index) {
     const SubsystemExecutor& executor = *assembly.executors[steps[index].instance];
-    if (!follow_step(assembly, upper, index))
+    const bool followed = follow_step(assembly, upper, index);
+    if (std::optional<Ending> ended = stopped(assembly)) return ended;
+    if (!followed)
       return Ending{fmt::format("the scenario cannot be followed: {} cannot fire; {}", steps[index].name,
                                 executor.whereabouts(assembly.system)),
                     true,
@@ -204,8 +241,6 @@ std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLay
                     0,
                     std::nullopt,
                     Failure::scenario};
-    if (const int signal = StopSignals::pending(); signal != 0)
-      return Ending{StopSignals::name(signal), false, clock_.now(), signal, std::nullopt};
   }
   for (const auto& executor : assembly.executors) firings_at_scenario_end_.push_back(executor->firings());
   console::print(LogLevel::info, clock_.now(), "tessera", "end of the scenario; everything runs freely");
@@ -225,6 +260,7 @@ bool SimulatedRun::follow_step(Assembly& assembly, UpperLayers& upper, std::size
       const Time next = std::min(progress.deadline, next_of_links(assembly));
       if (next == Time::max()) return false;
       move_to(assembly, std::max(next, clock_.now()));
+      if (stopped(assembly)) return false;
       continue;
     }
     last_firing_ = clock_.now();
@@ -293,11 +329,7 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
   for (;;) {
     if (assembly.restarts != nullptr) follow_processes(assembly, upper);
     if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());
-    if (const int signal = StopSignals::pending(); signal != 0)
-      return Ending{StopSignals::name(signal), assembly.control.failed(), clock_.now(), signal, std::nullopt};
-    if (assembly.control.stopping())
-      return ending(fmt::format("stopped: {}", assembly.control.reason()), assembly.control.failed(),
-                    world_failure_);
+    if (std::optional<Ending> ended = stopped(assembly)) return *ended;
     if (upper.ended() && !lives_.awaits_start()) return ending("net ended", false);
     if (serve_links(assembly)) continue;
     Time next = deadlines_.empty() ? Time::max() : deadlines_.first_time();
@@ -322,11 +354,9 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
       continue;
     }
     if (!skips && !pace.wait_for(std::min(next, end), clock_.now(), assembly.recorder.get())) continue;
-    if (next >= end) {
-      move_to(assembly, end);
-      return ending("duration", assembly.control.failed());
-    }
-    move_to(assembly, next);
+    move_to(assembly, std::min(next, end));
+    if (std::optional<Ending> ended = stopped(assembly)) return *ended;
+    if (next >= end) return ending("duration", assembly.control.failed());
     assembly.signals.raise_due(next);
     progress.update(next);
     for (DeadlineQueue* queue : {&deadlines_, &beats_})

@@ -61,6 +61,8 @@ class SimulatedRun final : public Waker {
   [[nodiscard]] bool serve_links(Assembly& assembly);
   [[nodiscard]] Time next_of_links(const Assembly& assembly) const;
   void move_to(Assembly& assembly, Time time);
+  [[nodiscard]] std::optional<Ending> stopped(const Assembly& assembly) const;
+  [[nodiscard]] Ending with_failure_of_world(Ending ending, Assembly& assembly) const;
   void follow_emergency(Assembly& assembly);
   void follow_processes(Assembly& assembly, UpperLayers& upper);
 

@@ -82,7 +82,7 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
                                                 : SafeReason::Kind::leaves});
       break;
     case Effectors::Answer::refused:
-      return Failure{Fault::device, "a real effector refused its command"};
+      return refusal(room);
     case Effectors::Answer::taken:
       refused_since_ = Time::max();
       limits_.note_sent(now);
@@ -90,6 +90,12 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
       if (was_held) reports_.log(LogLevel::info, "commands go to the devices again");
   }
   return std::nullopt;
+}
+
+DeviceCommands::Failure DeviceCommands::refusal(std::span<char> room) const {
+  const auto end =
+      fmt::format_to_n(room.data(), room.size(), "{}: the device refused its command", effectors_.refuser());
+  return {Fault::device, {room.data(), std::min(end.size, room.size())}};
 }
 
 /// A failure: a command is beyond a limit for which that is a fault.

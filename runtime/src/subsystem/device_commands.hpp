@@ -80,6 +80,7 @@ class DeviceCommands {
   [[nodiscard]] Time guard_deadline(Time now) const;
 
  private:
+  [[nodiscard]] Failure refusal(std::span<char> room) const;
   [[nodiscard]] std::optional<Failure> keep_limits(Time now, std::span<char> room);
   [[nodiscard]] SafeReason why_hold(Time now) const;
   void hold(const SafeReason& why, std::string_view place);

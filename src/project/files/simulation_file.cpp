@@ -77,6 +77,7 @@ Json json_of(const checks::Check& check) {
             {"when", checks::name_of(check.when)},
             {"formula", checks::text_of(check.formula)}};
   if (check.within_s) json["within_s"] = *check.within_s;
+  if (!check.text.empty()) json["text"] = check.text;
   return json;
 }
 

@@ -104,7 +104,13 @@ bool check_world(const spec::Model& model, const fs::path& project, const std::s
              "the library of simulated worlds is not installed, so the devices are not checked");
     return true;
   }
-  const auto opened = open_world_to_ask(*chosen);
+  ChosenWorld asked = *chosen;
+  if (simulation.track) {
+    if (const auto picture = find_asset(simulation.track->image, project, "tracks"))
+      asked.options.track = picture->string();
+    asked.options.metres_per_pixel = simulation.track->metres_per_pixel;
+  }
+  const auto opened = open_world_to_ask(std::move(asked));
   if (!opened) {
     out.error("E312", place, "the world cannot be opened: " + opened.problem());
     return false;

@@ -21,13 +21,16 @@ constexpr std::array all_times{Check::When::never, Check::When::always, Check::W
 constexpr const char* check_hint =
     "for example { name: nobody touches, never: \"contact(robot[*], robot[*])\" }";
 
-std::optional<double> factor(std::string_view unit) { return si_factor(unit); }
+std::optional<checks::Unit> known_unit(std::string_view unit) {
+  const auto one = in_si({.number = 1, .digits = "1", .unit = unit});
+  return one ? std::optional(checks::Unit{one->number, one->unit}) : std::nullopt;
+}
 
 /// The formula or number of a text; nullopt after an error.
 template <class T>
 std::optional<T> parsed(const Node& text, checks::Parsed<T> (*parse)(std::string_view, const checks::Units&),
                         Diagnostics& out) {
-  checks::Parsed<T> read = parse(text.text, factor);
+  checks::Parsed<T> read = parse(text.text, known_unit);
   if (!read.value)
     out.error("E115", text.part(read.mistake.place.offset, read.mistake.place.length), read.mistake.text,
               read.mistake.hint);
@@ -84,6 +87,7 @@ std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out
   auto formula = parsed(*text, checks::parse_formula, out);
   if (!formula) return std::nullopt;
   check.check.formula = *std::move(formula);
+  check.check.text = text->text;
   return check;
 }
 

@@ -1,4 +1,4 @@
-#include "sim/mjcf/engine_message.hpp"
+#include "sim/engine/engine_message.hpp"
 
 #include <algorithm>
 #include <array>
@@ -182,14 +182,26 @@ std::string unknown(const std::string& what, const Where& where, bool is_newer) 
 }  // namespace
 
 std::string explained(const std::string& engine_message) {
+  static const std::regex missing("required attribute missing: '([^']*)'");
   static const std::regex attribute("unrecognized attribute: '([^']*)'");
   static const std::regex keyword("invalid keyword: '([^']*)'");
   const Where where = where_in(engine_message);
   std::smatch found;
+  if (engine_message.find("model type: 'mujocoinclude'") != std::string::npos)
+    return "is a part for an <include>, no model of its own: open the file that includes it";
+  if (engine_message.find("stateless actuators must come before") != std::string::npos)
+    return "MuJoCo 2.2.2 wants actuators with an activation (`muscle`, `cylinder`, `dyntype`) behind all "
+           "others; "
+           "sort them, or use a newer MuJoCo, which takes any order";
   if (where.element.empty()) return on_one_line(engine_message);
   if (std::regex_search(engine_message, found, attribute))
     return unknown("`" + found[1].str() + "` of `" + where.element + "`", where,
                    is_newer_attribute(where.element, found[1].str()));
+  // It looks for the attribute before it looks at the class.
+  if (where.element == "adhesion" && std::regex_search(engine_message, found, missing) &&
+      found[1] == "ctrlrange")
+    return "MuJoCo 2.2.2 wants `ctrlrange` at `adhesion` itself" + where.line +
+           ", not in a default class; write it there, or use a newer MuJoCo, which takes both";
   if (std::regex_search(engine_message, found, keyword))
     return unknown("`" + found[1].str() + "` in `" + where.element + "`", where,
                    std::ranges::find(newer_keywords, found[1].str()) != newer_keywords.end());

@@ -1,0 +1,54 @@
+#include "checks/dimension.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+namespace tessera::checks {
+
+using Known = Dimension::Known;
+
+Dimension dimension_of_unit(std::string_view unit) {
+  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos)
+    return of_product(dimension_of_unit(unit.substr(0, slash)), dimension_of_unit(unit.substr(slash + 1)),
+                      -1);
+  Dimension dimension{.known = Known::by_unit};
+  if (unit == "m") dimension.length = 1;
+  if (unit == "rad") dimension.angle = 1;
+  if (unit == "s") dimension.time = 1;
+  if (unit == "Hz") dimension.time = -1;
+  return dimension;
+}
+
+std::string name_of(const Dimension& dimension) {
+  std::string above, below;
+  for (const auto& [unit, power] : std::to_array<std::pair<const char*, int>>(
+           {{"m", dimension.length}, {"rad", dimension.angle}, {"s", dimension.time}}))
+    for (int count = 0; count < std::abs(power); ++count) {
+      std::string& part = power > 0 ? above : below;
+      part += (part.empty() ? "" : power > 0 ? " " : "/") + std::string(unit);
+    }
+  if (above.empty() && below.empty()) return "a plain number";
+  return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
+}
+
+bool fits(const Dimension& one, const Dimension& other) {
+  return one.known != Known::by_unit || other.known != Known::by_unit || one == other;
+}
+
+Dimension of_sum(const Dimension& one, const Dimension& other) {
+  for (const Known known : {Known::by_unit, Known::never})
+    for (const Dimension& side : {one, other})
+      if (side.known == known) return side;
+  return one;
+}
+
+Dimension of_product(const Dimension& one, const Dimension& other, int power) {
+  for (const Dimension& side : {one, other})
+    if (side.known == Known::never) return side;
+  if (one.known == Known::bare && other.known == Known::bare) return one;
+  return {Known::by_unit, one.length + power * other.length, one.angle + power * other.angle,
+          one.time + power * other.time};
+}
+
+}  // namespace tessera::checks

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/way_along_line.hpp"
+#include "sim/judging/way_along_line.hpp"
 
 namespace tessera::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/engine/physics.hpp"
-#include "sim/eyes.hpp"
+#include "sim/judging/eyes.hpp"
 #include "sim/judging/judging.hpp"
 #include "sim/pose_sampler.hpp"
 #include "sim/trace_writer.hpp"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "checks/scene.hpp"
-#include "sim/eyes.hpp"
-#include "sim/way_along_line.hpp"
+#include "sim/judging/eyes.hpp"
+#include "sim/judging/way_along_line.hpp"
 
 namespace tessera::sim {
 

@@ -10,7 +10,7 @@
 
 #include "checks/scene.hpp"
 #include "sim/engine/physics.hpp"
-#include "sim/eyes.hpp"
+#include "sim/judging/eyes.hpp"
 #include "sim/judging/line_follower.hpp"
 
 namespace tessera::sim {

@@ -1,4 +1,4 @@
-#include "sim/eyes.hpp"
+#include "sim/judging/eyes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sim/way_along_line.hpp"
+#include "sim/judging/way_along_line.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -46,7 +46,10 @@ constexpr std::array robots{
     Robot{"rover", "08_rover", "scout", "a rover with a laser that drives about in a room",
           "src/robot/control.cpp"},
     Robot{"arm", "09_arm", "arm_bench", "an arm that brings its hand over a wall", "src/arm/control.cpp"},
-    Robot{"fleet", "05_crossing", "crossroads", "two rovers that share a crossing", "src/rover/control.cpp"},
+    Robot{"crossing", "05_crossing", "crossroads", "two rovers that share a crossing",
+          "src/rover/control.cpp"},
+    Robot{"fleet", "07_fleet", "fleet", "fifty rovers with lasers, and their supervisor",
+          "src/rover/control.cpp"},
 };
 
 /// Whole words only: the name of a system may be a part of other words.
@@ -181,7 +184,7 @@ void add_new(CommandLine& app, int& exit_code) {
   command
       .option("--robot", *robot,
               "The robot to begin with: one that follows a line, a rover with a laser, an arm over a wall, "
-              "or two rovers that share a crossing")
+              "two rovers that share a crossing, or fifty rovers with a supervisor")
       .one_of(names)
       .shows_default();
   command.footer(

@@ -29,7 +29,7 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
 TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   for (const auto& [robot, part] :
        {std::pair{"line_follower", "line_world.xml"}, std::pair{"rover", "src/robot/room.hpp"},
-        std::pair{"arm", "arm.xml"}, std::pair{"fleet", "rover.xml"}}) {
+        std::pair{"arm", "arm.xml"}, std::pair{"crossing", "junction.xml"}, std::pair{"fleet", "hall.xml"}}) {
     const std::string name = std::string("my_") + robot;
     const project::Exit made = tessera("new " + name + " --robot " + robot);
     ASSERT_EQ(made.code, 0) << made.text;
@@ -62,7 +62,7 @@ TEST_F(Project, AnArmKeepsOffTheWallUntilAMotionIsWrong) {
 }
 
 TEST_F(Project, TwoRoversShareACrossing) {
-  ASSERT_EQ(tessera("new depot --robot fleet").code, 0);
+  ASSERT_EQ(tessera("new depot --robot crossing").code, 0);
   const nlohmann::json run = json("simulate depot --for 20s");
   ASSERT_EQ(run.at("checks").size(), 5U);
   for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
@@ -109,12 +109,15 @@ TEST_F(Project, AFleetOfOneModelHasOneLineForEachElement) {
 }
 
 TEST_F(Project, TheExamplesWithManyAgentsKeepTheirChecks) {
-  for (const char* name : {"06_sorting_cell", "07_fleet"}) {
-    example(name);
+  for (const char* name : {"06_sorting_cell", "depot"}) {
+    const bool cell = name == std::string("06_sorting_cell");
+    if (cell)
+      example(name);
+    else
+      ASSERT_EQ(tessera("new depot --robot fleet").code, 0);
     const project::Exit tests = tessera(std::string("test ") + name);
     EXPECT_EQ(tests.code, 0) << tests.text;
-    if (name == std::string("06_sorting_cell") && !sees_worlds()) continue;
-    const bool cell = name == std::string("06_sorting_cell");
+    if (cell && !sees_worlds()) continue;
     const nlohmann::json run = json(std::string("simulate ") + name + (cell ? " --for 65s" : " --for 15s"));
     for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
   }

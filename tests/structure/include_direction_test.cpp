@@ -163,7 +163,7 @@ TEST(Structure, FilesAndFoldersAreSmall) {
 /// "Where would I change X?" names at most three files for each X, and files that are there.
 TEST(Structure, AnswersToWhereWouldIChangeNameFewFilesThatExist) {
   std::istringstream page(read(root / "docs/architecture.md"));
-  const std::regex row("^\\| ([^|]*) \\| ([^|]+) \\| [^|]+ \\|$");
+  const std::regex row("^\\| ([^|]*)\\| ([^|]+) \\| [^|]+ \\|$");
   const std::regex quoted("`([^`]+)`");
   std::map<std::string, std::size_t> answers;
   std::string question;

@@ -160,7 +160,8 @@ describe("changing", () => {
 describe("renaming changes the name wherever it stands, and nothing else", () => {
   it("renames an agent", () => {
     const after = edits.renameAgent(structure, structure.agents[0]!, "rover");
-    expect(after.match(/\brobot\b/g)).toEqual(["robot"]); // the comment in the first line
+    // The comment in the first line, and the body of the world that the check and the measures name.
+    expect(after.match(/\brobot\b/g)).toHaveLength(4);
     expect(changed(after).length).toBe(2 * 9);
     expect(changed(after)).toContain(
       "+  - rover.sensor.line -> rover.control.line                           # non-blocking at both ends",

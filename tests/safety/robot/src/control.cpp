@@ -21,6 +21,5 @@ void follow(Context& context, const Inputs&, Memory& memory, Outputs& out) {
   for (int count = 0; count < 10; ++count) context.log("{}", line);
 }
 
-void rest(Context&, const Inputs&, Memory&, Outputs&) {}
 
 }  // namespace safety::robot::control

@@ -21,5 +21,4 @@ void follow(Context& context, const Inputs&, Memory& memory, Outputs& out) {
   for (int count = 0; count < 10; ++count) context.log("{}", line);
 }
 
-
 }  // namespace safety::robot::control

@@ -205,7 +205,7 @@ TEST_F(Operated, ByTheControlSocketItMovesAndStopsAndRunsAgainFromTheRecording) 
             "this is no command");
   EXPECT_FALSE(valid_) << "nothing is valid before the first input";
   EXPECT_EQ(feed(0.75), "");
-  EXPECT_TRUE(eventually([&] { return seen_ == 0.75; }));
+  EXPECT_TRUE(eventually([&] { return feed(0.75).empty() && seen_ == 0.75; }));
   EXPECT_EQ(feed(0.5, "another page"), "another operator has the panel robot.a.sensed");
   EXPECT_TRUE(eventually([&] { return seen_ == 0; })) << "stale";
   EXPECT_TRUE(eventually([&] { return old_.load(); })) << "no value comes any more";
@@ -226,8 +226,8 @@ TEST_F(Operated, InSimulatedTimeThatIsPacedItMovesAndStops) {
   options_.paused = false;
   options_.speed = 1;
   start();
-  EXPECT_EQ(feed(0.75), "");
-  EXPECT_TRUE(eventually([&] { return seen_ == 0.75; }));
+  // Again and again, since a busy machine may look too late at what lasts for half a second.
+  EXPECT_TRUE(eventually([&] { return feed(0.75).empty() && seen_ == 0.75; }));
   EXPECT_TRUE(eventually([&] { return seen_ == 0; }));
   EXPECT_TRUE(valid_);
   end();

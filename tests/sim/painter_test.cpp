@@ -3,6 +3,7 @@
 #include "sim/painter.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -57,7 +58,7 @@ class Painting : public ::testing::Test {
   void SetUp() override {
     const auto missing = sim::OffscreenContext::open("libEGL.so.1");
     if (!missing) GTEST_SKIP() << missing.problem();
-    world_.world = ::testing::TempDir() + "painted_stage.xml";
+    world_.world = ::testing::TempDir() + "painted_stage_" + std::to_string(getpid()) + ".xml";
     std::ofstream(world_.world) << stage;
     picture_.width = painted_width;
     picture_.height = painted_height;

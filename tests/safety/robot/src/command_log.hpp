@@ -39,7 +39,7 @@ enum class Harm : std::uint32_t {
   exec,
   close_all,
   chatter,
-  mute  ///< ends in order, and sends nothing any more
+  mute  ///< goes on and sends nothing any more
 };
 /// In which code.
 enum class Place : std::uint32_t { control, motor, driver };

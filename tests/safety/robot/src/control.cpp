@@ -1,5 +1,6 @@
 #include "robot/control.hpp"
 
+#include <stdexcept>
 #include <string>
 
 #include "harm.hpp"
@@ -20,5 +21,9 @@ void follow(Context& context, const Inputs&, Memory& memory, Outputs& out) {
   static const std::string line(400, '.');
   for (int count = 0; count < 10; ++count) context.log("{}", line);
 }
+
+void rest(Context&, const Inputs&, Memory&, Outputs&) {}
+
+void broken(Context&, const Inputs&, Memory&, Outputs&) { throw std::runtime_error("follow has failed"); }
 
 }  // namespace safety::robot::control

@@ -1,7 +1,6 @@
 #include "layers/net_paths.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "tessera/nearest.hpp"
@@ -14,8 +13,6 @@ using diagnostics::Diagnostics;
 using net::PageId;
 using net::PlaceId;
 using Found = std::optional<net::Statement>;
-
-const std::array<std::string_view, 4> states{words::full, words::empty, words::acknowledged, words::lock};
 
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
@@ -145,7 +142,7 @@ Found NetPaths::state(const std::string& channel, const spec::PathPart& part, Di
   const auto place = places_.find(channel + "." + part.name);
   if (place != places_.end()) return marked(place->second);
   std::string others;
-  for (const std::string_view other : states)
+  for (const std::string_view other : {words::full, words::empty, words::acknowledged, words::lock})
     if (places_.contains(channel + "." + std::string(other)))
       others += (others.empty() ? "" : ", ") + std::string(other);
   out.error("E101", part.span, "channel " + quoted(channel) + " has no state " + quoted(part.name),

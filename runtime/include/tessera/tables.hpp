@@ -132,6 +132,20 @@ struct Instance {
 };
 
 /// A place of the memory of a channel.
+/// A text of the tables, or one of the words. Words get their values when a program is linked, and tables are
+/// constants of the compiler: they must not depend on the order in which sources are initialised.
+class PlaceName {
+ public:
+  constexpr PlaceName(const char* text) : text_(text) {}              // NOLINT(google-explicit-constructor)
+  constexpr PlaceName(std::string_view text) : text_(text) {}         // NOLINT(google-explicit-constructor)
+  constexpr PlaceName(const std::string_view* word) : word_(word) {}  // NOLINT(google-explicit-constructor)
+  operator std::string_view() const { return word_ == nullptr ? text_ : *word_; }  // NOLINT
+
+ private:
+  std::string_view text_;
+  const std::string_view* word_ = nullptr;
+};
+
 struct FusedPlace {
   /// As net::PlaceRole. none: only its name is known.
   enum class Role : std::uint8_t {
@@ -146,28 +160,29 @@ struct FusedPlace {
     sent_memory,
     received_memory
   };
-  std::string_view name;
+  PlaceName name;
   std::uint32_t tokens;
   Role role = Role::none;
 };
 namespace shared_places {
 using Role = FusedPlace::Role;
-inline const FusedPlace lock{words::lock, 1, Role::lock}, empty{words::empty, 1, Role::empty},
-    full{words::full, 0, Role::full}, acknowledged{words::acknowledged, 0, Role::acknowledged},
-    idle{words::idle, 1, Role::idle}, sent{words::sent, 0, Role::sent}, more{words::more, 0, Role::more},
-    sent_memory{words::sent_memory, 1, Role::sent_memory},
-    received_memory{words::received_memory, 1, Role::received_memory};
+inline constexpr FusedPlace lock{&words::lock, 1, Role::lock}, empty{&words::empty, 1, Role::empty},
+    full{&words::full, 0, Role::full}, acknowledged{&words::acknowledged, 0, Role::acknowledged},
+    idle{&words::idle, 1, Role::idle}, sent{&words::sent, 0, Role::sent}, more{&words::more, 0, Role::more},
+    sent_memory{&words::sent_memory, 1, Role::sent_memory},
+    received_memory{&words::received_memory, 1, Role::received_memory};
 }  // namespace shared_places
-inline const FusedPlace asynchronous[] = {shared_places::lock};
-inline const FusedPlace buffered[] = {shared_places::empty, shared_places::full};
-inline const FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
-                                          shared_places::acknowledged};
+inline constexpr FusedPlace asynchronous[] = {shared_places::lock};
+inline constexpr FusedPlace buffered[] = {shared_places::empty, shared_places::full};
+inline constexpr FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
+                                              shared_places::acknowledged};
 // Of channels between processes (docs/fleets.md). The last is that of a sender that waits without a timeout.
-inline const FusedPlace networked_exchange[] = {shared_places::sent_memory, shared_places::received_memory};
-inline const FusedPlace networked[] = {shared_places::idle, shared_places::sent, shared_places::more,
-                                       shared_places::empty, shared_places::full};
-inline const FusedPlace networked_single[] = {shared_places::idle, shared_places::sent, shared_places::empty,
-                                              shared_places::full};
+inline constexpr FusedPlace networked_exchange[] = {shared_places::sent_memory,
+                                                    shared_places::received_memory};
+inline constexpr FusedPlace networked[] = {shared_places::idle, shared_places::sent, shared_places::more,
+                                           shared_places::empty, shared_places::full};
+inline constexpr FusedPlace networked_single[] = {shared_places::idle, shared_places::sent,
+                                                  shared_places::empty, shared_places::full};
 
 struct End {
   std::uint32_t instance;  ///< into System::instances

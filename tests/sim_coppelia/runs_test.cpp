@@ -28,6 +28,7 @@ class InCoppelia : public Command {
     ASSERT_NE(end, std::string::npos);
     text.replace(begin, end - begin,
                  "  coppelia: { host: 127.0.0.1, port: " + std::to_string(port) + ", timeout: 2 s }\n");
+    text.erase(text.find("  checks:"));  // scenes have none
     write(spec, text);
   }
 

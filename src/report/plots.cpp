@@ -45,26 +45,41 @@ struct ValueRange {
     if (span) include(span->first, span->second);
   if (curve.limit) include(*curve.limit, *curve.limit);
   ValueRange shown = range.value_or(ValueRange{});
-  const double room = std::max((shown.greatest - shown.least) * 0.08, std::abs(shown.greatest) * 1e-3 + 1e-9);
-  return {shown.least - room, shown.greatest + room};
+  return shown;
+}
+[[nodiscard]] ValueRange with_room(const ValueRange& values) {
+  const double room =
+      std::max((values.greatest - values.least) * 0.08, std::abs(values.greatest) * 1e-3 + 1e-9);
+  return {values.least - room, values.greatest + room};
+}
+
+/// A number at an axis, as exactly as the axis can be read: 0 and not 9.99e-07 where the values go up to 0.036.
+[[nodiscard]] std::string axis_number(double value, const ValueRange& values) {
+  const double span = values.greatest - values.least;
+  if (span > 0) {
+    const double step = std::pow(10, std::floor(std::log10(span)) - 1);
+    value = std::round(value / step) * step;
+  }
+  return fmt::format("{:.3g}", value == 0 ? 0.0 : value);
 }
 
 /// From seconds and values to the places of one plot.
 class PlotScale {
  public:
   PlotScale(const JudgedCurve& curve, double end_s)
-      : range_(range_of(curve)), end_s_(std::max(end_s, 1e-3)) {}
+      : values_(range_of(curve)), range_(with_room(values_)), end_s_(std::max(end_s, 1e-3)) {}
   [[nodiscard]] double x(double time_s) const {
     return plot_left + std::clamp(time_s / end_s_, 0.0, 1.0) * (plot_width - plot_left - plot_right);
   }
   [[nodiscard]] double y(double value) const {
     return plot_bottom - (value - range_.least) / (range_.greatest - range_.least) * (plot_bottom - plot_top);
   }
-  [[nodiscard]] const ValueRange& range() const { return range_; }
+  /// What is drawn, without the room around it.
+  [[nodiscard]] const ValueRange& values() const { return values_; }
   [[nodiscard]] double end_s() const { return end_s_; }
 
  private:
-  ValueRange range_;
+  ValueRange values_, range_;
   double end_s_;
 };
 
@@ -105,8 +120,8 @@ void draw_axes(std::string& svg, const JudgedCurve& curve, const PlotScale& scal
     label(1, "yes");
     return;
   }
-  label(scale.range().least, fmt::format("{:.3g}", scale.range().least));
-  label(scale.range().greatest, fmt::format("{:.3g}", scale.range().greatest));
+  for (const double value : {scale.values().least, scale.values().greatest})
+    label(value, axis_number(value, scale.values()));
 }
 
 /// What is drawn from above: the floor, or the box around all paths.

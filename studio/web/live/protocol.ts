@@ -708,6 +708,8 @@ export interface MeasureOutcome {
   greatest_at_s: number;
   mean: number;
   last: number;
+  /** `m/s`. Missing: it has none, or it is not known. */
+  unit?: string;
 }
 /** What a run has reached of the net, as `tessera simulate --coverage` counts it. */
 export interface Coverage {

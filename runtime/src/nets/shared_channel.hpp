@@ -57,7 +57,7 @@ class alignas(64) SharedChannel {
   SharedChannel& operator=(const SharedChannel&) = delete;
 
   /// needs: the sets of fused places that the side's transitions take, as bits.
-  /// waker: nullptr wakes nobody.
+  /// waker: nullptr wakes no thread.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
   /// Both sides run in one thread.
   void set_single_threaded();
@@ -66,9 +66,9 @@ class alignas(64) SharedChannel {
   /// fire now. Otherwise: the version that this firing made; the registration of `side` is removed.
   [[nodiscard]] std::uint32_t fire(Side side, std::uint16_t taken, std::uint16_t produced);
 
-  /// As fire, but only if `still()` holds after the word was read that the firing replaces. What a firing of
-  /// the other side has made visible before that word is visible to `still`. Yields to nobody: it is for those
-  /// who do not fire for long.
+  /// As fire, but only if `still()` holds after the read of the word that the firing replaces. Everything
+  /// that the other side has published before that word is visible to `still`. It ignores fairness: it is for
+  /// callers that rarely fire.
   template <class Still>
   [[nodiscard]] std::uint32_t fire_if(Side side, std::uint16_t taken, std::uint16_t produced, Still still);
 

@@ -22,7 +22,7 @@ void Companions::watch() {
         say("the guardian has ended: if this process dies, nobody gives the devices the safe command");
     });
   if (options_.parent == 0) return;
-  // A process that is not the parent any more has ended before.
+  // The parent had already ended: this process has another parent now.
   constexpr pid_t none = -1;
   parent_watch_.emplace(getppid() == options_.parent ? options_.parent : none, [say] {
     say("the process that started the controller has ended; the run stops");

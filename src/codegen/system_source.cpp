@@ -147,7 +147,7 @@ std::string process_members(const spec::Model& model) {
       model.deployment->domain, duration(model.deployment->liveliness));
 }
 
-/// What stands in the namespace of the system.
+/// The contents of the namespace of the system.
 std::set<std::string> names_in_system(const spec::Model& model) {
   std::set<std::string> names;
   for (const spec::Structure& structure : model.structures) names.insert(structure.name);

@@ -213,7 +213,7 @@ class Schedules {
   Workers workers_;
 };
 
-/// Of the runs that the report names first, those with another result when a process makes only that run.
+/// The seeds that the report names first and whose run differs when a process makes only that run.
 [[nodiscard]] std::vector<std::uint64_t> not_repeated(const ScheduleReport& report, const System& system,
                                                       RunOptions options, int parent) {
   std::set<std::uint64_t> seeds;

@@ -75,9 +75,9 @@ struct BuildOptions {
 [[nodiscard]] std::filesystem::path compile(const Specification& specification, const Generated& generated,
                                             const BuildOptions& options, Listener& listener);
 
-/// read_and_verify, generate and compile in one, one at a time for a project; nullopt when anything failed
-/// and was said, or `stop` became true. Where nothing can be written in the project, a program that was built there from
-/// the same files is taken as it is.
+/// read_and_verify, generate and compile in one, one at a time for a project; nullopt when a step failed and
+/// reported it, or `stop` became true. If the project cannot be written to, a program that was built there
+/// from the same files is used as it is.
 struct Controller {
   std::filesystem::path program;
   Specification specification;

@@ -72,7 +72,7 @@ std::string debian_name(const std::string& name) {
   return made;
 }
 
-/// Of one host, from its files to its package.
+/// The package of one host, from its files on.
 class Packing {
  public:
   Packing(const Controller& controller, const PackageOptions& options, HostPlan plan, bool is_only,
@@ -165,7 +165,7 @@ class Packing {
         system_, fmt::join(needs_.packages, ", "), start);
   }
 
-  /// What dpkg is told.
+  /// The control file for dpkg.
   void put_control(const fs::path& root) const {
     const fs::path control = root / "DEBIAN";
     const std::string runs =

@@ -19,11 +19,11 @@ struct WaitingStep {
   [[nodiscard]] std::string text() const;
 };
 
-/// Who waits for whom, from a subsystem that nobody waits for (or one of a circle) to the one that does not
+/// A chain of waits, from a subsystem that no other waits for (or one of a circle) to the one that does not
 /// wait itself.
 struct WaitingChain {
   std::vector<WaitingStep> steps;
-  /// What is known of the last one that is waited for: "gate is gone", "gate.board runs 'grant'".
+  /// The state of the last one that is waited for: "gate is gone", "gate.board runs 'grant'".
   std::string end;
 };
 

@@ -11,7 +11,7 @@
 
 namespace tessera::spec {
 
-/// What the checks of the wiring must know besides the channels themselves.
+/// The facts that the checks of the wiring need besides the channels themselves.
 struct WiringExcuses {
   std::set<std::pair<Index, Index>> inputs;  ///< (instance, input) left without a source by the end of a
                                              ///< fleet, or by a channel with a mistake in it

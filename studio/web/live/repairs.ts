@@ -37,7 +37,7 @@ type Attempt = Candidate & { edits: number; timeouts: number };
 const timeoutsIn = ({ title }: Candidate) => Number(title.startsWith("Give up"));
 
 /**
- * The order of attempts: few edits first. One timeout changes least. Where one is not enough, two sides that
+ * The order of attempts: few edits first. One timeout changes least. If one is not enough, two sides that
  * gave up at different times seldom meet again, so edits that let a side go on at once come first.
  */
 const byHope = (a: Attempt, b: Attempt) => a.edits - b.edits || (a.edits > 1 ? a.timeouts - b.timeouts : 0);

@@ -27,7 +27,7 @@ const near = 2000;
 let made = 0;
 
 /**
- * An open recording with its own stage and its own time. Of a long recording, one part is loaded at a time.
+ * An open recording with its own stage and its own time. A long recording is loaded in parts, one at a time.
  */
 export class Replay {
   readonly id = `recording ${(made += 1)}`;

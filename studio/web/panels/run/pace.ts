@@ -6,7 +6,7 @@ const ownShare = 1 / 3;
 const wholeShare = 1 / 2;
 
 /**
- * When the next picture may be drawn. Where WebGL runs on the processor, it takes time from everything else:
+ * When the next picture may be drawn. If WebGL runs on the processor, it takes time from everything else:
  * after a picture, the view rests in proportion. All times are those of performance.now().
  */
 export class Pace {

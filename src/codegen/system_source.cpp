@@ -176,7 +176,7 @@ namespace {0} {{
 #include <memory>
 #include <tessera/tables.hpp>
 
-// What each subsystem executes, and how to make one: {}.cpp.
+// The nets of the subsystems, and the functions that make them: {}.cpp.
 {})",
                                         project.banner(), unit_path(project.units.front()), parts)};
 }

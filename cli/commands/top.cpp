@@ -55,7 +55,7 @@ std::string state_of(const Snapshot::Subsystem& subsystem) {
   return *subsystem.behaviour + (subsystem.calling ? " *" : "");
 }
 
-/// " free 0.35 side 1", on as many lines as needed.
+/// "    free 0.35  side 1", on as many lines as needed.
 std::string memory_of(const Snapshot::Subsystem& subsystem) {
   constexpr std::size_t widest = 108, most_lines = 4;
   std::vector<std::string> lines;

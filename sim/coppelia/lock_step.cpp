@@ -73,7 +73,7 @@ void LockStep::start() {
   if (start_s_ == 0) throw LinkError("the simulation does not begin in CoppeliaSim");
   try {
     simulator_.set_mark(text_of(mark_of_this_process(is_loaded_)));
-  } catch (const RefusedCall&) {  // whoever kills the run must stop the simulation, too
+  } catch (const RefusedCall&) {  // without a mark, a killed run leaves the simulation to the user
   }
 }
 

@@ -51,7 +51,7 @@ class JointPlay {
       no_number,      ///< it carries one, or none, and should not
       read_already,   ///< the value `due`, or a newer one, was read before
       taken_already,  ///< the value was acknowledged to its sender by an earlier start of the reader
-      no_peer,        ///< the recording does not say whom it hears
+      no_peer,        ///< the recording does not name its sender
       unwritten,      ///< the value has not been written
       untaken         ///< the value has not been taken
     } reason = Reason::token;

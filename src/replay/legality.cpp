@@ -226,7 +226,7 @@ class AnyOrder : Play {
     return judge_rest(is_cut);
   }
 
-  /// As far as it goes. Whoever waits for a channel that it touches is ready again.
+  /// Plays as far as possible. A subsystem that waits for a channel of the firing is ready again.
   Outcome play_lane(Player& lane, bool& moved, std::vector<std::vector<std::size_t>>& waiting,
                     std::deque<std::size_t>& ready) {
     while (!lane.firings.empty() && net_.obstacle(*lane.firings.front()).kind == Obstacle::Kind::no) {

@@ -57,7 +57,7 @@ struct ReportInput {
   std::vector<Verdict> verdicts;
 };
 
-/// Near the beginning of every page, so that a page of somebody else's is told from one.
+/// It is near the beginning of every page and distinguishes it from pages of other programs.
 inline constexpr std::string_view generator_tag = R"(<meta name="generator" content="Tessera">)";
 
 struct File {

@@ -85,7 +85,7 @@ class Scenario {
     return lines.empty() ? std::vector<Line>{{.what = "never", .a = 1}} : lines;
   }
 
-  /// Whether `observer` is told that `other` is gone, after `from` and in time.
+  /// Whether `observer` learns that `other` is gone, after `from` and in time.
   void expect_told(std::size_t observer, std::size_t other, long from) const {
     long told = -1;
     bool gone = true;

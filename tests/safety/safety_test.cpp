@@ -145,7 +145,7 @@ TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
              .after = After::hangs,
              .bar = milliseconds(150)};  // watchdog and stale
   try_all({loops});
-  // Not beside others: each takes a processor from whoever has no priority.
+  // Not beside others: each takes a processor from threads without priority.
   loops.name = "FIFO loop in control";
   loops.strike = does(Harm::fifo_loop, Place::control);
   try_all({loops});

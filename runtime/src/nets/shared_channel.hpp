@@ -30,16 +30,16 @@ namespace tessera {
 /// a firing (it changes the marking and who fired last) and a registration that shrinks (it may release
 /// the other side, see below). Nothing else can make a need takeable.
 ///
-/// *Fairness.* A side that has been passed over says so when it registers again: it had registered,
-/// was woken, and found that the other side had fired again. From then on, the side that fired last
-/// does not take while the other is registered for a need that is met; it registers itself instead.
-/// This cannot block. The two sides cannot both be the last to fire, so the registered side may take.
-/// It has been woken by the change that met its need (above). Then it either takes, becomes the one that
-/// fired last, and wakes the first side; or it takes another way and withdraws the registration (before it
-/// runs any user code), which wakes the first side, too. Transitions that only give are never held back.
-/// A registration names each need and not their union, because a side must not be held back for a need
-/// that is met only in part. The first registration holds nobody back. Otherwise two busy sides would
-/// sleep and wake each other at every single turn.
+/// *Fairness.* A side that has been passed over says so when it registers again: it had registered, was
+/// woken, and found that the other side had fired again. From then on, the side that fired last does not take
+/// while the other is registered for a need that is met; it registers itself instead. This cannot block. The
+/// two sides cannot both be the last to fire, so the registered side may take. It has been woken by the
+/// change that met its need (above). Then it either takes, becomes the one that fired last, and wakes the
+/// first side; or it takes another way and withdraws the registration (before it runs any user code), which
+/// wakes the first side, too. Transitions that only give are never held back. A registration names each need
+/// and not their union, because a side must not be held back for a need that is met only in part. The first
+/// registration holds no side back. Otherwise two busy sides would sleep and wake each other at every single
+/// turn.
 ///
 /// The memory has one or more slots. A slot belongs to the side that has taken the token with which the
 /// net protects it. That token passes through the word, whose compare-and-swaps acquire and release, so

@@ -26,7 +26,7 @@ struct Generated {
   std::filesystem::path folder;
   std::size_t files = 0, written = 0, lines = 0;
   std::vector<std::filesystem::path> created;    ///< files of the user that were made or extended
-  std::vector<std::filesystem::path> set_aside;  ///< new paths of generated files that somebody had edited
+  std::vector<std::filesystem::path> set_aside;  ///< new paths of generated files that were edited
   std::vector<codegen::Stub> missing;            ///< functions that the user has not written yet
   std::vector<codegen::Stub> unclear;            ///< functions that only the linker can judge
   std::shared_ptr<const TransitionFunctions> functions;

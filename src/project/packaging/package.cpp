@@ -188,7 +188,7 @@ if [ "$1" = remove ] && [ -d /run/systemd/system ]; then systemctl disable --now
                                               fmt::join(unit_files_, " ")));
   }
 
-  /// The same modes and times, whoever makes the package and when.
+  /// The same modes and times for every user and time of packaging.
   static void settle(const fs::path& root) {
     const auto time = fs::file_time_type(std::chrono::duration_cast<fs::file_time_type::duration>(
         fs::file_time_type::clock::from_sys(std::chrono::sys_seconds(std::chrono::seconds(epoch())))

@@ -15,7 +15,7 @@ namespace tessera::project {
 namespace {
 
 constexpr std::chrono::milliseconds look_period{500};
-/// Until a socket at which nobody listens is tried again: a process that is stopped may keep us waiting.
+/// The time until a socket without a listener is tried again: a stopped process may delay the connection.
 constexpr std::chrono::seconds pause_after_refusal{5};
 constexpr std::size_t longest_control_line = std::size_t{16} << 20U;
 

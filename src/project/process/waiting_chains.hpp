@@ -28,7 +28,7 @@ struct WaitingChain {
 };
 
 /// All chains of waits of at least `least_s`, the longest waits first. Shorter ones are part of usual work.
-/// Each subsystem follows the wait that it began first; a subsystem at which several chains meet is told in each.
+/// Each subsystem follows its earliest wait; a subsystem at which several chains meet is in each of them.
 [[nodiscard]] std::vector<WaitingChain> waiting_chains(const DeploymentWatch& deployment, double least_s = 1);
 
 }  // namespace tessera::project

@@ -17,7 +17,7 @@ struct WiringExcuses {
                                              ///< fleet, or by a channel with a mistake in it
   std::set<Index> instances;                 ///< a channel with a mistake leads to some input of it
   std::set<Index> agents;                    ///< a channel with a mistake leads to some subsystem of it
-  bool everything = false;                   ///< a channel with a mistake leads nobody knows where
+  bool everything = false;                   ///< a channel with a mistake has unknown ends
   bool outputs = false;                      ///< a channel with a mistake begins somewhere
 };
 

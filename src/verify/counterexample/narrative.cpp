@@ -20,7 +20,7 @@ struct Deed {
   std::string behaviour;          ///< in which it happens; empty: between behaviours
   std::string text;               ///< empty: belongs to the deed before
   std::string done;               ///< replaces text once a deed of the same block without text follows
-  std::string alone = "goes on";  ///< replaces an empty text if no deed before is told with it
+  std::string alone = "goes on";  ///< replaces an empty text if no earlier deed is told with it
   net::BlockId block{};
   std::string transition;   ///< as drawn
   bool then_waits = false;  ///< for an acknowledgement
